@@ -19,7 +19,7 @@ use afp_syntax::source::Source;
 
 use names::Words;
 
-/// The random plans where nothing else is asked for, by seed.
+/// The default seeds of random plans.
 const RANDOM_PLANS: Range<u64> = 0..40;
 
 fn main() -> io::Result<()> {
@@ -47,7 +47,7 @@ fn toolboxes() -> io::Result<Toolboxes> {
     Ok(toolboxes)
 }
 
-/// A module and a test for each case, and the words that generated code says.
+/// A module and a test for each case, and the words in the generated code.
 fn cases(toolboxes: &Toolboxes) -> io::Result<(String, Words)> {
     let files = fs::read_dir("run")?.map(|entry| entry.map(|entry| entry.path()));
     let mut files: Vec<PathBuf> = files.collect::<io::Result<_>>()?;
@@ -79,7 +79,7 @@ fn steps(toolboxes: &Toolboxes) -> io::Result<String> {
     Ok(format!("pub {module}"))
 }
 
-/// The seeds that `AFP_RANDOM_PLANS` asks for, such as `400..800`.
+/// The seeds in `AFP_RANDOM_PLANS`, such as `400..800`.
 fn wanted() -> io::Result<Range<u64>> {
     let Ok(text) = env::var("AFP_RANDOM_PLANS") else { return Ok(RANDOM_PLANS) };
     let ends =
@@ -108,7 +108,7 @@ fn random_plans(toolboxes: &Toolboxes) -> io::Result<String> {
         "/// Runs a plan.
 pub type Run = fn(&afp_tests::script::Script) -> Vec<String>;
 
-/// Each seed with what runs its plan.
+/// Each seed with the function that runs its plan.
 pub const PLANS: &[(u64, Run)] = &[
 {table}];
 "
@@ -116,10 +116,10 @@ pub const PLANS: &[(u64, Run)] = &[
     Ok(code)
 }
 
-/// The Rust of a plan in a module of its own, with a function `new` that makes one.
+/// A plan's Rust in a module, with a function `new`.
 fn module(name: &str, path: &Path, text: &str, toolboxes: &Toolboxes) -> io::Result<String> {
     let (text, files) = Texts::in_one(text);
-    // Files of a case are named from its own folder.
+    // Paths in a case are relative to its folder.
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let source = Source::new(file, text);
     let compiled = compile_unchecked(&source, toolboxes, &files);

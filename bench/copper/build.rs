@@ -1,4 +1,4 @@
-//! Tells copper's macros where their index of log strings goes.
+//! Sets the path of copper's index of log strings for its macros.
 
 fn main() {
     cu29_build::setup();

@@ -1,4 +1,4 @@
-//! Counts what a step allocates.
+//! Counts the allocations of a step.
 
 use afp_core::StillClock;
 use afp_core::trace::NoTrace;
@@ -10,14 +10,14 @@ use crate::plans::{loaded_step, loaded_transition, step::Step, transition::Trans
 use crate::report::{Report, Row};
 use crate::steps::steps;
 
-/// Steps that are watched.
 const STEPS: u64 = 1_000_000;
 
-/// The allocator of the command line, counting.
+/// The command line's allocator with a counter.
 #[global_allocator]
 static ALLOCATOR: Counting<MiMalloc> = Counting(MiMalloc);
 
-/// Counts in a million steps each, with nothing happening and with a transition in every step.
+/// Counts allocations in a million steps, once without events and once with a transition in every
+/// step.
 pub fn run(_: u32, report: &mut Report) {
     count(report, "generated, step", steps(Step::new(), NoTrace, StillClock));
     count(report, "generated, transition", steps(Transition::new(), Ring::new(), StillClock));

@@ -1,16 +1,16 @@
-//! Plans of any size that look like plans somebody wrote: several supervisors, data in and out,
-//! comments, and edges back and forth.
+//! Realistic plans of any size: several supervisors, inputs and outputs, comments, and edges to and
+//! fro.
 
 use std::fmt::Write;
 
 /// Data entries; each actor writes one and reads another.
 const ENTRIES: usize = 50;
 
-/// A supervisor with many ports, which one actor in six has, as in the plan of the paper.
+/// A supervisor with many ports, used by one actor in six like in the paper's plan.
 const LANE: &str =
     "CheckDrivingLane(distance = walldist, clearance = 10 cm, margin = 10 cm, halfwidth = 25 cm)";
 
-/// The text of a plan with that many actors, about 280 bytes each; the plan of the paper has 255.
+/// The text of a plan with that many actors, about 280 bytes each; the paper's plan has 255.
 pub fn text(actors: usize) -> String {
     written(actors, |actor| {
         let turn = actor / 3 * 3 + 2;
@@ -18,11 +18,11 @@ pub fn text(actors: usize) -> String {
     })
 }
 
-/// A plan like that in which any actor may lead to any other one, always the same.
+/// A plan in which any actor may lead to any other; it is always the same.
 pub fn random(actors: usize) -> String {
     let mut state = 1_u64;
     let mut draw = move || {
-        // Of Knuth's generator MMIX; the upper bits are the random ones.
+        // Knuth's generator MMIX; the upper bits are the random ones.
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize % actors
@@ -30,7 +30,7 @@ pub fn random(actors: usize) -> String {
     written(actors, |_| [draw(), draw()])
 }
 
-/// The text of a plan; `targets` says where an actor leads to: when it is done, and else.
+/// The text of a plan; `targets` gives the targets of an actor's success and of its other states.
 fn written(actors: usize, mut targets: impl FnMut(usize) -> [usize; 2]) -> String {
     let mut text = String::from("use carbot\n\n/// Drives here and there.\nplan Big {\n");
     text += "    in walldist: length = 30 cm\n";
@@ -57,7 +57,7 @@ fn actor_text(text: &mut String, actor: usize, [next, turn]: [usize; 2]) {
         0 => writeln!(
             text,
             "
-    // Ahead, unless something stands there.
+    // Drives ahead, unless an obstacle is in the way.
     actor drive{actor}: Forward(distance = 2 * walldist + {actor} mm, speed = 20 cm/s) {{
         supervise touch{actor}: CheckTouchSensor every 5 ms {{
             TouchSensorPressed -> drive{turn}

@@ -1,4 +1,4 @@
-//! The platform that everybody works on, and the toolbox for it: four sensors and a motor.
+//! The common platform and its toolbox: four sensors and a motor.
 
 mod components;
 
@@ -13,10 +13,9 @@ pub mod templates {
     afp_macros::toolbox!("toolbox/board.afp", robot = super::Board);
 }
 
-/// Readings and a command, in memory that the optimiser cannot see into.
+/// Readings and a command, in memory that is opaque to the optimiser.
 #[derive(Clone, Debug)]
 pub struct Board {
-    /// One bit for each button.
     pub buttons: u32,
     /// Whether the bumper is pressed.
     pub touched: bool,
@@ -26,14 +25,14 @@ pub struct Board {
     pub battery: f64,
     /// Metres driven since the start.
     pub odometer: f64,
-    /// Speed commanded in metres a second.
+    /// Commanded speed in metres per second.
     pub command: f64,
-    /// Up to when time has passed, where a session drives it.
+    /// The current time, if a session drives it.
     pub now: Instant,
 }
 
 impl Board {
-    /// A board on which nothing happens.
+    /// A board without events.
     pub fn quiet() -> Self {
         Board {
             buttons: 0,
@@ -75,7 +74,7 @@ impl Platform for Board {
     }
 }
 
-/// A board without anything that could be pressed or broken.
+/// A board without controls and faults.
 pub struct NoDevices;
 
 impl Devices for NoDevices {
@@ -98,7 +97,7 @@ impl Robot for Board {
     fn sample(&self, _: &mut Samples<'_, '_>) {}
 }
 
-/// The speed for the way that is left, in metres a second.
+/// The speed for the remaining distance, in metres per second.
 #[inline]
 pub fn speed(left: f64, gain: f64) -> f64 {
     let wanted = left * gain;

@@ -1,5 +1,4 @@
-//! What checking a plan costs, its index and outline included: by the size of the plan, beside cutting
-//! its text into tokens.
+//! The cost of checking a plan with index and outline, by plan size and compared with the lexer.
 
 use std::hint::black_box;
 
@@ -38,10 +37,10 @@ pub fn run(rounds: u32, report: &mut Report) {
     let [small, large, tokens, again, edited] = times.as_slice() else { return };
     report.add(Row::new("check/text of 10,000 actors", megabytes, "MB"));
     report.add(milliseconds(small));
-    // A plan of a thousand actors stays in the caches, one of ten thousand does not.
+    // A plan of a thousand actors fits into the caches, one of ten thousand does not.
     report.add(against(large, small, 14.0));
     report.add(milliseconds(tokens));
-    // Both grow with the text: what is told here is that the check does not grow faster.
+    // Both grow with the text; this limit checks that the check does not grow faster.
     report.add(against(large, tokens, 24.0));
     let within = again.best < 15e6 || again.ratio(small) <= 1.0 / 3.0;
     report.add(
@@ -49,11 +48,11 @@ pub fn run(rounds: u32, report: &mut Report) {
             .against("check/1,000 actors", again.ratio(small))
             .limit("<= 0.33 or < 15 ms", within),
     );
-    // Diagnostics, index and outline: what an editor waits for after each key.
+    // Diagnostics, index and outline: an editor waits for these after each key.
     report.add(milliseconds(edited).limit("< 3 ms", edited.best < 3e6));
 }
 
-/// Checks the texts in turn; each must be a plan without errors.
+/// Checks the texts in turn; each must be a valid plan.
 fn checks(toolboxes: &Toolboxes, texts: Vec<String>) -> impl FnMut(u64) {
     let sources: Vec<_> = texts.into_iter().map(|text| Source::new("big.afp", text)).collect();
     let mut next = 0;

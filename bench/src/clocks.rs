@@ -1,4 +1,4 @@
-//! A clock and a trace as a robot has them.
+//! A robot's clock and trace.
 
 use std::time;
 
@@ -7,12 +7,11 @@ use afp_core::{Clock, Instant};
 
 /// The machine's monotonic clock, read after every poll.
 ///
-/// The steps of a benchmark are ten milliseconds apart on paper and follow at once; so the clock
-/// counts from the step it was last asked about. It is read all the same.
+/// Steps of a benchmark are nominally ten milliseconds apart and run without a pause. The clock
+/// therefore counts from the step of its last reading, but reads the real clock every time.
 pub struct Monotonic(time::Instant);
 
 impl Monotonic {
-    /// A clock.
     pub fn new() -> Self {
         Monotonic(time::Instant::now())
     }
@@ -21,20 +20,19 @@ impl Monotonic {
 impl Clock for Monotonic {
     #[inline]
     fn now(&self, step: Instant) -> Instant {
-        // Less than one period of all the plans measured, so no deadline is missed.
+        // Less than one period of all measured plans, so no deadline is missed.
         let nanos = self.0.elapsed().as_nanos() as u64;
         Instant::from_nanos(step.as_nanos() + (nanos & 0xf_ffff))
     }
 }
 
-/// Keeps the latest records in place: when, who, what.
+/// Keeps the latest records in place: time, component, event.
 pub struct Ring {
     slots: Box<[(u64, u32, u32); 1024]>,
     next: usize,
 }
 
 impl Ring {
-    /// An empty ring.
     pub fn new() -> Self {
         Ring { slots: Box::new([(0, 0, 0); 1024]), next: 0 }
     }

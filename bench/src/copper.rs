@@ -1,12 +1,12 @@
-//! The same work as five tasks of copper-rs, built and run as a program of its own: its hundred and
-//! forty dependencies stay out of the project's lock file.
+//! The same work as five tasks of copper-rs, built and run as a separate program, so that its
+//! hundred and forty dependencies stay out of the project's lock file.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::report::{Report, Row};
 
-/// Builds and runs it; says so where that fails.
+/// Builds and runs it, or reports a failure.
 pub fn run(rounds: u32, report: &mut Report) {
     const NAME: &str = "step/cu29, five tasks";
     match measure(rounds) {

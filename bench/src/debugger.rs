@@ -1,4 +1,5 @@
-//! How long somebody who debugs waits, and what debugging costs the run: a minute of wall following in the simulator.
+//! The delays of a debugger's requests, and the cost of debugging a run: a minute of wall following
+//! in the simulator.
 
 use std::sync::Arc;
 use std::time::{Duration as Wall, Instant as Clock};
@@ -15,15 +16,14 @@ use serde_json::{Value, json};
 use crate::report::{Report, Row};
 
 const PLAN: &str = include_str!("../../plans/wall_following.afp");
-/// The file's name.
 const FILE: &str = "plan.afp";
-/// How long is driven.
+/// The simulated time.
 const MINUTE: Duration = Duration::from_secs(60);
-/// So many breakpoints are set, and never reached.
+/// The number of breakpoints, which are never hit.
 const BREAKPOINTS: usize = 100;
-/// So often each is measured.
+/// The number of measurements of each request.
 const TURNS: usize = 30;
-/// So many minutes are driven with and without breakpoints, in turns.
+/// The number of runs with and without breakpoints, in turns.
 const DRIVES: usize = 5;
 
 /// The shipped plan on the Carbot in the plan's own world.
@@ -50,7 +50,6 @@ impl Host<'static> for Simulated {
     }
 }
 
-/// A client.
 struct Client {
     adapter: Adapter<'static>,
     id: ClientId,
@@ -58,14 +57,14 @@ struct Client {
     now: Wall,
 }
 
-/// Measures requests, a minute of going back, and a run with many breakpoints.
+/// Measures requests, a jump back over a minute, and a run with many breakpoints.
 pub fn run(_: u32, report: &mut Report) {
     requests(report);
     going_back(report);
     breakpoints(report);
 }
 
-/// Requests of somebody who looks around while the run is held.
+/// Requests during a pause of the run.
 fn requests(report: &mut Report) {
     let mut client = Client::held(5.0);
     for (command, arguments) in [
@@ -84,7 +83,7 @@ fn requests(report: &mut Report) {
     }
 }
 
-/// From the end of a minute to its beginning, which lies far behind what was kept of the run.
+/// From the end of a minute to its beginning, far before the kept keyframes.
 fn going_back(report: &mut Report) {
     let mut client = Client::held(79.9);
     let took = median(|| {
@@ -97,7 +96,7 @@ fn going_back(report: &mut Report) {
     report.add(row.limit("<= 100 ms", took <= 100.0));
 }
 
-/// What breakpoints cost that are not reached.
+/// The cost of breakpoints that are not hit.
 fn breakpoints(report: &mut Report) {
     let steps = steps();
     let mut best = [f64::INFINITY; 2];
@@ -118,7 +117,7 @@ fn breakpoints(report: &mut Report) {
     report.add(row.limit("<= 1000 ns more", with - without <= 1000.0));
 }
 
-/// How many steps a minute has.
+/// The number of steps in a minute.
 fn steps() -> u64 {
     let target = Simulated.launch(&Launch::default());
     let mut target = target.unwrap_or_else(|why| panic!("{why}"));
@@ -146,7 +145,7 @@ impl Client {
         client
     }
 
-    /// A client with a run that is held at a time.
+    /// A client with a run that is paused at a time.
     fn held(at: f64) -> Client {
         let mut client = Client::launched(1e6);
         client.ask("configurationDone", Value::Null);
@@ -155,7 +154,7 @@ impl Client {
         client
     }
 
-    /// Sets so many breakpoints at all that can happen, which count while something holds that never does.
+    /// Sets that many breakpoints on all possible events, with a condition that never holds.
     fn set(&mut self, number: usize) {
         let lines = 1..=PLAN.lines().count();
         let all = lines.cycle().take(number);
@@ -164,7 +163,7 @@ impl Client {
         self.ask("setBreakpoints", json!({ "source": { "path": FILE }, "breakpoints": all }));
     }
 
-    /// Lets time pass until the run stands still.
+    /// Advances the run until it stops.
     fn drive(&mut self) {
         while self.adapter.due().is_some() {
             self.now += Wall::from_millis(1);
@@ -172,7 +171,7 @@ impl Client {
         }
     }
 
-    /// Asks something; how long the answer took.
+    /// Sends a request and returns the time to its response.
     fn ask(&mut self, command: &str, arguments: Value) -> Wall {
         self.said += 1;
         let message = json!({

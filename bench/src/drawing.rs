@@ -1,4 +1,5 @@
-//! What drawing a plan costs: layout, routes and picture, beside GraphViz's `dot` with the same plan.
+//! The cost of drawing a plan: layout, routes and picture, compared with GraphViz's `dot` for the
+//! same plan.
 
 use std::hint::black_box;
 use std::io::Write;
@@ -15,7 +16,7 @@ use afp_syntax::source::Source;
 use crate::big_plan;
 use crate::report::{Report, Row};
 
-/// A plan of so many actors, named by `kind`, and in how many milliseconds it must be drawn.
+/// A plan with a number of actors, named by `kind`, and the limit for its drawing in milliseconds.
 struct Case {
     kind: &'static str,
     text: fn(usize) -> String,
@@ -23,7 +24,7 @@ struct Case {
     limit: Option<f64>,
 }
 
-/// Plans as somebody writes them, and plans whose edges lead anywhere.
+/// Realistic plans, and plans with random edges.
 const CASES: [Case; 6] = [
     Case { kind: "actors", text: big_plan::text, actors: 60, limit: Some(80.0) },
     Case { kind: "actors", text: big_plan::text, actors: 200, limit: None },
@@ -33,13 +34,13 @@ const CASES: [Case; 6] = [
     Case { kind: "at random", text: big_plan::random, actors: 1_000, limit: Some(10_000.0) },
 ];
 
-/// How long a box of the smallest plan may take to be moved, in milliseconds.
+/// The limit for moving a box of the smallest plan, in milliseconds.
 const MOVED: f64 = 5.0;
 
-/// `dot` is given up after this, and not before twice our own time; a plan of 200 actors takes it minutes.
+/// The time limit of `dot`, at least twice AFP's own time; a plan of 200 actors takes minutes.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// A case is drawn so many times, unless that takes too long; the best one counts.
+/// The number of drawings of a case, if time permits; the best one counts.
 const TURNS: u32 = 5;
 const ENOUGH: Duration = Duration::from_secs(5);
 
@@ -75,7 +76,7 @@ fn compiled(text: String) -> Compiled {
     compile(&source, &toolboxes, &Texts::default())
 }
 
-/// The scene after a drag of one box.
+/// The time of a new scene after a drag of one box.
 fn moved(compiled: &Compiled) -> f64 {
     let before = Scene::new(&compiled.outline, &Options::default(), None);
     let Some(element) = before.plans.first().and_then(|plan| plan.elements.get(30)) else {
@@ -91,7 +92,7 @@ fn moved(compiled: &Compiled) -> f64 {
     })
 }
 
-/// Milliseconds of the best of several turns.
+/// The best of several turns, in milliseconds.
 fn best(mut run: impl FnMut()) -> f64 {
     let began = Instant::now();
     let mut best = f64::INFINITY;
@@ -106,7 +107,7 @@ fn best(mut run: impl FnMut()) -> f64 {
     best
 }
 
-/// Milliseconds that `dot` takes for a graph, at most our patience; `None` where it is not installed.
+/// The time of `dot` for a graph in milliseconds, up to the limit; `None` if it is not installed.
 fn dot_time(graph: &str, patience: Duration) -> Option<f64> {
     let start = Instant::now();
     let quiet =
@@ -122,7 +123,7 @@ fn dot_time(graph: &str, patience: Duration) -> Option<f64> {
         }
         if start.elapsed() > patience {
             eprintln!("drawing: 'dot' was given up after {:.0} s", patience.as_secs_f64());
-            // It may have ended by now.
+            // It may have ended already.
             let _ = peer.kill();
             let _ = peer.wait();
             break;

@@ -1,5 +1,5 @@
-//! How long somebody who types or drags waits for the language server: from the message that goes in to
-//! those that come out.
+//! The delays of the language server for typing and dragging: from a client message to the last
+//! response.
 
 use std::time::{Duration, Instant};
 
@@ -13,20 +13,20 @@ use crate::report::{Report, Row};
 
 const URI: &str = "file:///big.afp";
 
-/// A plan of so many actors, and in how many milliseconds each answer must be there: diagnostics after a
-/// change, completion, an edit, the drawing after a drop.
+/// The number of actors, and the limits of each answer in milliseconds: diagnostics after a change,
+/// completion, an edit, the drawing after a drop.
 const CASES: [(usize, [f64; 4]); 2] =
     [(60, [20.0, 10.0, 10.0, 30.0]), (1_000, [150.0, 30.0, 50.0, 50.0])];
 
-/// Each is measured so often after some turns that do not count; the median counts.
+/// The number of measurements after some warm-up turns; the median counts.
 const TURNS: usize = 30;
 const WARM: usize = 5;
 
-/// What a server holds after so many edits must not be more than so many times what it held after so few.
+/// The two numbers of edits between which a server's memory must not grow.
 const EDITS: [usize; 2] = [1_000, 100_000];
 const GROWTH: f64 = 1.1;
 
-/// Ten errors of every stage of the compiler.
+/// Ten errors from every stage of the compiler.
 const WRONG: &str = "
 plan Wrong {
     in  far: lenght = 3
@@ -40,22 +40,22 @@ plan Wrong {
 }
 ";
 
-/// What an answer took, in milliseconds.
+/// The time of an answer, in milliseconds.
 #[derive(Clone, Copy)]
 struct Took {
     median: f64,
-    /// Nineteen of twenty took less.
+    /// The 95th percentile.
     most: f64,
 }
 
-/// A client that types, asks and drags.
+/// A client that types, sends requests and drags.
 struct Client {
     server: Server,
     asked: i32,
     version: i32,
 }
 
-/// Measures every answer in plans of both sizes, and what the server holds in the end.
+/// Measures every answer in plans of both sizes, and the server's final memory.
 pub fn run(_: u32, report: &mut Report) {
     for (actors, limits) in CASES {
         answers(report, &format!("{actors} actors"), big_plan::text(actors), limits);
@@ -80,7 +80,7 @@ fn answers(report: &mut Report, case: &str, text: String, limits: [f64; 4]) {
     }
 }
 
-/// What a server holds must not grow with what was typed.
+/// The server's memory must not grow with the number of edits.
 fn held_after_edits(report: &mut Report) {
     let before = held();
     let mut client = Client::new(big_plan::text(3));
@@ -127,7 +127,7 @@ impl Client {
         self.server.idle()
     }
 
-    /// What many turns took; what is measured is what the action gives.
+    /// The times of many turns, as returned by the action.
     fn took(&mut self, action: fn(&mut Client, usize) -> Duration) -> Took {
         let mut times: Vec<_> =
             (0..WARM + TURNS).map(|turn| action(self, turn)).skip(WARM).collect();
@@ -148,7 +148,7 @@ impl Client {
         )
     }
 
-    /// A comment at the top gets longer and shorter again, and a mistake comes and goes with it.
+    /// Lengthens and shortens a comment at the top, and adds and removes an error.
     fn type_a_letter(&mut self, turn: usize) -> Duration {
         let begun = Instant::now();
         let said = match turn % 2 {
@@ -179,7 +179,7 @@ impl Client {
         begun.elapsed()
     }
 
-    /// A box is put elsewhere: the edit of its place is asked for, made, and its edges drawn anew.
+    /// Moves a box: requests the edit of its place, applies it, and waits for the new edges.
     fn drop_a_box(&mut self, turn: usize) -> Duration {
         let Some(name) = self.item() else { return Duration::MAX };
         let at = [40 + 12 * (turn as i32 % 2), 60];

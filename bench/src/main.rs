@@ -1,7 +1,7 @@
-//! Measures what a step costs, beside peers that do the same work.
+//! Measures the cost of a step, compared with other libraries for the same work.
 //!
-//! All cases of a group run in turns within one process, so that their ratios mean something on a
-//! machine that is busy with other things; the limits are on ratios alone.
+//! All cases of a group take turns within one process, so that their ratios are meaningful on a
+//! busy machine. Limits apply only to ratios.
 
 mod allocations;
 mod big_plan;
@@ -28,7 +28,7 @@ use clap::Parser;
 
 use report::Report;
 
-/// Measures the scheduler, the interpreter and the simulator against peers.
+/// Measure the scheduler, the interpreter and the simulator against other libraries.
 #[derive(Parser)]
 struct Options {
     /// Run only groups whose name contains this.
@@ -36,13 +36,13 @@ struct Options {
     /// Print one JSON array instead of the table.
     #[arg(long)]
     json: bool,
-    /// Exit with 1 when a limit does not hold.
+    /// Exit with 1 if a limit is exceeded.
     #[arg(long)]
     check: bool,
-    /// Turns per group; more are steadier.
+    /// Turns per group; more give steadier results.
     #[arg(long, default_value_t = 500)]
     rounds: u32,
-    /// Do arithmetic for a while and nothing else: what the sweep is measured against.
+    /// Only do arithmetic for a while: the baseline of the sweep.
     #[arg(long, hide = true)]
     arithmetic: bool,
 }
@@ -67,10 +67,9 @@ fn main() -> ExitCode {
     if options.check && !report.passed() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// Measures something in so many turns.
+/// Measures a group in that many turns.
 type Group = fn(u32, &mut Report);
 
-/// What there is to measure, by the name that a filter picks.
 const GROUPS: &[(&str, Group)] = &[
     ("step", step::run),
     ("copper", copper::run),

@@ -1,15 +1,14 @@
-//! Times short operations against each other.
+//! Compares the times of short operations.
 //!
-//! Each case gives a closure that repeats its operation a number of times. The cases take turns,
-//! one short batch each. What disturbs a batch only ever adds time, so a case's figure is its best
-//! batch, and a ratio is that of two best batches: steady on a machine that does other things too.
+//! Each case has a closure that repeats its operation. The cases take turns with one short batch
+//! each. Disturbances only add time, so the result of a case is its best batch, and a ratio
+//! compares two best batches. This is steady on a busy machine.
 
 use std::time::{Duration, Instant};
 
-/// How long one batch should take.
 const BATCH: Duration = Duration::from_micros(250);
 
-/// An operation to time: repeats itself as often as it is told.
+/// An operation to time; its argument is the number of repetitions.
 pub type Operation<'a> = Box<dyn FnMut(u64) + 'a>;
 
 /// Cases that are compared with each other.
@@ -18,17 +17,15 @@ pub struct Race<'a> {
     cases: Vec<(String, Operation<'a>)>,
 }
 
-/// What a case took.
+/// The result of a case.
 #[derive(Clone, Debug)]
 pub struct Times {
-    /// The case.
     pub name: String,
-    /// Nanoseconds for one operation in its best turn.
+    /// Nanoseconds per operation in the best turn.
     pub best: f64,
 }
 
 impl<'a> Race<'a> {
-    /// Adds a case.
     pub fn add(&mut self, name: &str, operation: impl FnMut(u64) + 'a) {
         self.cases.push((name.to_owned(), Box::new(operation)));
     }
@@ -51,20 +48,19 @@ impl Times {
         Times { name: name.to_owned(), best: f64::INFINITY }
     }
 
-    /// This case's best turn by the other's.
+    /// The ratio of two best turns.
     pub fn ratio(&self, other: &Times) -> f64 {
         self.best / other.best
     }
 }
 
-/// Nanoseconds that a number of operations take.
+/// The nanoseconds of a number of operations.
 fn time(run: &mut Operation<'_>, count: u64) -> f64 {
     let start = Instant::now();
     run(count);
     start.elapsed().as_nanos() as f64
 }
 
-/// How many operations fill a batch.
 fn batch_size(run: &mut Operation<'_>) -> u64 {
     let mut count = 1;
     loop {

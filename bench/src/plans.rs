@@ -23,12 +23,12 @@ pub mod wall_following {
 }
 
 pub mod navigate_room {
-    //! To another room, by localisation.
+    //! Drives to another room, with localisation.
     afp_macros::plan!("../plans/navigate_room.afp");
 }
 
 pub mod find_object {
-    //! To an object, by the camera.
+    //! Drives to an object, with the camera.
     afp_macros::plan!("../plans/find_object.afp");
 }
 

@@ -1,4 +1,4 @@
-//! What was measured, as a table for people and as JSON for tools.
+//! Results as a table for people and as JSON for tools.
 
 use std::fmt::Write;
 
@@ -6,43 +6,36 @@ use serde::Serialize;
 
 use crate::measure::Times;
 
-/// All figures of a run.
+/// All results of a run.
 #[derive(Default)]
 pub struct Report {
     rows: Vec<Row>,
 }
 
-/// One figure.
+/// One result.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What was measured: `group/case`.
+    /// The name: `group/case`.
     pub name: String,
-    /// How much.
     pub value: f64,
-    /// Of what.
     pub unit: &'static str,
-    /// What it is compared with, by name.
     pub baseline: Option<String>,
-    /// Its value by that of the baseline.
     pub ratio: Option<f64>,
-    /// What must hold, and whether it does.
     #[serde(skip)]
     pub limit: Option<(String, bool)>,
 }
 
 impl Row {
-    /// A figure that stands alone.
+    /// A result without a baseline.
     pub fn new(name: impl Into<String>, value: f64, unit: &'static str) -> Self {
         Row { name: name.into(), value, unit, baseline: None, ratio: None, limit: None }
     }
 
-    /// Compares with a baseline.
     pub fn against(mut self, baseline: impl Into<String>, ratio: f64) -> Self {
         (self.baseline, self.ratio) = (Some(baseline.into()), Some(ratio));
         self
     }
 
-    /// Says what must hold.
     pub fn limit(mut self, text: impl Into<String>, holds: bool) -> Self {
         self.limit = Some((text.into(), holds));
         self
@@ -50,13 +43,12 @@ impl Row {
 }
 
 impl Report {
-    /// Adds a figure.
     pub fn add(&mut self, row: Row) {
         eprintln!("{:<44} {:>12.2} {}", row.name, row.value, row.unit);
         self.rows.push(row);
     }
 
-    /// Adds a case of a race against another one, which must not exceed `at_most` times it.
+    /// Adds a case of a race, which must not take more than `at_most` times the baseline.
     pub fn race(&mut self, group: &str, case: &Times, baseline: &Times, at_most: Option<f64>) {
         let ratio = case.ratio(baseline);
         let row = Row::new(format!("{group}/{}", case.name), case.best, "ns")
@@ -77,7 +69,6 @@ impl Report {
         serde_json::to_string_pretty(&self.rows).unwrap_or_else(|why| why.to_string())
     }
 
-    /// A table.
     pub fn table(&self) -> String {
         let mut text = format!(
             "{:<44} {:>12} {:<10} {:>8} {:<32} limit\n",

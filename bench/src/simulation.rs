@@ -1,7 +1,7 @@
-//! A minute of wall following in the simulator, against the same engine without any of it.
+//! A minute of wall following in the simulator, compared with the bare engine.
 //!
 //! The baseline is the same number of rapier steps of the same room and body, and the same rays as
-//! the range sensor casts on the way.
+//! those of the range sensor.
 
 mod applications;
 mod crowd;
@@ -20,20 +20,19 @@ use crate::measure::{Race, Times};
 use crate::plans::wall_following::WallFollowing;
 use crate::report::{Report, Row};
 
-/// How much virtual time one operation simulates.
+/// The simulated seconds of one operation.
 const SECONDS: u64 = 60;
 const END: Instant = Instant::from_nanos(SECONDS * 1_000_000_000);
-/// Physics steps from one ping of the range sensor to the next.
+/// The physics steps between two pings of the range sensor.
 const STEPS_PER_PING: u64 = 10;
-/// The seed of the run.
 const SEED: u64 = 7;
 
-/// Most that the simulator may take of the bare engine.
+/// The largest ratio of simulator to bare engine.
 const OF_BARE: f64 = 1.5;
-/// Least that the simulator must be faster than real time.
+/// The smallest speed of the simulator as a multiple of real time.
 const OF_REAL_TIME: f64 = 1000.0;
 
-/// Races the bare engine, a run without a log and one with.
+/// Races the bare engine, a run without a log and one with a log.
 pub fn run(rounds: u32, report: &mut Report) {
     let world = World::parse(include_str!("../../worlds/wall_following.toml"));
     let world = &world.unwrap_or_else(|why| panic!("{why:?}"));
@@ -68,7 +67,7 @@ pub fn run(rounds: u32, report: &mut Report) {
     applications::run(rounds, report);
 }
 
-/// The engine alone.
+/// Only the engine.
 fn bare(world: &World, pings: &[(Pose, f64)]) {
     let mut engine = Bare::new(world).unwrap_or_else(|why| panic!("{why:?}"));
     let mut pings = pings.iter();
@@ -82,12 +81,12 @@ fn bare(world: &World, pings: &[(Pose, f64)]) {
     }
 }
 
-/// Takes what happens at the robot as well as the plan's trace.
+/// A sink for events at the robot and for the plan's trace.
 trait RobotSink: Sink {
     fn robot(&mut self, sim: &Simulation);
 }
 
-/// Takes nothing.
+/// Discards everything.
 struct NoLog;
 
 impl Sink for NoLog {
@@ -99,7 +98,7 @@ impl RobotSink for NoLog {
     fn robot(&mut self, _: &Simulation) {}
 }
 
-/// Notes from where the range sensor pings, and along which bearing.
+/// Records the origin and the bearing of each ping.
 #[derive(Default)]
 struct Pings {
     sent: Vec<(Pose, f64)>,
@@ -149,7 +148,8 @@ fn follow(world: &World, log: &mut impl RobotSink) {
     assert!(!ended, "the robot follows the wall for as long as it is let");
 }
 
-/// A plan drives the robot until it ends or its time is up: when that was, and whether it has ended.
+/// A plan drives the robot until it ends or its time is up; returns the time, and whether it has
+/// ended.
 fn drive(plan: impl Plan<Simulation>, world: &World, log: &mut impl RobotSink) -> (Instant, bool) {
     let mut sim = Simulation::new(world, SEED).unwrap_or_else(|why| panic!("{why:?}"));
     let mut plan = Scheduler::new(plan);
@@ -165,7 +165,7 @@ fn drive(plan: impl Plan<Simulation>, world: &World, log: &mut impl RobotSink) -
     (sim.now(), plan.ending().is_some())
 }
 
-/// The same, recorded.
+/// The same run with a log.
 fn logged(world: &World) {
     let name = format!("afp-bench-{}-{:?}.mcap", std::process::id(), time::Instant::now());
     let path = std::env::temp_dir().join(name);
@@ -175,6 +175,6 @@ fn logged(world: &World) {
     log.started(Instant::ZERO);
     follow(world, &mut log);
     log.finish().unwrap_or_else(|why| panic!("{why}"));
-    // A file that stays behind in the temporary folder does no harm.
+    // A remaining file in the temporary folder does no harm.
     let _ = std::fs::remove_file(path);
 }

@@ -1,4 +1,4 @@
-//! One step with four due guards and a running action, nothing happening.
+//! One step with four due guards and a running action, without events.
 
 mod bonsai;
 mod hand;
@@ -13,12 +13,13 @@ use crate::plans::{loaded_step, step::Step};
 use crate::report::{Report, Row};
 use crate::steps::{any_session_steps, session_steps, steps};
 
-/// Most that a generated plan may take of a hand-written loop, and of a behaviour tree.
+/// The largest ratio of a generated plan to a hand-written loop, and to a behaviour tree.
 const GENERATED: (f64, f64) = (6.0, 0.5);
-/// Most that an interpreted plan may take of a behaviour tree.
+/// The largest ratio of an interpreted plan to a behaviour tree.
 const INTERPRETED: f64 = 3.0;
 
-/// Most that a session may take beyond the bare scheduler, nanoseconds a step: without a trace, with records kept.
+/// The largest overhead of a session over the bare scheduler, in nanoseconds per step: without a
+/// trace, and with records kept.
 const SESSION: [(&str, f64); 2] = [("session", 3.0), ("session, records kept", 6.0)];
 
 /// Races all of them.

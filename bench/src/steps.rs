@@ -1,4 +1,4 @@
-//! Repeats steps of a plan as a driver would.
+//! Repeats steps of a plan like a driver.
 
 use std::hint::black_box;
 
@@ -9,10 +9,10 @@ use afp_session::{AnySession, Keep, Open, Session};
 
 use crate::board::Board;
 
-/// The time from one step to the next, in nanoseconds, and the period of everything.
+/// The time between two steps in nanoseconds, which is also the period of all guards.
 pub const PERIOD: u64 = 10_000_000;
 
-/// Starts a plan; what comes back repeats its step, everything due every time.
+/// Starts a plan and returns a function that repeats its step, with everything due every time.
 pub fn steps<P, S, C>(plan: P, mut sink: S, clock: C) -> impl FnMut(u64)
 where
     P: Plan<Board>,
@@ -30,7 +30,7 @@ where
             at += PERIOD;
             let (plan, board) = (black_box(&mut plan), black_box(&mut board));
             let now = Instant::from_nanos(black_box(at));
-            // By reference: a copy of what has just been written in parts would stall for longer than the step takes.
+            // By reference: a copy of freshly written parts would stall for longer than the step.
             black_box(&plan.step((&mut *board, &mut sink, &clock), now));
         }
         last = at;
@@ -38,7 +38,7 @@ where
     }
 }
 
-/// The same driven by a session that nobody observes.
+/// The same steps in a session without observers.
 pub fn session_steps<P, S>(plan: P, sink: S) -> impl FnMut(u64)
 where
     P: NamedPlan + Plan<Board>,
@@ -58,7 +58,7 @@ fn run<P: NamedPlan + Plan<Board>, S: Keep>(session: &mut Session<P, Board, S>, 
     assert!(went.is_ok() && session.ending().is_none(), "nothing happens that could end it");
 }
 
-/// The same where nobody knows whose session it is.
+/// The same steps in a type-erased session.
 pub fn any_session_steps<P>(plan: P) -> impl FnMut(u64)
 where
     P: NamedPlan + Plan<Board>,

@@ -1,8 +1,8 @@
-//! What a second core gains a sweep, beside what it gains plain arithmetic; and what a long sweep takes,
-//! beside its runs one by one.
+//! The gain of a second core for a sweep, compared with its gain for plain arithmetic; and the time
+//! of a long sweep, compared with its single runs.
 //!
-//! The arithmetic runs in processes of their own, so that nothing but the machine can hold it back. All
-//! cases take turns, and each counts by its best turn.
+//! The arithmetic runs in separate processes, so only the machine limits it. All cases take turns,
+//! and the best turn counts.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -18,24 +18,24 @@ use afp_syntax::source::Source;
 
 use crate::report::{Report, Row as Figure};
 
-/// The option that makes this program do arithmetic and nothing else.
+/// The option that makes this program only do arithmetic.
 pub const ARITHMETIC: &str = "--arithmetic";
 
 const PLAN: &str = include_str!("../../plans/wall_following.afp");
-/// Simulated seconds of a run.
+/// The simulated seconds of a run.
 const SECONDS: u64 = 60;
-/// Runs of one turn, and turns that make up a long sweep.
+/// The runs of a turn; several turns make up a long sweep.
 const RUNS: u64 = 20;
 const LONG: u64 = 1000;
-/// Runs that are done one by one in each turn.
+/// The single runs in each turn.
 const SINGLE: u64 = 10;
 
-/// Least that a sweep gains of what arithmetic gains.
+/// The smallest share of the arithmetic's gain that a sweep must reach.
 const OF_ARITHMETIC: f64 = 0.9;
-/// Most that a long sweep takes of its runs one by one, by the number of cores.
+/// The largest ratio of a long sweep to its single runs, divided by cores.
 const OF_SINGLE: f64 = 1.3;
 
-/// The best turn of each case, seconds.
+/// The best turn of each case, in seconds.
 struct Best {
     one_process: f64,
     two_processes: f64,
@@ -83,7 +83,7 @@ fn measure(turns: u64, engine: Engine<'_>, cores: usize) -> Best {
         all_jobs: f64::INFINITY,
         single: f64::INFINITY,
     };
-    // Seeds differ in what they cost: every turn and every case has the same.
+    // The cost depends on the seed, so every turn and every case has the same seeds.
     let (runs, few): (Vec<u64>, Vec<u64>) = ((0..RUNS).collect(), (0..SINGLE).collect());
     let less = |best: &mut f64, seconds: f64| *best = best.min(seconds);
     for _ in 0..turns {
@@ -125,7 +125,6 @@ fn seconds(what: impl FnOnce()) -> f64 {
     begun.elapsed().as_secs_f64()
 }
 
-/// Runs of a sweep.
 fn all(engine: Engine<'_>, runs: &[u64]) {
     let mut done = 0;
     engine.run(runs, |outcome| {
@@ -136,12 +135,12 @@ fn all(engine: Engine<'_>, runs: &[u64]) {
     assert_eq!(done, runs.len());
 }
 
-/// One run, on this thread.
+/// Executes one run on this thread.
 fn alone(engine: Engine<'_>, run: u64) {
     black_box(engine.one(run));
 }
 
-/// The same arithmetic in each of so many processes.
+/// Does the same arithmetic in each of so many processes.
 fn arithmetic(processes: usize) {
     let me = std::env::current_exe().unwrap_or_else(|why| panic!("{why}"));
     let start = |_| Command::new(&me).arg(ARITHMETIC).spawn();
@@ -152,7 +151,7 @@ fn arithmetic(processes: usize) {
     }
 }
 
-/// What such a process does: a quarter of a second of numbers that stay in registers.
+/// The work of such a process: a quarter of a second of arithmetic in registers.
 pub fn work() {
     let mut number = black_box(0.1_f64);
     for _ in 0..60_000_000_u32 {

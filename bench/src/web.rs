@@ -1,4 +1,4 @@
-//! How large compiler, interpreter, drawing, edits and simulator are as one WebAssembly module.
+//! The size of compiler, interpreter, drawing, edits and simulator as one WebAssembly module.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use crate::report::{Report, Row};
 const TARGET: &str = "wasm32-unknown-unknown";
 const PACKAGE: &str = "afp-wasm";
 
-/// Builds the module and weighs it; says so where that fails.
+/// Builds the module and measures its size, or reports a failure.
 pub fn run(_: u32, report: &mut Report) {
     const NAME: &str = "web/module with all of it";
     match measure() {

@@ -1,4 +1,4 @@
-//! Brings the Rust of the book to where a test can include it.
+//! Writes the book's Rust into modules for the tests.
 
 #[allow(dead_code, reason = "how blocks are checked is for the tests")]
 #[path = "src/lib.rs"]

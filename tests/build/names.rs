@@ -1,5 +1,5 @@
-//! A plan in which everything is called as something that generated code says by itself: locals, functions, methods,
-//! types, modules, whatever there is. So a name that generated code comes to say is tried as soon as it is there.
+//! A plan whose names are the words that generated code uses itself: locals, functions, methods,
+//! types and modules. The words are collected, so the test covers future words, too.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -12,15 +12,15 @@ use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Source;
 
-/// The words of generated code, by what makes two names of a text the same: neither case nor `_`.
+/// The words of generated code, by their normalized form without case and `_`.
 #[derive(Default)]
 pub struct Words {
-    /// Names of values, of constants too.
+    /// Names of values, including constants.
     values: BTreeMap<String, String>,
     types: BTreeMap<String, String>,
 }
 
-/// Words of the language, which say nothing about names.
+/// Keywords, which are not names.
 const LANGUAGE: &[&str] = &[
     "actor",
     "computation",
@@ -40,13 +40,13 @@ const LANGUAGE: &[&str] = &[
 ];
 
 impl Words {
-    /// Adds what the code of a plan says that neither its text nor its own name does.
+    /// Adds the words of a plan's code that are neither in its text nor in its own name.
     pub fn add(&mut self, name: &str, text: &str, code: &str) {
         let mut own: BTreeSet<_> = words(text).filter(|w| !LANGUAGE.contains(w)).map(key).collect();
         own.insert(key(name));
         let is_own = |word: &str| is_made_of(word, &own);
         let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-        // Every other part is a text in quotes.
+        // Every second part is a quoted string.
         let parts = lines.flat_map(|line| line.split('"').step_by(2));
         for word in parts.flat_map(words).filter(|word| !is_own(word)) {
             let is_type = word.starts_with(char::is_uppercase)
@@ -60,7 +60,8 @@ impl Words {
     }
 }
 
-/// Whether a word is a name of the text, or made of one or two of them for a component or its number.
+/// Whether a word is a name of the text, or is built from one or two of them for a component or its
+/// number.
 fn is_made_of(word: &str, own: &BTreeSet<String>) -> bool {
     let ends = ["_inputs", "_live", "_outputs", "_PLACE"].into_iter();
     let base = ends.filter_map(|end| word.strip_suffix(end)).next();
@@ -82,10 +83,10 @@ fn key(word: &str) -> String {
     word.replace('_', "").to_ascii_lowercase()
 }
 
-/// Where the code is, seen from the test.
+/// The path of the code in the test.
 const MODULE: &str = "crate::made::words";
 
-/// The toolbox and the plan, and the Rust of both.
+/// The toolbox and the plan with their Rust.
 pub fn code(words: &Words, toolboxes: &Toolboxes) -> io::Result<String> {
     let [mut names, types] = [&words.values, &words.types].map(|words| {
         let names = words.values().map(String::as_str);
@@ -105,7 +106,6 @@ pub fn code(words: &Words, toolboxes: &Toolboxes) -> io::Result<String> {
     Ok(format!(
         "/// The text of the toolbox.
 pub const TOOLBOX: &str = {toolbox:?};
-/// The text of the plan.
 pub const PLAN: &str = {plan:?};
 pub {plan_code}
 /// The toolbox.
@@ -133,7 +133,7 @@ impl ::afp_core::Computation<templates::Take> for Take {{
     ))
 }
 
-/// Whether the language takes a word as a name of everything that is called so here.
+/// Whether the language accepts a word as a name of every kind here.
 fn is_name(word: &str, toolboxes: &Toolboxes) -> bool {
     let plan = format!(
         "use std\ntable t({word}: int) {{ (1) }}\nenum {word} {{ a }}\n\
@@ -151,17 +151,17 @@ fn is_name(word: &str, toolboxes: &Toolboxes) -> bool {
 /// The types of ports and entries, in turn.
 const TYPES: [&str; 4] = ["int", "float", "length", "string"];
 
-/// Names with the numbers of their types.
+/// Names with the indices of their types.
 fn ports<'n>(names: &'n [&'n str]) -> impl Iterator<Item = (&'n str, usize)> {
     names.iter().enumerate().map(|(i, name)| (*name, i % TYPES.len()))
 }
 
-/// A toolbox whose computations give and take a value by each name.
+/// A toolbox whose computations have an input and an output for each name.
 fn toolbox(names: &[&str]) -> String {
     let mut text = "/// Ports of all names.\ntoolbox words version \"1.0\"\n".to_owned();
     text += "/// Gives values.\ncomputation Give {\n";
     for (name, ty) in ports(names) {
-        // What is an int or a text in the plan comes as a float.
+        // A plan's int or string becomes a float here.
         let ty = if ty == 2 { "length" } else { "float" };
         let _ = writeln!(text, "    /// A value.\n    out {name}: {ty}");
     }
@@ -172,7 +172,7 @@ fn toolbox(names: &[&str]) -> String {
     text + "    /// What they make together.\n    out sum: float\n    /// Always reached.\n    state Done\n}\n"
 }
 
-/// The fields of what is given.
+/// The fields of the outputs.
 fn given(names: &[&str]) -> String {
     let fields = ports(names).map(|(name, ty)| match ty {
         2 => format!("r#{name}: ::afp_core::quantity::Length::from_si(2.0)"),
@@ -181,7 +181,7 @@ fn given(names: &[&str]) -> String {
     fields.collect::<Vec<_>>().join(", ")
 }
 
-/// The sum of what is taken.
+/// The sum of the inputs.
 fn taken(names: &[&str]) -> String {
     let terms = ports(names).map(|(name, ty)| match ty {
         0 => format!("inputs.r#{name} as f64"),
@@ -192,7 +192,8 @@ fn taken(names: &[&str]) -> String {
     terms.collect::<Vec<_>>().join(" + ")
 }
 
-/// A plan of these names, which uses plans of the names of types, and goes once through all of its elements.
+/// A plan with these names, which uses plans with the names of types and visits all of its elements
+/// once.
 fn plan(names: &[&str], types: &[&str]) -> String {
     let cells = |of: fn(&str, usize) -> String| {
         ports(names).map(|(name, ty)| of(name, ty)).collect::<Vec<_>>().join(", ")
@@ -254,7 +255,6 @@ fn elements(names: &[&str]) -> String {
     text + "    computation lastOfAll: Log(value = sumInt) { Done -> terminate }\n}\n"
 }
 
-/// An element that goes on to the next.
 fn element(i: usize, name: &str, next: &str) -> String {
     match i % 3 {
         0 => format!(

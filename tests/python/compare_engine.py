@@ -26,13 +26,13 @@ CASTORS = ((-0.13, 0.14), (-0.13, -0.14))
 LOAD = MASS * GRAVITY / 4
 FRICTION = 0.7
 ROLLING = 0.02
-# Motors and steering: seconds, metres and radians a second, and a second squared.
+# Motors and steering: seconds, metres and radians per second, and per second squared.
 LAG = 0.06
 ACCELERATION = 2.0
 MOTOR_FORCE = 6.5
-# The gear holds a wheel that is to stand and is slower than this.
+# The gear holds a stopping wheel below this speed.
 HELD = 0.005
-# Of a wheel's rim, as the motor feels it: as little as the engine can compute with.
+# The mass of a wheel's rim at the motor: the smallest that the engine can compute with.
 RIM = 0.02
 TOP_SPEED = 0.31
 STEER_RATE = 7.0
@@ -40,9 +40,9 @@ STEER_REACH = 1.75
 # A box: its friction on the floor, and between it and the robot.
 FLOOR = 0.4
 SIDES = 0.3
-# A box rests on so many patches along each side.
+# The number of patches along each side of a box.
 PATCHES = 4
-# The share of the mass that is in what touches the floor.
+# The share of the mass in the parts that touch the floor.
 IN_PATCHES = 0.3
 
 
@@ -60,7 +60,7 @@ class Wheel:
         self.chassis = chassis
         self.motor = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         self.rim = pymunk.Body(RIM, math.inf)
-        # The rim goes to no side, and ahead it is held as far as the motor can.
+        # The rim does not move sideways, and ahead the motor's force limits it.
         axle = pymunk.GrooveJoint(self.motor, self.rim, (-1, 0), (1, 0), (0, 0))
         axle.max_bias = 0
         self.drive = hold(self.rim, self.motor, MOTOR_FORCE)
@@ -100,7 +100,7 @@ class Wheel:
 def hold(patch, floor, force):
     """A patch moves as the floor does, as far as a force in any direction can make it."""
     joint = pymunk.PivotJoint(patch, floor, (0, 0), (0, 0))
-    # Friction knows speeds only: it does not pull back to where the patch has been.
+    # Friction acts on speeds and does not pull a patch back.
     joint.max_bias = 0
     joint.max_force = force
     return joint

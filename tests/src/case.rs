@@ -1,7 +1,7 @@
 //! Cases: a plan with its script and its expected trace, all in one `.afp` file.
 //!
 //! ```text
-//! // What the case shows.
+//! // The subject of the case.
 //! //
 //! // script
 //! //   at 10 ms: a Done
@@ -17,14 +17,11 @@ use std::{fs, io};
 
 use crate::script::{Script, ScriptError};
 
-/// A case as its file has it.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The text up to the expected trace: what is compiled.
+    /// The text before the expected trace, which is compiled.
     pub plan: String,
-    /// What happens.
     pub script: Script,
-    /// The expected trace.
     pub trace: Vec<String>,
 }
 
@@ -32,10 +29,10 @@ pub struct Case {
 const TRACE: &str = "// trace";
 
 impl Case {
-    /// Reads a case.
+    /// Parses a case.
     ///
     /// # Errors
-    /// A line of the script that says nothing known.
+    /// A line of the script is unknown.
     pub fn parse(text: &str) -> Result<Self, ScriptError> {
         let mut lines = text.lines();
         let plan = lines.by_ref().take_while(|line| *line != TRACE).collect::<Vec<_>>().join("\n");
@@ -46,7 +43,7 @@ impl Case {
         Ok(Case { script: script.join("\n").parse()?, plan, trace })
     }
 
-    /// Writes the case with another trace.
+    /// Writes the case with a new trace.
     ///
     /// # Errors
     /// The file cannot be written.

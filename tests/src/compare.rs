@@ -1,9 +1,9 @@
-//! Shows where two traces part.
+//! Shows the first difference of two traces.
 
 /// Lines shown of each trace.
 const SHOWN: usize = 12;
 
-/// Where two traces part, `None` when they are equal.
+/// The first difference of two traces, `None` if they are equal.
 pub fn part(left: &[String], right: &[String]) -> Option<String> {
     if left == right {
         return None;

@@ -1,4 +1,4 @@
-//! The components of `toolbox/testing.afp`, one in each file.
+//! The components of `toolbox/testing.afp`, one per file.
 
 mod glance;
 mod maps;

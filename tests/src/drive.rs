@@ -24,7 +24,6 @@ impl<N: Names> Sink for Lines<N> {
     }
 }
 
-/// A plan with everything it runs on.
 struct Run<'s, P: NamedPlan, S> {
     scheduler: Scheduler<P>,
     platform: Platform,
@@ -32,12 +31,12 @@ struct Run<'s, P: NamedPlan, S> {
     clock: CostClock,
     log: Log,
     script: &'s Script,
-    /// How much of what comes from outside has come.
+    /// The number of stimuli so far.
     arrived: usize,
 }
 
-/// Runs a plan as the script says; what happened, line by line: the trace, and in square brackets
-/// what the platform was asked.
+/// Runs a plan by a script; returns the trace and, in square brackets, the requests to the
+/// platform, line by line.
 pub fn drive<P>(plan: P, script: &Script) -> Vec<String>
 where
     P: NamedPlan + Plan<Platform>,
@@ -45,7 +44,7 @@ where
     drive_with(plan, script, NoTrace)
 }
 
-/// As [`drive`]; `sink` gets the trace as records too.
+/// Like [`drive`]; `sink` also receives the trace as records.
 pub fn drive_with<P, S>(plan: P, script: &Script, sink: S) -> Vec<String>
 where
     P: NamedPlan + Plan<Platform>,
@@ -75,7 +74,7 @@ where
     shorten(log.lines(), script.show_last)
 }
 
-/// The last lines, below the number of those left out.
+/// The last lines, after the number of omitted ones.
 fn shorten(mut lines: Vec<String>, keep: Option<usize>) -> Vec<String> {
     let more = keep.map_or(0, |keep| lines.len().saturating_sub(keep));
     if more > 0 {
@@ -125,7 +124,7 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
         }
     }
 
-    /// The next step by wake: when the plan asks for it, or when something comes from outside.
+    /// The next step: at the plan's wake, or at a stimulus.
     fn next(&self, wake: Instant) -> Instant {
         let outside = self.script.outside.get(self.arrived).map_or(Instant::MAX, |(at, _)| *at);
         wake.min(outside).max(self.clock.latest())

@@ -11,7 +11,7 @@ use crate::drive::drive;
 use crate::platform::Platform;
 use crate::script::Script;
 
-/// The built-in toolboxes and that of the tests.
+/// The built-in toolboxes and the test toolbox.
 pub fn toolboxes() -> Toolboxes {
     let mut toolboxes = Toolboxes::default();
     for builtin in afp_toolboxes::ALL.iter().filter(|builtin| builtin.name == "std") {
@@ -21,10 +21,10 @@ pub fn toolboxes() -> Toolboxes {
     toolboxes
 }
 
-/// Compiles a plan, with the files that follow it below lines `// file: PATH`.
+/// Compiles a plan, with the files after it, each below a line `// file: PATH`.
 ///
 /// # Errors
-/// Everything that is wrong with it, as text.
+/// All diagnostics as text.
 pub fn graph(name: &str, text: &str) -> Result<Graph, String> {
     let (text, files) = Texts::in_one(text);
     let compiled =
@@ -36,7 +36,7 @@ pub fn graph(name: &str, text: &str) -> Result<Graph, String> {
 /// The interpreter's instance of a graph.
 ///
 /// # Panics
-/// When a component of the graph is not registered.
+/// A component of the graph is not registered.
 pub fn load(graph: &Graph) -> LoadedPlan<Platform> {
     let mut registry: Registry<Platform> = Registry::new();
     afp_std::templates::register(&mut registry);
@@ -44,7 +44,7 @@ pub fn load(graph: &Graph) -> LoadedPlan<Platform> {
     LoadedPlan::new(graph, &registry).expect("all components are registered")
 }
 
-/// What happens when the interpreter runs a graph.
+/// Runs a graph in the interpreter and returns its lines.
 ///
 /// # Panics
 /// As [`load`].

@@ -1,13 +1,12 @@
-//! The names behind the ids of a plan, line by line, so that those of both back ends compare.
+//! The names of a plan's ids, line by line, to compare both back ends.
 
 use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome, TraceEntryId};
 
 use crate::platform::Log;
 
-/// More outcomes, ports and choices than anything has in the tests.
+/// More outcomes, ports and choices than any test has.
 const MANY: u16 = 16;
 
-/// Notes all names.
 pub fn note(names: &impl Names, log: &Log) {
     for id in (0..names.components()).map(ComponentId) {
         log.note(component(names, id));

@@ -1,4 +1,4 @@
-//! The platform of the tests: it answers for every component, by script, and notes what is asked.
+//! The test platform: it answers for every component by script, and logs all requests.
 
 use std::cell::{Cell, RefCell};
 use std::panic::resume_unwind;
@@ -8,18 +8,17 @@ use afp_core::{Clock, Duration, Environment, Fault, Instant, Reason};
 
 use crate::script::{Act, Phase, Script};
 
-/// The fault that scripts cause.
 pub const SCRIPTED: Fault = Fault::new(&Reason { code: "scripted", text: "as the script says" });
 
-/// Lines of text that trace and platform write alternately.
+/// Lines written alternately by trace and platform.
 #[derive(Clone, Default)]
 pub struct Log(Rc<RefCell<Vec<String>>>);
 
-/// A virtual clock: it stands still but for what polls cost.
+/// A virtual clock, advanced only by the cost of polls.
 #[derive(Clone, Default)]
 pub struct CostClock(Rc<Cell<Instant>>);
 
-/// What the components of the toolbox act on.
+/// The robot of the toolbox's components.
 pub struct Platform {
     script: Script,
     log: Log,
@@ -27,7 +26,6 @@ pub struct Platform {
 }
 
 impl Log {
-    /// Adds a line.
     pub fn note(&self, line: String) {
         self.0.borrow_mut().push(line);
     }
@@ -53,15 +51,14 @@ impl Clock for CostClock {
 }
 
 impl Platform {
-    /// A platform on which `script` happens.
     pub fn new(script: Script, log: Log, clock: CostClock) -> Self {
         Platform { script, log, clock }
     }
 
-    /// A component is started, polled or interrupted: it may fail, panic or take its time.
+    /// Starts, polls or interrupts a component: it may fail, panic or take time.
     ///
     /// # Errors
-    /// What the script wants.
+    /// The script's fault.
     pub fn call(&mut self, channel: &str, phase: Phase, now: Instant) -> Result<(), Fault> {
         let shown = phase == Phase::Interrupt || self.script.show_polls && phase == Phase::Poll;
         if shown && !self.script.show_nothing {
@@ -82,7 +79,7 @@ impl Platform {
         result
     }
 
-    /// The outcomes that hold now, each with its number, in the order of the script.
+    /// The current outcomes, each with its number, in the order of the script.
     pub fn outcomes(
         &self,
         channel: &str,

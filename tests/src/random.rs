@@ -1,8 +1,8 @@
-//! Random valid plans: what the differential test of the two back ends runs.
+//! Random valid plans for the differential test of the two back ends.
 //!
-//! The build script compiles the same plans to Rust, so this module uses nothing of the package.
+//! The build script compiles the same plans to Rust, so this module is independent of the package.
 
-// Named by path, because the build script includes this file from elsewhere.
+// The path is explicit, because the build script includes this file.
 #[path = "random/dice.rs"]
 pub mod dice;
 #[path = "random/element.rs"]
@@ -22,35 +22,32 @@ use dice::Dice;
 use plan::Shape;
 use table::Table;
 
-/// A random plan and what a script needs to know of it.
+/// A random plan with its facts for a script.
 #[derive(Clone, Debug)]
 pub struct RandomPlan {
-    /// The text.
     pub text: String,
-    /// The names by which scripts speak of its components.
+    /// The names of its components in scripts.
     pub channels: Vec<Channel>,
     /// The entries of the outermost plan.
     pub entries: Vec<String>,
 }
 
-/// A component that a script can speak of.
+/// A component for a script.
 #[derive(Clone, Debug)]
 pub struct Channel {
     /// Its `name` input.
     pub name: String,
-    /// What it can report.
     pub outcomes: &'static [&'static str],
-    /// Whether it is an actor.
     pub actor: bool,
 }
 
-/// The plan of a seed; equal seeds give equal plans, on every platform.
+/// The plan of a seed; equal seeds give equal plans on every platform.
 pub fn plan(seed: u64) -> RandomPlan {
     let mut dice = Dice::new(seed);
     let mut channels = Vec::new();
     let tables: Vec<Table> =
         (0..dice.between(0, 3)).map(|number| Table::new(number, &mut dice)).collect();
-    // Inner plans first: whoever uses one must know its ports.
+    // Inner plans first, since their users need their ports.
     let mut shapes: Vec<Shape> = Vec::new();
     for number in (0..dice.between(1, 4)).rev() {
         let shape = Shape::new(number, (&shapes, &tables), &mut dice, &mut channels);

@@ -1,11 +1,11 @@
-//! Random scripts for random plans: what components answer, what comes from outside, when.
+//! Random scripts for random plans: outcomes of components and stimuli, with times.
 
 use std::fmt::Write;
 
 use crate::random::dice::Dice;
 use crate::random::{Channel, RandomPlan};
 
-/// Milliseconds that a script lasts.
+/// The length of a script in milliseconds.
 const LENGTH: u64 = 200;
 
 /// A script for a plan; equal seeds give equal scripts.
@@ -23,7 +23,7 @@ pub fn script(plan: &RandomPlan, seed: u64) -> String {
     text
 }
 
-/// A moment; many fall on instants at which several components are due.
+/// A time; many are instants with several due components.
 fn moment(dice: &mut Dice) -> u64 {
     match dice.percent(60) {
         true => 5 * dice.between(0, LENGTH / 5),
@@ -87,7 +87,7 @@ fn outside(plan: &RandomPlan, dice: &mut Dice, text: &mut String) {
     }
 }
 
-/// Steps of a driver that is late, early, stands still or goes back.
+/// Steps of a driver that is late, early, stopped or goes back.
 fn steps(dice: &mut Dice, text: &mut String) {
     let mut now = 0;
     text.push_str("step at");

@@ -1,9 +1,8 @@
 //! Runs of the interpreter as cases for a state chart engine.
 //!
-//! A run's trace says which events were taken, in which order, and where control was in between.
-//! The events are fed to the plan's chart; wherever the trace names the place of control, the
-//! chart's active states must agree. Nothing here follows edges: what is expected comes from the
-//! trace alone.
+//! A run's trace lists events in order, with the positions of control in between. The events are
+//! fed to the plan's chart. Whenever the trace names the position of control, the chart's active
+//! states must agree. The module does not follow edges; all expectations come only from the trace.
 
 mod places;
 mod steps;
@@ -20,11 +19,13 @@ use crate::interpret::load;
 use crate::script::Script;
 use steps::{Seen, Steps};
 
-/// The case of a plan under some scripts, for the program that feeds it to the engine: `name`,
-/// `chart`, and `runs`, each a list of steps. A step has the `event` to be fed (`null` for the
-/// start) and what must hold then: `active`, ids of active states; `only`, the id of the one
-/// active state without states inside; `same`, that nothing changed. `cut` counts the runs that
-/// end early because a value of a sub-plan did not convert or was out of its range, which charts cannot see.
+/// Makes the case of a plan under some scripts, for the program that feeds it to the engine:
+/// `name`, `chart`, and `runs`, each a list of steps.
+///
+/// A step has an `event` (`null` for the start) and expectations: `active`, ids of active states;
+/// `only`, the id of the only active state without states inside; `same`, no change. `cut` counts
+/// the runs that end early because a value of a sub-plan did not convert or was out of its range,
+/// which charts cannot see.
 pub fn case(name: &str, graph: &Graph, scripts: &[Script]) -> Value {
     let places = places::places(graph);
     let runs = scripts.iter().map(|script| steps::steps(&places, &seen(graph, script)));
@@ -35,7 +36,7 @@ pub fn case(name: &str, graph: &Graph, scripts: &[Script]) -> Value {
     json!({ "name": name, "chart": chart, "runs": runs, "cut": cut })
 }
 
-/// What the interpreter tells of the flow of action.
+/// The interpreter's records about the flow of action.
 fn seen(graph: &Graph, script: &Script) -> Vec<Seen> {
     let seen = RefCell::new(Vec::new());
     let note = |_: Instant, record: &Record<'_>| seen.borrow_mut().extend(Seen::of(record));

@@ -1,4 +1,4 @@
-//! What a test makes an actor or supervisor report: staged first, then the actor is interrupted, once.
+//! Outcomes set by a test: the report is staged first, then the actor is interrupted, once.
 
 use afp::load::{Injection, LoadedPlan};
 use afp_core::trace::{ComponentId, Ending, Line, Outcome, Record, Sink};
@@ -30,7 +30,7 @@ impl Sink for Lines {
     }
 }
 
-/// Makes `a` report `Other` with a text at 10 ms; what happens then.
+/// Makes `a` report `Other` with a string at 10 ms, and returns the lines.
 fn finished(text: &str, script: &str) -> (Vec<String>, Wake) {
     let graph = graph("finish", PLAN).unwrap_or_else(|errors| panic!("{errors}"));
     let case = format!("// script\n//   {script}\n{PLAN}");

@@ -1,4 +1,4 @@
-//! What the compiler computes of a formula is what running it gives.
+//! The compiler and the run time compute the same values of formulas.
 
 use afp_core::trace::{Ending, NoTrace};
 use afp_core::{Instant, Scheduler, StillClock, Value, Wake};
@@ -6,7 +6,7 @@ use afp_tests::interpret::{graph, load};
 use afp_tests::platform::{CostClock, Log, Platform};
 use afp_tests::script::Script;
 
-/// A formula over literals, and the same over entries that the compiler does not know.
+/// A formula over literals, and the same over entries unknown to the compiler.
 struct Random {
     state: u64,
     entries: String,
@@ -60,7 +60,7 @@ fn plan(entries: &str) -> String {
     format!("use testing\n\nplan P {{\n    start a\n{entries}{actor}\n}}\n")
 }
 
-/// The value of `x`, or none when the plan cannot begin.
+/// The value of `x`, or `None` if the plan cannot begin.
 fn run(text: &str) -> Option<Value> {
     let graph = graph("run", text).unwrap_or_else(|errors| panic!("{errors}"));
     let mut scheduler = Scheduler::new(load(&graph));
@@ -84,7 +84,7 @@ fn run(text: &str) -> Option<Value> {
 }
 
 #[test]
-fn folding_is_running() {
+fn constant_folding_equals_evaluation() {
     let (mut valued, mut failed, mut divided) = (0, 0, 0);
     for seed in 0..250 {
         let mut random = Random { state: seed, entries: String::new(), count: 0 };
@@ -121,7 +121,7 @@ fn folding_is_running() {
 }
 
 #[test]
-fn texts_are_read_alike() {
+fn strings_are_parsed_alike() {
     let units =
         ["3 km/h", "0.03 min", "1.5 m", "90 deg", "- 2 cm", "20 degC", "5", "x", "2 m*s^-1", "1 h"];
     let types = ["speed", "duration", "length", "angle", "temperature", "float", "int"];
@@ -136,7 +136,7 @@ fn texts_are_read_alike() {
 }
 
 #[test]
-fn a_text_is_the_literal() {
+fn a_string_equals_its_literal() {
     for hundredths in (0..600).step_by(7) {
         let text = format!("{}.{:02} min", hundredths / 100, hundredths % 100);
         let read = format!("    in t: string = \"{text}\"\n    var x: duration = t\n");

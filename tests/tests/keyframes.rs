@@ -1,4 +1,4 @@
-//! A copy of a running plan goes on as the plan does, and neither disturbs the other.
+//! A copy of a running plan continues like the plan, and the two are independent.
 
 use afp::load::{ActorSlot, LoadedPlan, Registry, See};
 use afp_core::rt::{Args, BadValue, Outputs};
@@ -51,7 +51,7 @@ impl Sink for Lines {
     }
 }
 
-/// A plan on a platform of its own.
+/// A plan on its own platform.
 struct Run {
     scheduler: Scheduler<LoadedPlan<Platform>>,
     platform: Platform,
@@ -81,7 +81,7 @@ impl Run {
 }
 
 #[test]
-fn a_copy_in_mid_run_and_its_original_go_on_alike() {
+fn a_copy_during_a_run_continues_like_its_original() {
     let case = Case::parse(CASE).expect("the script can be read");
     let graph = graph("keyframes", &case.plan).unwrap_or_else(|errors| panic!("{errors}"));
     for at in [0, 10, 55, 60, 100, 110, 145, 150, 160] {
@@ -97,7 +97,7 @@ fn a_copy_in_mid_run_and_its_original_go_on_alike() {
     }
 }
 
-/// An actor of another language.
+/// An actor in another language.
 struct Foreign;
 
 impl ActorSlot<Platform> for Foreign {

@@ -1,5 +1,4 @@
-//! How far a loop may count within one step is what the interpreter says, too: as far as a help says there is no livelock,
-//! one more is one.
+//! The limit of counting loops within one step in help texts is exact: one more is a livelock.
 
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
@@ -8,7 +7,7 @@ use afp_syntax::source::Source;
 use afp_tests::interpret::{interpret, toolboxes};
 use afp_tests::script::Script;
 
-/// Plans with `LIMIT` where a loop counts to.
+/// Plans with `LIMIT` as the end of a loop.
 const PLANS: &[&str] = &[
     "plan P { start count var i: int = 0
     computation count: Count(value = i, limit = LIMIT, next => i) { Again -> count, Done -> terminate } }",
@@ -38,7 +37,7 @@ const PLANS: &[&str] = &[
     computation count: Count(value = i, limit = LIMIT, next => i) { Again -> count, Done -> terminate } }",
 ];
 
-/// What is said of the plan, and whether it ends in a livelock.
+/// The diagnostics of the plan, and whether it ends in a livelock.
 fn run(plan: &str, limit: u64) -> (Vec<String>, bool) {
     let text = format!("use std\n{}", plan.replace("LIMIT", &limit.to_string()));
     let compiled = compile(&Source::new("loops.afp", text), &toolboxes(), &Texts::default());

@@ -1,5 +1,5 @@
-//! Whatever a plan calls its parts, it compiles, and both back ends do the same: a plan whose plans, entries, elements,
-//! supervisors, ports, columns and choices are called as everything that generated code says.
+//! A plan may use any names, and both back ends agree: its plans, entries, elements, supervisors,
+//! ports, columns and choices have all names that occur in generated code.
 
 use afp::load::{LoadedPlan, Registry};
 use afp_dsl::compile_unchecked;

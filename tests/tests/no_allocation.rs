@@ -1,6 +1,6 @@
-//! Millions of steps of a plan without one allocation, in either back end.
+//! Millions of steps of a plan without an allocation, in both back ends.
 //!
-//! A test binary of its own, because it counts in the global allocator.
+//! The test needs its own binary, because it counts in the global allocator.
 
 use afp_core::rt::Plan;
 use afp_core::trace::NoTrace;
@@ -10,7 +10,6 @@ use afp_tests::interpret::{graph, load};
 use afp_tests::platform::{CostClock, Log, Platform};
 use afp_tests::script::Script;
 
-/// The plan as Rust.
 mod plans {
     include!(concat!(env!("OUT_DIR"), "/steps.rs"));
 }
@@ -18,8 +17,8 @@ mod plans {
 /// Steps between repetitions of [`TIMES`], one a millisecond.
 const ROUND: u64 = 1_000_000;
 
-/// What components are told: from when to when in milliseconds, and what. Times change by the
-/// millisecond; faults that end the run and stops are left out.
+/// The behaviour of components: start and end in milliseconds, and a line. It has no faults that
+/// end the run, and no stops.
 const TIMES: &[(u64, u64, &str)] = &[
     (50_000, 200_000, "near Seen"),
     (150_000, 300_000, "drive Done"),
@@ -34,13 +33,12 @@ const TIMES: &[(u64, u64, &str)] = &[
     (800_000, 850_000, "global First"),
 ];
 
-/// How many steps are taken: a million unless `AFP_STEPS` says otherwise.
+/// The number of steps: a million, or `AFP_STEPS`.
 fn steps() -> u64 {
     let steps = std::env::var("AFP_STEPS").map(|text| text.parse().expect("AFP_STEPS is a number"));
     steps.unwrap_or(ROUND)
 }
 
-/// The script of a run of so many steps.
 fn script(steps: u64) -> Script {
     let rounds = (0..steps.div_ceil(ROUND)).map(|round| round * ROUND);
     let lines = rounds.flat_map(|start| {
@@ -56,8 +54,8 @@ fn script(steps: u64) -> Script {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting::SYSTEM;
 
-/// Steps a plan each millisecond; how often it allocated, and how often the active element of the
-/// outermost plan changed.
+/// Steps a plan each millisecond; returns the number of allocations, and of changes of the
+/// outermost plan's active element.
 fn run<P: Plan<Platform>>(plan: P) -> (u64, u64) {
     let steps = steps();
     let mut platform = Platform::new(script(steps), Log::default(), CostClock::default());

@@ -1,4 +1,4 @@
-//! What a program does with a plan that it knows by name alone: values in, calls back.
+//! A program with a plan that it knows only by name: values in, callbacks out.
 
 use std::cell::RefCell;
 
@@ -30,7 +30,7 @@ plan P {
 "#;
 
 #[test]
-fn a_text_that_does_not_fit_is_told_what_does() {
+fn an_invalid_string_is_answered_with_valid_ones() {
     let graph = graph("outside", PLAN).unwrap_or_else(|errors| panic!("{errors}"));
     let mut scheduler = Scheduler::new(load(&graph));
     for (entry, text, why) in [

@@ -1,4 +1,4 @@
-//! A robot with a part of the Carbot's devices runs those plans that need no more.
+//! A robot with some of the Carbot's devices runs the plans that need only these.
 
 use afp::load::{LoadError, LoadedPlan, Registry};
 use afp::{Ending, Environment, Instant, Platform, Scheduler, StillClock};
@@ -7,7 +7,7 @@ use afp_core::quantity::{AngularSpeed, Length, Speed};
 use afp_dsl::files::Texts;
 use afp_syntax::source::Source;
 
-/// Drives as it is told, and counts its wheels.
+/// Follows commands, and counts its wheels.
 #[derive(Default)]
 struct Cart {
     now: Instant,
@@ -59,7 +59,6 @@ impl Odometry for Cart {
     }
 }
 
-/// Loads a plan of one actor on the cart.
 fn load(body: &str) -> Result<LoadedPlan<Cart>, LoadError> {
     let text = format!("use std\nuse carbot\nplan P {{ start a\n{body} }}");
     let toolboxes = afp_toolboxes::sources().collect();
@@ -73,7 +72,7 @@ fn load(body: &str) -> Result<LoadedPlan<Cart>, LoadError> {
 }
 
 #[test]
-fn plans_run_that_need_no_more_than_it_has() {
+fn plans_run_on_a_robot_with_the_needed_devices() {
     let plan = "actor a: Forward(distance = 50 cm) { ForwardSuccessful -> b }
         actor b: Wait { Elapsed -> terminate }";
     let (mut cart, mut plan) = (Cart::default(), Scheduler::new(load(plan).unwrap()));
@@ -82,7 +81,7 @@ fn plans_run_that_need_no_more_than_it_has() {
 }
 
 #[test]
-fn what_it_cannot_serve_is_refused_by_name_with_what_is_missing() {
+fn a_missing_device_is_refused_by_name() {
     let plan =
         "actor a: Forward { supervise touch: CheckTouchSensor { TouchSensorPressed -> terminate }
         ForwardSuccessful -> terminate }";

@@ -1,6 +1,6 @@
-//! Random plans under random scripts: both back ends must do the same, to the byte.
+//! Random plans under random scripts: both back ends must print the same bytes.
 //!
-//! `AFP_RANDOM_PLANS` says by their seeds which plans are made (`400..800`); the build script compiles them.
+//! `AFP_RANDOM_PLANS` selects plans by their seeds (`400..800`); the build script compiles them.
 
 #[path = "random/rules.rs"]
 mod rules;
@@ -17,7 +17,6 @@ mod plans {
     include!(concat!(env!("OUT_DIR"), "/random.rs"));
 }
 
-/// Scripts for each plan.
 const SCRIPTS: u64 = 10;
 
 #[test]

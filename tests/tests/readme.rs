@@ -1,4 +1,4 @@
-//! The plan, the drawing and the links of the README are right.
+//! The README's plan, drawing and links are correct.
 
 use std::path::{Path, PathBuf};
 
@@ -40,7 +40,7 @@ fn the_drawing_in_the_readme_is_up_to_date() {
 }
 
 #[test]
-fn links_of_the_readme_lead_somewhere() {
+fn links_of_the_readme_have_targets() {
     let root = root();
     let links = README.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
     for (link, _) in links.filter(|(link, _)| !link.starts_with("http")) {

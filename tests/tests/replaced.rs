@@ -1,4 +1,4 @@
-//! One plan in the place of another takes its values over.
+//! A plan that replaces another takes its values over.
 
 use std::cell::RefCell;
 
@@ -9,7 +9,7 @@ use afp_tests::case::Case;
 use afp_tests::interpret::{graph, load};
 use afp_tests::platform::{CostClock, Log, Platform};
 
-/// Its object is as many commits old as the first one that `NEW` makes by itself.
+/// Its object is as many commits old as the first one that `NEW` makes.
 const OLD: &str = r#"use testing
 
 plan P {
@@ -21,7 +21,7 @@ plan P {
 }
 "#;
 
-/// Makes its first object while it watches the one that was carried.
+/// Makes its first object while it watches the carried one.
 const NEW: &str = r#"// script
 //   at 30 ms: again Seen
 //   until 50 ms
@@ -41,7 +41,7 @@ plan P {
 "#;
 
 #[test]
-fn an_object_is_another_one_than_the_one_that_was_carried() {
+fn a_new_object_differs_from_the_carried_one() {
     let [old, new] =
         [OLD, NEW].map(|text| graph("replaced", text).unwrap_or_else(|errors| panic!("{errors}")));
     let script = Case::parse(NEW).expect("the script can be read").script;

@@ -1,6 +1,6 @@
 //! The cases of `run/`: interpreter and generated code must both print the expected trace.
 //!
-//! `AFP_BLESS=1` writes what the interpreter prints; read the difference like code.
+//! `AFP_BLESS=1` writes the interpreter's trace; read the difference like code.
 
 #[path = "run/rules.rs"]
 mod rules;
@@ -13,7 +13,7 @@ use afp_tests::compare::part;
 use afp_tests::interpret::{graph, interpret};
 use afp_tests::script::Script;
 
-/// One module for each case, with the plan as Rust and a test that calls [`check`].
+/// One module per case, with the plan as Rust and a test that calls [`check`].
 mod cases {
     include!(concat!(env!("OUT_DIR"), "/run.rs"));
 }

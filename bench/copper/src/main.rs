@@ -1,6 +1,6 @@
 //! Prints the nanoseconds of one iteration: four guards as sources, an action as their sink.
 //!
-//! Its one argument is the number of batches, of which the best counts.
+//! Its only argument is the number of batches; the best one counts.
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Instant;

@@ -5,7 +5,6 @@ use afp_core::{Actor, Events, Fault, Instant, Poll, Supervisor};
 use super::{Board, speed, templates};
 use templates::{check_battery, check_button, check_range, check_touch, drive, hop};
 
-/// Drives until a distance is done.
 #[derive(Clone)]
 pub struct Drive {
     goal: f64,
@@ -18,7 +17,6 @@ pub struct Hop {
     next: i64,
 }
 
-/// Watches a button.
 #[derive(Clone)]
 pub struct CheckButton;
 
@@ -30,7 +28,6 @@ pub struct CheckTouch;
 #[derive(Clone)]
 pub struct CheckRange;
 
-/// Watches the battery.
 #[derive(Clone)]
 pub struct CheckBattery {
     low: f64,

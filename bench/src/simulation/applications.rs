@@ -1,4 +1,5 @@
-//! Applications in the simulator, against real time: what localisation, the search for ways and the camera cost.
+//! Applications in the simulator compared with real time: the cost of localisation, path planning
+//! and the camera.
 
 use afp_sim::World;
 use std::hint::black_box;
@@ -8,7 +9,7 @@ use crate::measure::Race;
 use crate::plans::{find_object::GoToObject, navigate_room::NavigateRoom};
 use crate::report::{Report, Row};
 
-/// Least that they must be faster than real time: with localisation, and with the camera.
+/// The smallest speeds as a multiple of real time: with localisation, and with the camera.
 const OF_REAL_TIME: [f64; 2] = [500.0, 100.0];
 
 /// Measures a drive to another room and one to an object.

@@ -1,4 +1,4 @@
-//! A large world full of walls and of things that move, against real time.
+//! A large world with many walls and moving things, compared with real time.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -11,16 +11,16 @@ use afp_sim::{Simulation, World};
 use crate::measure::Race;
 use crate::report::{Report, Row};
 
-/// How many walls and movers there are; one in so many walls has a mover beside it.
+/// The rows of the grid of walls; one in so many walls has a moving thing next to it.
 const ROWS: usize = 40;
 const COLUMNS: usize = 50;
 const WALLS_A_MOVER: usize = ROWS * COLUMNS / 50;
-/// How much virtual time one operation simulates, seconds.
+/// The simulated seconds of one operation.
 const SECONDS: u64 = 5;
-/// Least that the simulator must be faster than real time.
+/// The smallest speed of the simulator as a multiple of real time.
 const OF_REAL_TIME: f64 = 50.0;
 
-/// Measures a robot that drives in circles amid 2,000 walls and 50 movers.
+/// Measures a robot that drives in circles among 2,000 walls and 50 moving things.
 pub(super) fn run(rounds: u32, report: &mut Report) {
     let world = World::parse(&text()).unwrap_or_else(|why| panic!("{why:?}"));
     let mut sim = Simulation::new(&world, 1).unwrap_or_else(|why| panic!("{why:?}"));
@@ -34,7 +34,7 @@ pub(super) fn run(rounds: u32, report: &mut Report) {
     }
 }
 
-/// Some seconds of driving.
+/// Drives for some seconds.
 fn circle(sim: &mut Simulation) {
     let end = sim.now() + Duration::from_secs(SECONDS);
     while sim.now() < end {
@@ -45,7 +45,7 @@ fn circle(sim: &mut Simulation) {
     }
 }
 
-/// Short walls on a grid of two metres, the robot in the middle.
+/// Short walls on a grid of two metres, with the robot in the middle.
 fn text() -> String {
     let mut text = "version = 1\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n".to_owned();
     for n in 0..ROWS * COLUMNS {

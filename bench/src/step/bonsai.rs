@@ -32,13 +32,13 @@ const NODES: [Node; 5] = [
     Node::Drive { goal: 100.0, gain: 0.5 },
 ];
 
-/// Conditions and action in a sequence that starts over at every tick: the idiom of the field.
+/// Conditions and action in a sequence that starts again at every tick, the common idiom.
 pub fn sequence() -> impl FnMut(u64) {
     let nodes = NODES.map(Action).to_vec();
     ticks(Behavior::Sequence(nodes).memory(false), (Success, 0.01))
 }
 
-/// All five in parallel, a condition running while it holds: what the library does fastest.
+/// All five in parallel, with a condition running while it holds, the library's fastest form.
 pub fn when_all() -> impl FnMut(u64) {
     ticks(WhenAll(NODES.map(Action).to_vec()), RUNNING)
 }

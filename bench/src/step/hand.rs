@@ -1,4 +1,4 @@
-//! The same work as a person would write it for this one plan.
+//! The same work, written by hand for this plan.
 
 use std::hint::black_box;
 
@@ -34,7 +34,7 @@ pub fn case() -> impl FnMut(u64) {
 }
 
 impl Robot {
-    /// One pass; when to come again.
+    /// One pass; returns the time of the next one.
     #[inline]
     fn pass(&mut self, board: &mut Board, now: u64) -> u64 {
         match self.activity {

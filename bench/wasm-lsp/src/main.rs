@@ -1,15 +1,14 @@
 //! The language server as a program for the web.
 //!
-//! Messages come in on standard input, one a line, and go out on standard output, one a line, an empty one behind those
-//! that a message brings about. The first line has the files that there are: an object of texts by path. A test in
-//! Node.js talks with it as the server's own tests do.
+//! Messages come in on standard input and go out on standard output, one per line, with an empty
+//! line after the responses to each message. The first input line is an object of files: texts by
+//! path. A Node.js test uses the same conversations as the server's own tests.
 
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 
 use afp_lsp::{Host, Message, Server};
 
-/// Files in memory.
 struct Files(BTreeMap<String, String>);
 
 impl Host for Files {

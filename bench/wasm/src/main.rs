@@ -1,5 +1,5 @@
-//! What an editor in a browser needs, in one program: compiler, formatter, drawing, edits, interpreter
-//! and simulator.
+//! The parts of an editor in a browser, in one program: compiler, formatter, drawing, edits,
+//! interpreter and simulator.
 //!
 //! `cargo xtask gate` compiles it to WebAssembly and runs it in Node.js; the benchmark reports its
 //! size.
@@ -21,7 +21,7 @@ use afp_syntax::source::Source;
 const PLAN: &str = include_str!("../../../plans/wall_following.afp");
 const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
 
-/// How long the robot is driven.
+/// The simulated time of a drive.
 const END: Instant = Instant::from_nanos(10_000_000_000);
 
 fn main() {
@@ -36,7 +36,7 @@ fn main() {
     }
 }
 
-/// The plan with another name for one of its actors.
+/// The plan with one renamed actor.
 fn renamed(text: &str) -> String {
     let item = Item::inner("WallFollowing", "followWall");
     let change = Change::Rename { item, to: "alongTheWall".to_owned() };

@@ -1,4 +1,4 @@
-//! The adapter: messages of a client in, messages to it out.
+//! The adapter: client messages in, messages to clients out.
 
 mod again;
 mod clients;
@@ -40,69 +40,68 @@ pub use launch::Launch;
 use clients::Client;
 use mode::{Mode, Pace};
 
-/// What an adapter cannot do by itself.
+/// The environment of an adapter.
 pub trait Host<'h> {
-    /// A run of a plan at its start.
+    /// Makes a run of a plan, before its first step.
     ///
     /// # Errors
-    /// There is none: why, and what to do.
+    /// The reason and an action.
     fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target + 'h>, String>;
 
-    /// What a run would take place in, before there is one.
+    /// Returns the world of a run before the run exists.
     ///
     /// # Errors
-    /// There is none: why, and what to do.
+    /// The reason and an action.
     fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
         Err(format!("nothing is known of the world of '{}'", launch.program))
     }
 
-    /// A path as [`Program::files`](crate::Program::files) have it, however it is written.
+    /// Normalizes a path for [`Program::files`](crate::Program::files).
     fn path(&self, path: &str) -> String;
 }
 
-/// What a run takes place in.
+/// The world of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surroundings {
-    /// What a picture shows of it.
+    /// Its picture.
     pub drawing: Drawing,
-    /// Other worlds that a run may take place in, as `launch` takes them, each with where it comes from.
+    /// Available worlds, as `launch` accepts them, each with its origin.
     pub worlds: Vec<(String, &'static str)>,
-    /// The shapes that can be dropped into it while a plan runs.
+    /// Shapes that clients can add during a run.
     pub drops: &'static [Droppable],
-    /// Whether the robot has a camera.
     pub camera: bool,
-    /// The seed of a run that is over.
+    /// The seed of a recorded run.
     pub seed: Option<u64>,
-    /// Why the log of a run that is over is not whole.
+    /// The reason why a recording is incomplete.
     pub cut_short: Option<String>,
 }
 
-/// A debug adapter for clients who share one run: one steers, all watch, anybody may end it.
+/// A debug adapter for clients that share a run: one is the operator, all watch, and each can end
+/// the run.
 pub struct Adapter<'h> {
     host: Box<dyn Host<'h> + 'h>,
     clients: BTreeMap<ClientId, Client>,
-    /// How many have come so far.
+    /// The number of clients so far.
     joined: u32,
-    /// Who asks for what is answered now.
+    /// The client whose request is being answered.
     asker: ClientId,
-    /// Who steers.
     operator: Option<ClientId>,
-    /// When it was called last.
+    /// The time of the last call.
     called: Wall,
     run: Option<Run<'h>>,
     breakpoints: Breakpoints,
     out: Vec<(ClientId, Value)>,
-    /// What clients have to know, and how many may.
+    /// The token and the limit for clients.
     guard: Option<Guard>,
 }
 
-/// Who is let in.
+/// Admission of clients.
 struct Guard {
     token: Token,
     most: usize,
 }
 
-/// What is debugged.
+/// The run being debugged.
 struct Run<'h> {
     target: Box<dyn Target + 'h>,
     launch: Launch,
@@ -110,23 +109,23 @@ struct Run<'h> {
     pace: Pace,
     /// Steps in which an element started, ended or was interrupted, in order.
     transitions: Vec<u64>,
-    /// The last thing that went wrong.
+    /// The last fault.
     exception: Option<(&'static str, String)>,
-    /// What happened and was not told yet, where a client wants to be told.
+    /// Events not sent yet, if a client subscribed to the trace.
     traced: Option<Vec<Value>>,
-    /// When it was told last what is the case.
+    /// The time of the last state message.
     told_at: Wall,
-    /// Whether it has been let go.
+    /// Whether the run was started.
     has_begun: bool,
-    /// What the robot touched last.
+    /// The last thing that the robot touched.
     touched: Option<String>,
-    /// When the plan is stopped at the latest.
+    /// The time limit of the plan.
     end: Instant,
-    /// What who steers holds in place.
+    /// Values and outcomes that the operator forces.
     forces: Vec<force::Force>,
 }
 
-/// Why a request is refused.
+/// The reason for a rejected request.
 struct Refusal(String);
 
 impl<T: Into<String>> From<T> for Refusal {
@@ -138,7 +137,7 @@ impl<T: Into<String>> From<T> for Refusal {
 type Answer<T> = Result<T, Refusal>;
 
 impl<'h> Adapter<'h> {
-    /// An adapter that nobody has spoken to yet.
+    /// An adapter without clients.
     pub fn new(host: Box<dyn Host<'h> + 'h>) -> Adapter<'h> {
         Adapter {
             host,
@@ -154,18 +153,18 @@ impl<'h> Adapter<'h> {
         }
     }
 
-    /// The same for anybody who can reach it: it launches nothing without this token among the arguments, and so many clients
-    /// are let in at most.
+    /// An adapter on an open port: `launch` and `attach` need the token, and the number of admitted
+    /// clients is limited.
     pub fn guarded(host: Box<dyn Host<'h> + 'h>, token: &Token, most: usize) -> Adapter<'h> {
         Adapter { guard: Some(Guard { token: token.clone(), most }), ..Adapter::new(host) }
     }
 
-    /// Answers a message of a client that has joined; what goes to whom, in order. `now` is the time on the wall, from
-    /// whenever.
+    /// Answers a message of a joined client and returns messages with their receivers, in order.
+    /// `now` is wall-clock time from an arbitrary start.
     pub fn handle(&mut self, from: ClientId, message: &str, now: Wall) -> Vec<Outgoing> {
         self.asker = from;
         self.listen_for_lease(now);
-        // Of a key that is there twice the last one counts, whatever is read of the message.
+        // Of duplicate keys the last one counts, in all parts of the message.
         let mut message = serde_json::from_str::<Value>(message);
         if let Ok(message) = &mut message
             && self.clients.get(&from).is_some_and(|client| client.names_uris)
@@ -174,7 +173,7 @@ impl<'h> Adapter<'h> {
         }
         let is_answer = message.as_ref().is_ok_and(|it| it["type"] == "response");
         match message.and_then(serde_json::from_value::<dapts::Request>) {
-            // What it says does not matter: that it comes does.
+            // The answer's content does not matter, only its arrival.
             _ if is_answer => self.on_lease_answer(from),
             Ok(asked) => self.answer(asked, now),
             Err(why) => {
@@ -185,7 +184,7 @@ impl<'h> Adapter<'h> {
         self.take()
     }
 
-    /// Lets the run go on by what has passed on the wall; what is to be told.
+    /// Advances the run by the elapsed wall-clock time and returns the messages.
     pub fn tick(&mut self, now: Wall) -> Vec<Outgoing> {
         self.listen_for_lease(now);
         self.check_lease(now);
@@ -208,7 +207,7 @@ impl<'h> Adapter<'h> {
                 response["body"] = json!({"error": {"id": 1, "format": why, "showUser": true}});
             }
         }
-        // What a request brings about is told after it was answered.
+        // Events that a request causes follow its response.
         self.out.insert(before, (self.asker, response));
     }
 
@@ -267,7 +266,7 @@ impl<'h> Adapter<'h> {
         }
     }
 
-    /// Whether the client that asks takes part in the run, or asks for something else.
+    /// Checks that the client takes part in the run, if the request needs that.
     fn check_part(&self, command: &str) -> Answer<()> {
         let takes_part = self.takes_part();
         let is_first = ["initialize", "launch", "attach", "disconnect"].contains(&command);
@@ -291,7 +290,7 @@ impl<'h> Adapter<'h> {
             .ok_or_else(|| Refusal("nothing runs yet: 'launch' comes first".to_owned()))
     }
 
-    /// Shows a text where clients show such texts.
+    /// Shows a text in the client's console.
     fn output(&mut self, category: &str, text: &str) {
         self.event::<event::Output>(&output(category, text));
     }
@@ -307,12 +306,11 @@ fn output(category: &str, text: &str) -> dapts::OutputEvent {
     dapts::OutputEvent { category, output, ..dapts::OutputEvent::default() }
 }
 
-/// The body of an answer.
 fn said(answer: Answer<impl Serialize>) -> Answer<Value> {
     serde_json::to_value(answer?).map_err(|why| Refusal(why.to_string()))
 }
 
-/// The arguments of a request; a client may leave out what is empty.
+/// Parses the arguments of a request; a client may omit empty ones.
 fn parse<T: DeserializeOwned>(arguments: Value) -> Answer<T> {
     let arguments = if arguments.is_null() { json!({}) } else { arguments };
     serde_json::from_value(arguments).map_err(|why| Refusal(format!("wrong arguments: {why}")))

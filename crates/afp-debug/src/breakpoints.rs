@@ -16,11 +16,10 @@ use crate::watched::Watched;
 
 pub(crate) use wanted::{At, Wanted};
 
-/// What a run stands still at: of every client what it has set, together.
 #[derive(Debug, Default)]
 pub(crate) struct Breakpoints {
     sets: BTreeMap<(ClientId, Set), Vec<Breakpoint>>,
-    /// What goes wrong that a run is to stand still at, by the names that clients know.
+    /// The enabled exception filters of each client, by protocol name.
     filters: BTreeMap<ClientId, BTreeSet<&'static str>>,
     at: HashMap<Spot, Vec<u64>>,
     made: u64,
@@ -38,27 +37,25 @@ pub(crate) enum Set {
 #[derive(Clone, Debug)]
 pub(crate) struct Breakpoint {
     pub id: u64,
-    /// What it was set with, for a text that has changed.
+    /// The request, for a changed text.
     pub wanted: Wanted,
-    /// Where it is in the program that runs; or why it is nowhere.
+    /// The place in the current program, or the reason why it has none.
     pub found: Result<Found, String>,
-    /// The step of each hit so far.
     pub hits: Vec<u64>,
 }
 
-/// Where a breakpoint is in a program.
+/// The place of a breakpoint in a program.
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
-    /// What happens there, in each use of its plan.
+    /// Events at that place, in each use of its plan.
     pub spots: Vec<Spot>,
-    /// The line at which it is, from 0, where it was set at one.
+    /// The line of a line breakpoint, from 0.
     pub line: Option<u32>,
     pub counted: HitCount,
-    /// Counts as hit only while this holds, in each use of its plan.
+    /// The condition of a hit, in each use of its plan.
     pub conditions: BTreeMap<ComponentId, Watched>,
 }
 
-/// What a breakpoint is set with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Line,
@@ -66,14 +63,14 @@ pub(crate) enum Kind {
     Data,
 }
 
-/// What an event comes to.
+/// The consequences of an event.
 #[derive(Debug, Default)]
 pub(crate) struct Hits {
-    /// Where the run is to stand still.
+    /// The breakpoints that stop the run.
     pub stop: Vec<(u64, Kind)>,
-    /// What is to be said, with values in the place of formulas.
+    /// Log texts with values in place of formulas.
     pub logs: Vec<String>,
-    /// Something went wrong that is looked for.
+    /// A fault that a filter asks for.
     pub exception: Option<&'static str>,
 }
 
@@ -88,30 +85,27 @@ impl Set {
 }
 
 impl Breakpoints {
-    /// A number for a new one.
     pub fn number(&mut self) -> u64 {
         self.made += 1;
         self.made
     }
 
-    /// Puts breakpoints of a client in place of all that it set together; gives those.
+    /// Replaces a client's breakpoints of a set, and returns the old ones.
     pub fn set(&mut self, owner: ClientId, set: Set, all: Vec<Breakpoint>) -> Vec<Breakpoint> {
         let before = self.sets.insert((owner, set), all).unwrap_or_default();
         self.sort();
         before
     }
 
-    /// What goes wrong that a client wants to see.
     pub fn set_filters(&mut self, owner: ClientId, filters: BTreeSet<&'static str>) {
         self.filters.insert(owner, filters);
     }
 
-    /// Whether somebody wants to see the robot touch something.
+    /// Whether a client asks to stop on collisions.
     pub fn looks_for_collisions(&self) -> bool {
         self.filters.values().any(|filters| filters.contains("collision"))
     }
 
-    /// Forgets all of a client; gives them.
     pub fn forget(&mut self, owner: ClientId) -> Vec<Breakpoint> {
         self.filters.remove(&owner);
         let own = self.sets.keys().filter(|(known, _)| *known == owner).cloned();
@@ -121,13 +115,12 @@ impl Breakpoints {
         gone
     }
 
-    /// Those of all clients but one, with whose they are.
     pub fn of_others(&self, than: ClientId) -> impl Iterator<Item = (ClientId, &Breakpoint)> {
         let others = self.sets.iter().filter(move |((owner, _), _)| *owner != than);
         others.flat_map(|((owner, _), all)| all.iter().map(|each| (*owner, each)))
     }
 
-    /// Finds all of them in a program anew; gives those that are elsewhere now, or nowhere, with whose they are.
+    /// Locates all breakpoints in a program; returns those with a changed place, with their owners.
     pub fn find_in(&mut self, program: &Program) -> Vec<(ClientId, Breakpoint)> {
         let mut moved = Vec::new();
         for ((owner, _), all) in &mut self.sets {
@@ -160,14 +153,14 @@ impl Breakpoints {
         all.into_iter().find(|(_, each)| each.id == id)
     }
 
-    /// A run was taken back to where so many steps are over: what was hit later was not yet.
+    /// Forgets hits after the given number of steps.
     pub fn go_back(&mut self, steps: u64) {
         for each in self.sets.values_mut().flatten() {
             each.hits.retain(|step| *step < steps);
         }
     }
 
-    /// What an event comes to, as the next hit of those that are set there; so many steps are over before it.
+    /// Returns the consequences of an event and counts its hits; `steps` are complete before it.
     pub fn hits(&mut self, event: &RunEvent, steps: u64, program: &Program, state: &State) -> Hits {
         let exception = self.filters.values().find_map(|filters| exception(filters, event));
         let mut hits = Hits { exception, ..Hits::default() };
@@ -197,13 +190,13 @@ impl Breakpoints {
 }
 
 impl Breakpoint {
-    /// The line at which it is, where it was set at one; or why it is nowhere.
+    /// The line of a line breakpoint, or the reason why it has no place.
     fn line(&self) -> Result<Option<u32>, &str> {
         self.found.as_ref().map(|found| found.line).map_err(|why| &**why)
     }
 }
 
-/// What goes wrong in an event, of what is looked for.
+/// The fault of an event, if a filter asks for it.
 fn exception(filters: &BTreeSet<&'static str>, event: &RunEvent) -> Option<&'static str> {
     let names: &[&str] = match &event.kind {
         EventKind::Faulted(fault) if fault.code == Fault::LIVELOCK.code() => &["livelock", "fault"],
@@ -216,7 +209,6 @@ fn exception(filters: &BTreeSet<&'static str>, event: &RunEvent) -> Option<&'sta
     names.iter().find_map(|name| filters.get(name).copied())
 }
 
-/// Where an event happens.
 fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
     let id = event.component.id;
     let all = match &event.kind {
@@ -226,14 +218,14 @@ fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
         }
         EventKind::Event(EventAt { event, element, .. }) => reported(id, event.outcome, element.id),
         EventKind::Diverted { event, supervisor } => reported(supervisor.id, event.outcome, id),
-        // The plan itself ends, whether something of it failed or it all.
+        // The plan itself ends, by its own fault or by a component's.
         EventKind::Faulted(_) if id == ComponentId(0) => [None; 3],
         EventKind::Faulted(_) => [Some(Spot::Outcome(id, Outcome::Error)), None, None],
         EventKind::Ended { ending: EndingKind::Error, .. } if id == ComponentId(0) => {
             [Some(Spot::Outcome(id, Outcome::Error)), None, None]
         }
         EventKind::Missed(_) => [Some(Spot::Outcome(id, Outcome::DeadlineMissed)), None, None],
-        // That a plan begins with its initial values is no writing.
+        // The initial values of a plan do not count as writes.
         EventKind::Committed { entry_id, .. } => {
             let entry = program.entries.get(entry_id.0 as usize);
             let written = entry.is_some_and(|entry| entry.plan != id);
@@ -244,13 +236,13 @@ fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
     all.into_iter().flatten()
 }
 
-/// Where an event of a supervisor happens while an element is active or being entered.
+/// The places of a supervisor's event while an element is active or starting.
 fn reported(supervisor: ComponentId, event: Outcome, element: ComponentId) -> [Option<Spot>; 3] {
     let reaction = Spot::Reaction(element, supervisor, event);
     [Some(Spot::Reports(supervisor)), Some(Spot::Outcome(supervisor, event)), Some(reaction)]
 }
 
-/// A text in which formulas in braces are their values; one that is none stays as it is.
+/// Replaces formulas in braces by their values; an invalid formula stays unchanged.
 fn filled(text: &str, plan: ComponentId, program: &Program, state: &State) -> String {
     let mut filled = String::new();
     let mut rest = text;

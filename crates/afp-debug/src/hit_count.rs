@@ -1,4 +1,4 @@
-//! Which hits of a breakpoint count: `3`, `> 3`, `== 3`, `% 3`.
+//! Conditions on hits of a breakpoint: `3`, `> 3`, `== 3`, `% 3`.
 
 /// A condition on the number of a hit, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,21 +9,20 @@ pub(crate) struct HitCount {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Compare {
-    /// That hit and later ones.
+    /// That hit and later hits.
     From,
-    /// Later ones.
+    /// Later hits.
     After,
-    /// Earlier ones.
+    /// Earlier hits.
     Before,
     /// Up to that hit.
     To,
-    /// That hit alone.
     Only,
-    /// Each of so many hits.
+    /// Every so many hits.
     Every,
 }
 
-/// Signs, the longer ones first, and what they mean.
+/// Operators, longer ones first.
 const SIGNS: [(&str, Compare); 8] = [
     (">=", Compare::From),
     ("<=", Compare::To),
@@ -36,10 +35,10 @@ const SIGNS: [(&str, Compare); 8] = [
 ];
 
 impl HitCount {
-    /// The condition that a text is; without one every hit counts.
+    /// Parses a condition; an empty text accepts every hit.
     ///
     /// # Errors
-    /// It is none, or no hit would ever count.
+    /// The text is invalid, or no hit would ever count.
     pub fn new(text: &str) -> Result<HitCount, String> {
         let text = text.trim();
         if text.is_empty() {
@@ -50,7 +49,7 @@ impl HitCount {
             SIGNS.iter().find_map(|(sign, compare)| Some((text.strip_prefix(sign)?, *compare)));
         let read = signs.and_then(|(number, compare)| {
             let number = number.trim_start();
-            // What 'parse' takes besides is no number of hits: '+3'.
+            // 'parse' also accepts '+3', which is not a number of hits.
             let number = number
                 .parse()
                 .ok()
@@ -61,7 +60,7 @@ impl HitCount {
         let never = match read.compare {
             Compare::Before => read.number <= 1,
             Compare::To | Compare::Only | Compare::Every => read.number == 0,
-            // '0' would be '1'.
+            // '0' would mean '1'.
             Compare::From => read.number == 0 && !text.starts_with('>'),
             Compare::After => read.number == u64::MAX,
         };
@@ -71,7 +70,6 @@ impl HitCount {
         }
     }
 
-    /// Whether the hit of that number counts.
     pub fn holds(self, hit: u64) -> bool {
         match self.compare {
             Compare::From => hit >= self.number,

@@ -1,14 +1,15 @@
 //! The debug adapter as a value: the [Debug Adapter Protocol] over a running plan.
 //!
-//! An [`Adapter`] is handed the messages of a client and gives those that go back, and it is told from time to time
-//! how late it is. It has no thread, no socket and no clock. What it debugs is a [`Target`]: [`SessionTarget`] is a
-//! session over a simulated robot, whose time stands still while the plan is held, so that a run which was paused,
-//! stepped and stepped back has the trace of one which was not; [`LogTarget`] is a run that is over, from its log.
+//! An [`Adapter`] takes messages of clients and returns messages to them. Its owner also calls it
+//! regularly with the time. It has no thread, no socket and no clock. It debugs a [`Target`]. A
+//! [`SessionTarget`] is a session over a simulated robot. Its time stops while the plan is paused,
+//! so pausing and stepping do not change the trace. A [`LogTarget`] is a recorded run.
 //!
-//! How a plan is a program: thread 1 is the flow of action, its stack the active element of each nested plan; every
-//! supervisor that is watching is a thread of its own. A breakpoint belongs to a place in the text: an element that
-//! starts, an edge that is taken, a supervisor that reports, an entry that is written. A step of the scheduler is never
-//! taken apart: the run stands still right after the step in which it happened, before any time has passed.
+//! A plan maps to a program as follows. Thread 1 is the flow of action, and its stack is the active
+//! element of each nested plan. Every watching supervisor is a separate thread. A breakpoint
+//! belongs to a place in the text: an element that starts, an edge, a supervisor's report, or a
+//! write to an entry. The run stops right after the scheduler step of the hit, before time passes.
+//! It never stops inside a step.
 //!
 //! [Debug Adapter Protocol]: https://microsoft.github.io/debug-adapter-protocol/
 #![forbid(unsafe_code)]

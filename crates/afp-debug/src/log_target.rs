@@ -1,4 +1,4 @@
-//! A target that is a log: its events are reported again, and none of them can be changed.
+//! A target that replays the events of a log and cannot change them.
 
 use std::sync::Arc;
 
@@ -12,44 +12,44 @@ use crate::sensed::Sensed;
 use crate::state::State;
 use crate::target::{Advance, Happened, Position, Target};
 
-/// So many moments lie between two kept states: as many are told again, at most, when a client goes back.
+/// The moments between two saved states, and so the most moments replayed after a jump back.
 const KEYFRAMES: usize = 1024;
 
-/// What a client hears that wants to change what is over.
+/// The error for a change of a recorded run.
 pub(crate) const READ_ONLY: &str = "a log shows what was: launch its plan to change something";
 
-/// What a camera had seen last at a time: width, height, and a byte for each of red, green and blue.
+/// The last camera picture at a time: width, height, and a byte for each of red, green and blue.
 type Pictures = Box<dyn Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send>;
 
-/// What the robot's signals said at a time, when it stood somewhere.
+/// The robot's signals at a time and a pose.
 type Senses = Box<dyn Fn(Instant, Option<Pose2>) -> Vec<Sensed> + Send>;
 
-/// A run that was recorded. All events of an instant are one step.
+/// A recorded run. All events of an instant are one step.
 pub struct LogTarget {
     program: Arc<Program>,
     events: Vec<RunEvent>,
-    /// For each moment the first event that does not belong to it any more.
+    /// The end of each moment in the events.
     moments: Vec<usize>,
-    /// What was the case before each [`KEYFRAMES`]th moment.
+    /// The state before each [`KEYFRAMES`]th moment.
     keyframes: Vec<State>,
-    /// How many moments are over.
+    /// The number of past moments.
     passed: usize,
-    /// Where the robot was, by time.
+    /// The robot's pose by time.
     poses: Vec<(Instant, Pose2)>,
-    /// What its camera had seen last at a time.
+    /// The last camera picture at a time.
     picture: Pictures,
-    /// What its signals said at a time.
+    /// The robot's signals at a time.
     senses: Senses,
     now: Instant,
     state: State,
 }
 
 impl LogTarget {
-    /// The run of a program that those events tell of, at its start. Events are taken by their times, those of one instant in
-    /// the order given.
+    /// Makes a recorded run of a program from its events. Events are sorted by time, and those of
+    /// one instant stay in order.
     ///
     /// # Errors
-    /// The events are those of another program: why.
+    /// The reason if the events belong to a different program.
     pub fn new(program: Arc<Program>, mut events: Vec<RunEvent>) -> Result<LogTarget, String> {
         let known = |event: &RunEvent| match program.unit(event.component.id) {
             Some(unit) => event.component.path.is_empty() || unit.path == event.component.path,
@@ -87,12 +87,12 @@ impl LogTarget {
         })
     }
 
-    /// The same with where the robot was, by time.
+    /// Adds the robot's pose by time.
     pub fn with_poses(self, poses: Vec<(Instant, Pose2)>) -> LogTarget {
         LogTarget { poses, ..self }
     }
 
-    /// The same with what the camera had seen last at a time.
+    /// Adds the last camera picture at a time.
     pub fn with_pictures(
         self,
         picture: impl Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send + 'static,
@@ -100,7 +100,7 @@ impl LogTarget {
         LogTarget { picture: Box::new(picture), ..self }
     }
 
-    /// The same with what the robot's signals said at a time, when it stood somewhere.
+    /// Adds the robot's signals at a time and a pose.
     pub fn with_senses(
         self,
         senses: impl Fn(Instant, Option<Pose2>) -> Vec<Sensed> + Send + 'static,
@@ -115,7 +115,7 @@ impl LogTarget {
         Some(begin.copied().unwrap_or(0)..end)
     }
 
-    /// Lets the next moment pass.
+    /// Replays the next moment.
     fn pass(&mut self, report: &mut dyn FnMut(&Happened, &State)) {
         let Some(events) = self.next() else { return };
         for event in &self.events[events] {
@@ -130,7 +130,7 @@ impl LogTarget {
         }
     }
 
-    /// Goes to where so many moments are over.
+    /// Goes to after the given number of moments.
     fn go(&mut self, passed: usize) {
         let passed = passed.min(self.moments.len());
         let frame = (passed / KEYFRAMES).min(self.keyframes.len() - 1);
@@ -144,7 +144,7 @@ impl LogTarget {
         }
     }
 
-    /// When the last of so many moments was.
+    /// The instant of the last of so many moments.
     fn at(&self, passed: usize) -> Instant {
         let last = passed.checked_sub(1).and_then(|last| self.moments.get(last));
         last.and_then(|end| self.events.get(end - 1)).map_or(Instant::ZERO, |event| event.at)

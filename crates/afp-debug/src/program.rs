@@ -1,4 +1,5 @@
-//! A plan as a program that can be debugged: its components and entries with their places in the texts.
+//! A plan as a program that can be debugged: its components and entries with their places in the
+//! texts.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -9,7 +10,7 @@ use afp_dsl::timing::{SupervisorTiming, timing};
 use afp_dsl::unfold::{self, ComponentKind, Reaction, places, unfold};
 use afp_syntax::source::{Encoding, LineColumn, Lines, Sources, Span};
 
-/// A plan with the places of everything in it.
+/// A plan with the places of all its parts.
 #[derive(Clone, Debug)]
 pub struct Program {
     /// The paths of the files, by [`Place::file`].
@@ -17,98 +18,92 @@ pub struct Program {
     /// All components by number; the first is the plan itself.
     pub units: Vec<Unit>,
     pub entries: Vec<Entry>,
-    /// Where the name of each plan of the graph stands.
     plans: Vec<Place>,
     /// The edges that begin at a place, in each use of its plan.
     edges: BTreeMap<Place, Vec<Spot>>,
-    /// What can happen at a line of a file.
+    /// The events of each line of a file.
     lines: BTreeMap<(usize, u32), Vec<Spot>>,
     pub(crate) graph: Graph,
-    /// Texts that files have not, or not any more.
+    /// Texts that differ from their files, or have none.
     texts: BTreeMap<usize, String>,
-    /// What tells the texts of the plan from others, by their files.
+    /// Hashes of the plan's texts, by file.
     hashes: Vec<(usize, String)>,
 }
 
 /// A component: the plan, an element, a supervisor.
 #[derive(Clone, Debug)]
 pub struct Unit {
-    /// Dotted path from the outermost plan; the plan's own name for the outermost.
+    /// Dotted path from the outermost plan; for the outermost plan its name.
     pub path: String,
     /// The last name of the path.
     pub name: String,
     pub template: String,
     pub kind: ComponentKind,
-    /// The plan that it belongs to, by the number of its element.
+    /// Its plan, by the number of the plan's element.
     pub plan: ComponentId,
     /// The element of a local supervisor.
     pub owner: Option<ComponentId>,
-    /// Input ports: name and SI unit, empty for what is no quantity.
+    /// Input ports: name and SI unit, which is empty for other types.
     pub inputs: Vec<(String, String)>,
-    /// Output ports that are bound: name, and the path of the entry.
+    /// Bound output ports: name, and the path of the entry.
     pub outputs: Vec<(String, String)>,
     /// States or events: name and target.
     pub outcomes: Vec<(String, String)>,
-    /// Its edges that hold instead of those of supervisors of its plan: supervisor, event and target.
+    /// Edges that override those of the plan's supervisors: supervisor, event and target.
     pub reactions: Vec<(ComponentId, Outcome, String)>,
-    /// How often a supervisor is asked, and what follows from it.
+    /// The poll times of a supervisor and their consequences.
     pub times: Option<Times>,
     pub at: Place,
 }
 
-/// The times of a supervisor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Times {
-    /// When it is polled.
     pub timing: Timing,
-    /// How long after its condition the robot stands, and how far that can be trusted; none where it interrupts nothing.
+    /// The time from its condition until the robot has stopped, with its reliability; `None` if it
+    /// interrupts nothing.
     pub bound: Option<String>,
 }
 
-/// An entry of a plan.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// Dotted path from the outermost plan.
     pub path: String,
     pub name: String,
-    /// The plan that it belongs to.
     pub plan: ComponentId,
-    /// Who may set it.
     pub kind: EntryKind,
-    /// Its type as in the text.
+    /// Its type in source form.
     pub ty: String,
-    /// The SI unit of its values, empty for what is no quantity.
+    /// The SI unit of its values, empty for other types.
     pub unit: String,
     pub at: Place,
 }
 
-/// A place in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
-    /// Which of [`Program::files`].
+    /// An index into [`Program::files`].
     pub file: usize,
     /// Its line, from 0.
     pub line: u32,
-    /// Its column, from 0, in units of UTF-16.
+    /// Its column, from 0, in UTF-16 units.
     pub column: u32,
 }
 
-/// Something that can happen at a place of the text.
+/// An event at a place of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Spot {
-    /// An actor or a sub-plan starts.
+    /// The start of an actor or a sub-plan.
     Start(ComponentId),
-    /// An element reaches a state, an event of a supervisor is taken.
+    /// A state of an element, or an event of a supervisor.
     Outcome(ComponentId, Outcome),
-    /// Any event of a supervisor is taken, a computation is done.
+    /// Any event of a supervisor, or the end of a computation.
     Reports(ComponentId),
-    /// An event of a supervisor is taken while the first one is active, which reacts to it by itself.
+    /// A supervisor's event during the first element, which has its own reaction to it.
     Reaction(ComponentId, ComponentId, Outcome),
     Commit(TraceEntryId),
 }
 
 impl Unit {
-    /// A state or event of it, by name.
+    /// Finds a state or event by name.
     pub(crate) fn outcome(&self, name: &str) -> Option<Outcome> {
         match (self.outcomes.iter().position(|(known, _)| known == name), name) {
             (Some(number), _) => u16::try_from(number).ok().map(Outcome::Declared),
@@ -120,8 +115,8 @@ impl Unit {
 }
 
 impl Program {
-    /// The program that a graph is; `sources` has the texts that its spans belong to, `path` says how a client names
-    /// a file.
+    /// Makes the program of a graph. `sources` are the texts of its spans, and `path` returns the
+    /// client's name of a file.
     pub fn new(graph: &Graph, sources: &Sources, path: &dyn Fn(&str) -> String) -> Program {
         let texts = Texts::new(sources);
         let (unfolded, places) = (unfold(graph), places(graph));
@@ -175,7 +170,7 @@ impl Program {
         program
     }
 
-    /// What can happen where a component and its edges stand.
+    /// Adds the events at a component and its edges.
     fn add_component(&mut self, id: ComponentId, place: &unfold::Place, texts: &Texts<'_>) {
         let Some(kind) = self.unit(id).map(|unit| unit.kind) else { return };
         let special = match kind {
@@ -195,20 +190,20 @@ impl Program {
         }
     }
 
-    /// Keeps the texts for clients that their own files do not show: `is_file` says whether a file of that path has
-    /// that text.
+    /// Keeps texts that the client's files do not have; `is_file` compares a file's text.
     pub fn keep_texts(&mut self, sources: &Sources, is_file: &dyn Fn(&str, &str) -> bool) {
         let named = self.files.iter().zip(sources.iter()).enumerate();
         let others = named.filter(|(_, (path, source))| !is_file(path, &source.text));
         self.texts = others.map(|(file, (_, source))| (file, source.text.to_string())).collect();
     }
 
-    /// The text of a file that clients have no file for.
+    /// The text of a file that the client does not have.
     pub fn text_of(&self, file: usize) -> Option<&str> {
         self.texts.get(&file).map(String::as_str)
     }
 
-    /// The plan's files with the hashes of the texts that run: FNV-1a with 64 bits, over UTF-8, lines ended by LF.
+    /// The plan's files with the hashes of the running texts: 64-bit FNV-1a over UTF-8 with LF line
+    /// ends.
     pub fn hashes(&self) -> impl Iterator<Item = (&str, &str)> {
         self.hashes.iter().filter_map(|(file, hash)| Some((&**self.files.get(*file)?, &**hash)))
     }
@@ -223,7 +218,7 @@ impl Program {
         self.edges.get(&at).map_or(&[], Vec::as_slice)
     }
 
-    /// Something can happen at a line. Where a component is declared in one line, that line stands for its start.
+    /// Adds an event to a line. If a component is declared in one line, the line means its start.
     fn add(&mut self, at: Place, spot: Spot) {
         let spots = self.lines.entry((at.file, at.line)).or_default();
         let edge = |spot: &Spot| matches!(spot, Spot::Outcome(..) | Spot::Reaction(..));
@@ -233,33 +228,30 @@ impl Program {
         }
     }
 
-    /// All components but the plan itself.
+    /// All components except the plan itself.
     pub fn parts(&self) -> impl Iterator<Item = (ComponentId, &Unit)> {
         (0..).map(ComponentId).zip(&self.units).skip(1)
     }
 
-    /// The component of that number.
     pub fn unit(&self, id: ComponentId) -> Option<&Unit> {
         self.units.get(id.0 as usize)
     }
 
-    /// The file of that path.
     pub fn file(&self, path: &str) -> Option<usize> {
         self.files.iter().position(|name| name == path)
     }
 
-    /// What can happen at a line of a file or, where that is nothing, at the next line where something can.
+    /// The events of a line or, if it has none, of the next line with events.
     pub fn at_line(&self, file: usize, line: u32) -> Option<(u32, &[Spot])> {
         let next = self.lines.range((file, line)..(file, u32::MAX)).next();
         next.map(|((_, line), spots)| (*line, &**spots))
     }
 
-    /// The lines of a file at which something can happen, from the first to the last, both included.
+    /// The lines of a range with events; both ends are included.
     pub fn lines(&self, file: usize, from: u32, to: u32) -> impl Iterator<Item = u32> + '_ {
         self.lines.range((file, from)..=(file, to)).map(|((_, line), _)| *line)
     }
 
-    /// The plan that something at a spot belongs to.
     pub fn plan_at(&self, spot: Spot) -> ComponentId {
         let plan = match spot {
             Spot::Start(id) | Spot::Outcome(id, _) | Spot::Reports(id) | Spot::Reaction(id, ..) => {
@@ -270,8 +262,7 @@ impl Program {
         plan.unwrap_or_default()
     }
 
-    /// Everything that a place of the text is in: the plan, for each use of it, and the component whose name comes last
-    /// before the place, where there is one.
+    /// Everything around a place: each use of its plan, and the last component named before it.
     pub fn around(&self, at: Place) -> Vec<(ComponentId, Option<ComponentId>)> {
         let is_before = |place: &Place| place.file == at.file && *place <= at;
         let units = || self.parts().filter(|(_, unit)| is_before(&unit.at));
@@ -295,7 +286,6 @@ impl Program {
         found
     }
 
-    /// The text of the plan from a place on.
     pub(crate) fn text_from(&self, at: Place) -> Option<&str> {
         let mut sources = self.graph.sources.iter();
         let (_, source) = sources.find(|(file, _)| usize::from(*file) == at.file)?;
@@ -303,7 +293,7 @@ impl Program {
         source.text.get(Lines::new(&source.text).offset(place, Encoding::Utf16) as usize..)
     }
 
-    /// The plan that an element is, or the outermost one.
+    /// The plan of a sub-plan element, or the outermost one.
     pub(crate) fn plan_of(&self, plan: ComponentId) -> Option<PlanId> {
         if plan == ComponentId(0) {
             return Some(self.graph.main);
@@ -317,8 +307,9 @@ impl Program {
         }
     }
 
-    /// What a path means: an element (`patrol.avoid`), a supervisor, one of its states or events
-    /// (`patrol.avoid.touch.TouchSensorPressed`), that the plan itself fails (`Patrol.Error`).
+    /// Finds the meaning of a path: an element (`patrol.avoid`), a supervisor, one of its states or
+    /// events (`patrol.avoid.touch.TouchSensorPressed`), or the failure of the plan
+    /// (`Patrol.Error`).
     pub fn find(&self, path: &str) -> Option<Spot> {
         let part = |path: &str| self.parts().find(|(_, unit)| unit.path == path);
         if let Some((id, unit)) = part(path) {
@@ -333,7 +324,7 @@ impl Program {
         Some(Spot::Outcome(id, unit.outcome(outcome)?))
     }
 
-    /// The entry that a name means inside a plan; a whole path finds it from everywhere.
+    /// Finds an entry by its name inside a plan, or by its full path.
     pub fn entry(&self, plan: ComponentId, name: &str) -> Option<TraceEntryId> {
         let inside = self.entries.iter().position(|it| it.plan == plan && it.name == name);
         let found = inside.or_else(|| self.entries.iter().position(|it| it.path == name))?;
@@ -341,15 +332,15 @@ impl Program {
     }
 }
 
-/// What tells a text from others, however its lines end in a file.
+/// The hash of a text, independent of line ends.
 fn hash(text: &str) -> String {
     let mut hash = TraceHash::default();
-    // A hash takes any text.
+    // Writing to a hash cannot fail.
     let _ = hash.write_str(&text.trim_start_matches('\u{feff}').replace("\r\n", "\n"));
     hash.to_string()
 }
 
-/// The times of all supervisors, by their names' places in the text.
+/// The times of all supervisors, by the places of their names.
 fn times(graph: &Graph) -> BTreeMap<Span, Times> {
     let row = |row: SupervisorTiming| {
         let bound = row.interruption.map(|it| {
@@ -370,7 +361,7 @@ fn reacts_on(event: Option<u16>) -> Outcome {
     event.map_or(Outcome::DeadlineMissed, Outcome::Declared)
 }
 
-/// What happens at the line where a component is declared.
+/// The event of a component's declaration.
 fn first(id: ComponentId, kind: ComponentKind) -> Spot {
     match kind {
         ComponentKind::Supervisor | ComponentKind::Computation => Spot::Reports(id),
@@ -378,7 +369,6 @@ fn first(id: ComponentId, kind: ComponentKind) -> Spot {
     }
 }
 
-/// The texts behind spans.
 struct Texts<'a> {
     files: Vec<(&'a str, Lines<'a>)>,
 }

@@ -1,36 +1,34 @@
-//! Signals of the robot for people who watch a run: values as text, and the cones of range sensors.
+//! The robot's signals for display: values as text, and the cones of range sensors.
 
 use afp_core::devices::{DeviceRow, SignalRow, SignalType, signals};
 use afp_session::{AnySession, Datum, Pose2, SampleRef};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensed {
-    /// Its device and its name: `touch.touched`.
+    /// Its device and name: `touch.touched`.
     pub signal: String,
-    /// As people write it.
+    /// Its value with a unit.
     pub text: String,
-    /// Where a range sensor looks.
+    /// The view of a range sensor.
     pub cone: Option<Cone>,
 }
 
-/// A range sensor's view, in the frame of the world.
+/// A range sensor's view, in world coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
-    /// Where the sensor is and which way it looks.
     pub pose: Pose2,
-    /// Half the opening, radians.
+    /// Half the opening angle, in radians.
     pub half_angle: f64,
-    /// Metres; none where no echo came back.
+    /// The distance in metres; `None` without an echo.
     pub range: Option<f64>,
 }
 
 impl Sensed {
-    /// What a signal says that is a value.
     pub fn value(device: &DeviceRow, row: &SignalRow, value: &Datum) -> Sensed {
         Sensed::new(device, row, value.in_unit(row.ty.unit()).to_string(), None)
     }
 
-    /// What a range sensor says.
+    /// The value of a range sensor.
     pub fn range(device: &DeviceRow, row: &SignalRow, cone: Cone) -> Sensed {
         let heard = cone.range.map(|range| Datum::Float(range).in_unit("m").to_string());
         Sensed::new(device, row, heard.unwrap_or_else(|| "no echo".to_owned()), Some(cone))
@@ -41,7 +39,8 @@ impl Sensed {
     }
 }
 
-/// What a robot that stands somewhere says now: what a plan may know, in the order of its devices, without pictures.
+/// Reads all signals that a plan may use, in device order and without pictures; `robot` is its
+/// pose.
 pub(crate) fn all(session: &dyn AnySession, robot: Option<Pose2>) -> Vec<Sensed> {
     let mut all = Vec::new();
     for (signal, device, row) in signals(session.devices()).filter(|(.., row)| !row.truth) {

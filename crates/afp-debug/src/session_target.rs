@@ -1,4 +1,4 @@
-//! A target that is a session: time passes in it only while a client lets the run go on.
+//! A target with a session, whose time advances only while the run continues.
 
 use std::sync::Arc;
 
@@ -15,33 +15,32 @@ use crate::sensed::{self, Sensed};
 use crate::state::State;
 use crate::target::{Advance, Happened, Position, Target};
 
-/// How much time lies between two keyframes.
+/// The simulated time between two keyframes.
 const KEYFRAMES: Duration = Duration::from_secs(10);
-/// How many keyframes are kept; beyond, every second one goes.
+/// The most keyframes; beyond it, every second one is dropped.
 const MOST_KEYFRAMES: usize = 256;
 
-/// Makes the session of a run anew, with all that was asked for before its start.
+/// Makes the session of a run again, including all requests before the start.
 pub type MakeSession<'m> = dyn FnMut() -> Result<Box<dyn AnySession>, String> + 'm;
 
-/// A session of a simulated robot. Where the robot or a component cannot be copied, going back is running again from the
-/// start.
+/// A session of a simulated robot. If the robot or a component cannot be copied, going back runs
+/// again from the start.
 pub struct SessionTarget<'m> {
     program: Arc<Program>,
     make: Box<MakeSession<'m>>,
     run: Run,
-    /// How far time has passed so far.
+    /// The latest instant reached.
     furthest: Instant,
-    /// When each of the session's requests was made, in order.
+    /// The instants of the session's requests, in order.
     asked: Vec<Instant>,
     /// Copies of the run, by time.
     keyframes: Vec<Run>,
-    /// How much time lies between two of them.
+    /// The current interval of keyframes.
     apart: Duration,
-    /// What is strange about the run.
+    /// Warnings about the run.
     warnings: Vec<String>,
 }
 
-/// A run at an instant.
 struct Run {
     session: Box<dyn AnySession>,
     state: State,
@@ -49,10 +48,10 @@ struct Run {
 }
 
 impl<'m> SessionTarget<'m> {
-    /// A run at its start.
+    /// Makes a run before its first step.
     ///
     /// # Errors
-    /// There is no session: why.
+    /// The reason if the session cannot be made.
     pub fn new(program: Arc<Program>, mut make: Box<MakeSession<'m>>) -> Result<Self, String> {
         let run = Run { session: make()?, state: State::default(), steps: 0 };
         let keyframes = run.keyframe().into_iter().collect();
@@ -62,18 +61,19 @@ impl<'m> SessionTarget<'m> {
         Ok(SessionTarget { program, make, run, furthest, asked, keyframes, apart, warnings })
     }
 
-    /// The same with what is to be said of it before it begins.
+    /// Adds warnings to show before the start.
     pub fn with_warnings(self, warnings: Vec<String>) -> Self {
         SessionTarget { warnings, ..self }
     }
 
-    /// The same without copies, as of a robot that cannot be copied: going back always runs again from the start.
+    /// Disables copies, as for a robot that cannot be copied: going back always runs again from the
+    /// start.
     pub fn never_kept(self) -> Self {
         SessionTarget { keyframes: Vec::new(), ..self }
     }
 
-    /// Keeps a copy of the run where the last one lies far enough back. A run of what has been once holds what was
-    /// asked for later.
+    /// Keeps a copy of the run if the last one is old enough. A replayed run already has the later
+    /// requests.
     fn keep(&mut self) {
         let Some(last) = self.keyframes.last() else { return };
         let now = self.run.session.now();
@@ -91,7 +91,7 @@ impl<'m> SessionTarget<'m> {
         }
     }
 
-    /// The run at a position; what was asked for comes again.
+    /// Returns the run at a position, with its requests repeated.
     fn replayed(&mut self, asked: &[(Instant, Request)], to: Position) -> Result<Run, String> {
         let before = |run: &Run| match to {
             Position::Step(steps) => run.steps <= steps,
@@ -119,7 +119,7 @@ impl<'m> SessionTarget<'m> {
         Ok(run)
     }
 
-    /// Forgets what was asked for later than now, for what happens next is another run.
+    /// Forgets requests after now, since the run continues differently.
     fn forget_later(&mut self) -> Result<(), String> {
         let (now, steps) = (self.run.session.now(), self.run.steps);
         if now >= self.furthest {
@@ -127,14 +127,14 @@ impl<'m> SessionTarget<'m> {
         }
         let requests = self.run.session.requests();
         let had = self.asked.partition_point(|asked| *asked < now);
-        // Of what was asked for at this very instant that which has been done, and what was asked for along with it.
+        // At this instant it keeps the requests that are done, and those made together with them.
         let along = self.asked.partition_point(|asked| *asked <= now);
         let begun = requests.iter().skip(had).take(along - had).any(|(at, _)| *at <= now);
         self.asked.truncate(if begun { along } else { had });
         let asked = requests.get(..self.asked.len()).unwrap_or(requests).to_vec();
         self.keyframes.retain(|run| run.session.now() <= now && run.steps <= steps);
         self.run = self.replayed(&asked, Position::Step(steps))?;
-        // Between two steps, too.
+        // The current instant may be between two steps.
         while self.run.session.now() < now && self.run.session.ending().is_none() {
             self.run.advance(now, &self.program, &mut |_, _| {})?;
         }
@@ -142,7 +142,7 @@ impl<'m> SessionTarget<'m> {
         Ok(())
     }
 
-    /// What a signal of the robot says, if it says something.
+    /// Reads a signal of the robot, if it has a value.
     fn read<T>(&self, signal: &str, take: impl Fn(SampleRef<'_>) -> T) -> Option<T> {
         let session = &self.run.session;
         let mut taken = None;
@@ -151,7 +151,7 @@ impl<'m> SessionTarget<'m> {
         taken
     }
 
-    /// Notes when what was asked for just now was.
+    /// Records the instant of the last request.
     fn note_asked(&mut self) {
         self.asked.resize(self.run.session.requests().len(), self.run.session.now());
     }
@@ -343,7 +343,7 @@ impl Target for SessionTarget<'_> {
     }
 }
 
-/// Why a plan does not start, and what to do.
+/// The reason why a plan cannot start, and an action.
 fn cannot_start(why: StartError, program: &Program) -> String {
     match why {
         StartError::InputMissing(entry) => {
@@ -356,7 +356,7 @@ fn cannot_start(why: StartError, program: &Program) -> String {
     }
 }
 
-/// Reports what happens in a session to the adapter, and keeps the state along with it.
+/// Reports a session's events to the adapter, and updates the state.
 struct Reporter<'a> {
     program: &'a Program,
     state: &'a mut State,

@@ -10,51 +10,49 @@ use afp_session::{Datum, EndingKind, EventAt, EventKind, Miss, NamedOutcome, Run
 use crate::program::Program;
 use crate::text::Line;
 
-/// What is active, what watches, what entries hold: all events up to an instant, put together.
+/// The active elements, watching supervisors and values of entries, computed from all events up to
+/// an instant.
 #[derive(Clone, Debug, Default)]
 pub struct State {
     /// The active element of each plan, by the plan's number.
     active: BTreeMap<ComponentId, ComponentId>,
     /// The supervisors that watch, and since when.
     watching: BTreeMap<ComponentId, Instant>,
-    /// Values of entries that were written.
+    /// Values of written entries.
     entries: BTreeMap<TraceEntryId, Datum>,
-    /// What components started with, by port.
+    /// The inputs of components at their start, by port.
     inputs: BTreeMap<ComponentId, (Instant, BTreeMap<String, Datum>)>,
-    /// The last event that a supervisor reported, and when.
+    /// Each supervisor's last event and its time.
     reports: BTreeMap<ComponentId, (Instant, String)>,
-    /// Deadlines that a supervisor missed, and the last of them.
+    /// Each supervisor's number of missed deadlines, and the last one.
     misses: BTreeMap<ComponentId, (u64, Miss)>,
-    /// When each state was reached, and each event taken by its own edge, last.
+    /// The last time of each state, and of each event by its own edge.
     reached: BTreeMap<(ComponentId, Outcome), Instant>,
-    /// When each event was taken last to which an element reacts by itself: element, supervisor, event.
+    /// The last time of each event with a reaction of the element: element, supervisor, event.
     reacted: BTreeMap<(ComponentId, ComponentId, Outcome), Instant>,
-    /// The last edge that was taken in each plan.
+    /// The last edge taken in each plan.
     taken: BTreeMap<ComponentId, Taken>,
-    /// The edge by which each element became active last; none where its plan began with it.
+    /// The edge of each element's last start; `None` for the start of its plan.
     causes: BTreeMap<ComponentId, Option<Taken>>,
-    /// When each element became active last.
+    /// The time of each element's last start.
     since: BTreeMap<ComponentId, Instant>,
-    /// How the plan ended, and in words why where that is `Error`.
+    /// How the plan ended, with the reason for `Error`.
     ended: Option<(EndingKind, String)>,
-    /// The edge by which it ended.
+    /// The last edge of the plan.
     ended_by: Option<Taken>,
 }
 
 /// An edge that was taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taken {
-    /// The component that led along it.
     pub by: ComponentId,
     pub outcome: String,
     pub target: String,
-    /// In the words of the trace.
     pub text: String,
     at: Instant,
 }
 
 impl State {
-    /// Takes in the next event.
     pub fn apply(&mut self, event: &RunEvent, program: &Program) {
         let id = event.component.id;
         self.follow(event, program);
@@ -74,7 +72,7 @@ impl State {
                 *at = event.at;
                 ports.insert(port.clone(), value.clone());
             }
-            // What saw nothing leaves what was seen last.
+            // A poll without a report keeps the last report.
             EventKind::Polled(Ok(None)) => {}
             EventKind::Polled(Ok(Some(reported))) => {
                 self.reports.insert(id, (event.at, reported.name.clone()));
@@ -98,11 +96,11 @@ impl State {
         }
     }
 
-    /// Keeps in mind by which edges elements become active.
+    /// Records the edges by which elements become active.
     fn follow(&mut self, event: &RunEvent, program: &Program) {
         let by = event.component.id;
         let (outcome, element) = match &event.kind {
-            // The event that diverts a start was heard before, as were computations behind it.
+            // The event that diverts a start came earlier, and so did the computations after it.
             EventKind::Finished(state) => (state.clone(), None),
             EventKind::Event(EventAt { event, element, .. }) => (event.clone(), Some(element.id)),
             EventKind::Faulted(_) => {
@@ -113,7 +111,7 @@ impl State {
             _ => return,
         };
         if program.unit(by).is_some_and(|unit| unit.kind == ComponentKind::Computation) {
-            // It is done at once, without a start.
+            // It is done at once, without a start event.
             self.begin(by, event.at, program);
         }
         let NamedOutcome { name, outcome, target } = outcome;
@@ -131,7 +129,7 @@ impl State {
         }
     }
 
-    /// Keeps in mind why an element becomes active.
+    /// Records why an element becomes active.
     fn begin(&mut self, id: ComponentId, at: Instant, program: &Program) {
         let unit = program.unit(id).filter(|unit| unit.kind != ComponentKind::Supervisor);
         let Some(unit) = unit else { return };
@@ -153,7 +151,7 @@ impl State {
         }
     }
 
-    /// An element is not active any more, and nothing inside it.
+    /// Ends an element and everything inside it.
     fn leave(&mut self, id: ComponentId, program: &Program) {
         let Some(unit) = program.unit(id) else { return };
         if self.active.get(&unit.plan) == Some(&id) {
@@ -164,7 +162,7 @@ impl State {
         self.watching.retain(|supervisor, _| owner(supervisor) != Some(id));
     }
 
-    /// Nothing in a plan goes on.
+    /// Ends everything in a plan.
     fn close(&mut self, plan: ComponentId, program: &Program) {
         let inner = self.active.remove(&plan);
         let of = |supervisor: &ComponentId| program.unit(*supervisor).map(|it| it.plan);
@@ -172,13 +170,13 @@ impl State {
         inner.into_iter().for_each(|inner| self.close(inner, program));
     }
 
-    /// The active element of each nested plan, the outermost first.
+    /// The active element of each nested plan, outermost first.
     pub fn stack(&self) -> Vec<ComponentId> {
         let next = |plan: &ComponentId| self.active.get(plan).copied();
         std::iter::successors(next(&ComponentId(0)), next).collect()
     }
 
-    /// The supervisors that watch, by number.
+    /// The watching supervisors, by number.
     pub fn watching(&self) -> impl Iterator<Item = ComponentId> + '_ {
         self.watching.keys().copied()
     }
@@ -188,35 +186,35 @@ impl State {
         self.active.get(&plan).copied()
     }
 
-    /// When a supervisor that is asked so often is asked next: the grid begins where it began to watch.
+    /// The next poll of a supervisor with a period; the grid begins with its watch.
     pub fn next_release(&self, id: ComponentId, every: Duration, now: Instant) -> Option<Instant> {
         let since = *self.watching.get(&id)?;
         let every = every.max(Duration::from_nanos(1));
         Some(since + every * ((now - since).periods(every) + 1))
     }
 
-    /// The value of an entry; none before it was written.
+    /// The value of an entry; `None` before the first write.
     pub fn entry(&self, id: TraceEntryId) -> Option<&Datum> {
         self.entries.get(&id)
     }
 
-    /// What a component started with, by port.
+    /// The inputs of a component at its start, by port.
     pub fn inputs(&self, id: ComponentId) -> impl Iterator<Item = (&str, &Datum)> {
         let ports = self.inputs.get(&id).into_iter().flat_map(|(_, ports)| ports);
         ports.map(|(name, value)| (&**name, value))
     }
 
-    /// The last event that a supervisor reported, and when.
+    /// The last event of a supervisor, and its time.
     pub fn report(&self, id: ComponentId) -> Option<(Instant, &str)> {
         self.reports.get(&id).map(|(at, event)| (*at, &**event))
     }
 
-    /// How many deadlines a supervisor missed, and the last of them.
+    /// The missed deadlines of a supervisor, and the last one.
     pub fn misses(&self, id: ComponentId) -> Option<(u64, Miss)> {
         self.misses.get(&id).copied()
     }
 
-    /// When an event was taken last to which an element reacts by itself.
+    /// The last time of an event with a reaction of the element.
     pub fn reacted(
         &self,
         element: ComponentId,
@@ -226,28 +224,28 @@ impl State {
         self.reacted.get(&(element, supervisor, event)).copied()
     }
 
-    /// When a state was reached, or an event taken by its own edge, last.
+    /// The last time of a state, or of an event by its own edge.
     pub fn reached(&self, id: ComponentId, outcome: Outcome) -> Option<Instant> {
         self.reached.get(&(id, outcome)).copied()
     }
 
-    /// When a component started last, and the edge that led to it; none where its plan began with it.
+    /// The last start of a component, and its edge; no edge for the start of its plan.
     pub fn cause(&self, id: ComponentId) -> Option<(Instant, Option<&Taken>)> {
         let since = *self.since.get(&id)?;
         Some((since, self.causes.get(&id)?.as_ref()))
     }
 
-    /// Whether an element is active, a supervisor watches.
+    /// Whether an element is active or a supervisor watches.
     pub fn is_on(&self, id: ComponentId) -> bool {
         self.watching.contains_key(&id) || self.active.values().any(|active| *active == id)
     }
 
-    /// The edge by which the plan ended; none where it was made to end.
+    /// The last edge of the plan; `None` if it was stopped.
     pub fn ended_by(&self) -> Option<&Taken> {
         self.ended_by.as_ref()
     }
 
-    /// How the plan ended, and in words why where that is `Error`.
+    /// How the plan ended, with the reason for `Error`.
     pub fn ended(&self) -> Option<(EndingKind, &str)> {
         self.ended.as_ref().map(|(ending, why)| (*ending, &**why))
     }

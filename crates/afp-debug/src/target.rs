@@ -1,4 +1,4 @@
-//! The interface between the adapter and a run: inspect it, let it go on, change it.
+//! The interface between the adapter and a run: inspect, advance and change it.
 
 use std::sync::Arc;
 
@@ -12,159 +12,156 @@ use crate::sensed::Sensed;
 use crate::state::State;
 use crate::text::Line;
 
-/// A plan that runs, or that ran.
+/// A running or recorded plan.
 pub trait Target {
     fn program(&self) -> &Arc<Program>;
 
-    /// What is the case.
     fn state(&self) -> &State;
 
     fn now(&self) -> Instant;
 
-    /// How many steps the scheduler has made.
+    /// The number of scheduler steps so far.
     fn steps(&self) -> u64;
 
-    /// Whether all of it is over, so that it can be looked at and not changed.
+    /// Whether the run is a recording, which cannot change.
     fn is_recorded(&self) -> bool {
         false
     }
 
-    /// What is strange about the run, to be said before it begins.
+    /// Warnings to show before the run.
     fn warnings(&self) -> &[String] {
         &[]
     }
 
-    /// Whether going back begins at a copy of the run; else it begins at the start.
+    /// Whether going back starts at a copy of the run, and not at its beginning.
     fn is_kept(&self) -> bool {
         true
     }
 
-    /// Lets time pass up to the next instant at which something is done, but not beyond `limit`, and tells what
-    /// happened, in order, with what is the case then.
+    /// Advances to the next instant with activity, but not beyond `limit`, and reports the events
+    /// in order, each with its state.
     ///
     /// # Errors
-    /// The plan cannot start: why, and what to do.
+    /// The reason and an action if the plan cannot start.
     fn advance(
         &mut self,
         limit: Instant,
         report: &mut dyn FnMut(&Happened, &State),
     ) -> Result<Advance, String>;
 
-    /// Goes back or ahead: what was asked for in the meantime is done again, and the trace is the same.
+    /// Goes back or ahead. Requests in between are repeated, and the trace is the same.
     ///
     /// # Errors
-    /// It cannot be done: why.
+    /// The reason.
     fn seek(&mut self, to: Position) -> Result<(), String>;
 
-    /// What was the case after all that was done up to an instant that is over; the run stays where it is.
+    /// Returns the state after an earlier instant; the run keeps its position.
     ///
     /// # Errors
-    /// It cannot be told: why.
+    /// The reason.
     fn past(&mut self, at: Instant) -> Result<State, String>;
 
-    /// What the robot touches, empty where only that it touches something is known; none where it touches nothing, or
-    /// does not signal that.
+    /// The object that the robot touches. An empty string means an unknown object; `None` means no
+    /// contact, or no such signal.
     fn contact(&self) -> Option<String> {
         None
     }
 
-    /// Where the robot is, for pictures; none where it does not signal that.
+    /// The robot's pose for pictures; `None` if it has no such signal.
     fn pose(&self) -> Option<Pose2> {
         None
     }
 
-    /// Outlines of what moves in the robot's world, by the ids of a scene; none where the robot does not signal that.
+    /// Outlines of moving things, by the ids of a scene; `None` without such a signal.
     fn moving(&self) -> Vec<(String, Vec<[f64; 2]>)> {
         Vec::new()
     }
 
-    /// What the robot's signals say now that a plan may know, in the order of its devices, without pictures.
+    /// The current signals that a plan may use, in device order and without pictures.
     fn sensed(&self) -> Vec<Sensed> {
         Vec::new()
     }
 
-    /// The last picture of the robot's camera, where it has one: width, height, and a byte for each of red, green and blue.
+    /// The last camera picture: width, height, and a byte for each of red, green and blue.
     fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {
         None
     }
 
-    /// What the run came to so far; nothing where that is not known.
+    /// The figures of the run so far; empty if unknown.
     fn figures(&self) -> Figures {
         Figures::default()
     }
 
-    /// How many deadlines were missed so far.
+    /// The number of missed deadlines so far.
     fn misses(&self) -> u64 {
         0
     }
 
-    /// The hash of the trace so far, as `afpc run` gives it; none of a log.
+    /// The hash of the trace so far, as in `afpc run`; `None` for a log.
     fn trace(&self) -> Option<TraceHash> {
         None
     }
 
-    /// What came from outside so far, and what is to come, with the instants.
+    /// Past and future requests, with their instants.
     fn requests(&self) -> Vec<(Instant, Stimulus)> {
         Vec::new()
     }
 
-    /// Writes an entry of the outermost plan as people write it; gives the value.
+    /// Writes an entry of the outermost plan, given with its unit, and returns the value.
     ///
     /// # Errors
-    /// Why it cannot be written.
+    /// The reason.
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String>;
 
-    /// The devices of the robot.
     fn devices(&self) -> &'static [DeviceRow];
 
-    /// Asks for something so much later than now; gives the instant at which it comes, which is the next one where the
-    /// step of that is over. What was asked for later than now before a step back is forgotten.
+    /// Requests a stimulus after a delay and returns its instant. This is the next instant if the
+    /// current step is complete. A step back forgets later requests.
     ///
     /// # Errors
-    /// Why it cannot be.
+    /// The reason.
     fn ask(&mut self, later: Duration, request: Request) -> Result<Instant, String>;
 
-    /// Makes a component report a state or an event at its next poll.
+    /// Makes a component report a state or event at its next poll.
     ///
     /// # Errors
-    /// Why it cannot.
+    /// The reason.
     fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String>;
 
-    /// Makes the plan end here and now, and the robot stop.
+    /// Ends the plan now, and stops the robot.
     fn stop(&mut self, report: &mut dyn FnMut(&Happened, &State));
 }
 
-/// Something that happened.
+/// An event of a run.
 #[derive(Clone, Debug)]
 pub struct Happened {
     pub event: RunEvent,
-    /// The same as a line of the trace, without its time; empty for what comes from outside.
+    /// The trace line without its time; empty for a stimulus.
     pub text: String,
 }
 
 impl Happened {
-    /// Something that happened, with its line.
+    /// Makes an event with its trace line.
     pub fn new(event: RunEvent) -> Happened {
         let text = Line(&event).to_string();
         Happened { event, text }
     }
 }
 
-/// How far time has passed.
+/// How far time has advanced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Advance {
-    /// The run goes on.
+    /// The run continues.
     On,
     /// The limit has been reached.
     Limit,
     Ended,
 }
 
-/// Where a run can be taken to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Position {
-    /// Right after so many steps of the scheduler.
+    /// After so many scheduler steps.
     Step(u64),
-    /// After all that is done up to an instant.
+    /// After all activity up to an instant.
     At(Instant),
 }

@@ -1,14 +1,15 @@
-//! What happened as a line of the trace, from a run or from its log.
+//! Events as lines of the trace, from a run or its log.
 
 use std::fmt;
 
 use afp_core::trace::Cause;
 use afp_session::{Datum, EndingKind, EventKind, FaultText, Miss, NamedOutcome, RunEvent};
 
-/// An event as in the trace, without its time; nothing for what comes from outside, which no trace has.
+/// An event in trace format, without its time; empty for a stimulus, which a trace does not
+/// contain.
 pub(crate) struct Line<'a>(pub &'a RunEvent);
 
-/// The state or event, and where it leads.
+/// The state or event, and its target.
 fn outcome(outcome: &NamedOutcome) -> impl fmt::Display {
     fmt::from_fn(move |f| match &*outcome.target {
         "" => f.write_str(&outcome.name),
@@ -16,7 +17,6 @@ fn outcome(outcome: &NamedOutcome) -> impl fmt::Display {
     })
 }
 
-/// A value with its SI unit.
 fn value(value: &Datum, unit: &str) -> String {
     match value {
         Datum::Float(number) if !unit.is_empty() => format!("{number} {unit}"),

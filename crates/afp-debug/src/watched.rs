@@ -1,4 +1,4 @@
-//! Formulas that a client asks for, with their values now.
+//! Formulas in clients' requests, with their current values.
 
 use afp_core::Text;
 use afp_core::trace::{ComponentId, TraceEntryId};
@@ -11,23 +11,22 @@ use afp_session::Datum;
 use crate::program::Program;
 use crate::state::State;
 
-/// A formula inside a plan that runs.
+/// A formula inside a running plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Watched {
     watch: Watch,
-    /// The text as it was asked for.
     text: String,
-    /// The number of the first entry of the plan.
+    /// The number of the plan's first entry.
     first: u32,
-    /// The entry that the whole formula is.
+    /// The entry, if the formula is only an entry.
     entry: Option<TraceEntryId>,
 }
 
 impl Watched {
-    /// The formula that a text is inside a plan.
+    /// Parses a formula inside a plan.
     ///
     /// # Errors
-    /// What is wrong with it, and what to do.
+    /// The error and an action.
     pub fn new(program: &Program, plan: ComponentId, text: &str) -> Result<Watched, String> {
         let inside = program.plan_of(plan).ok_or("there is no such plan")?;
         let watch = Watch::new(&program.graph, inside, text).map_err(|why| why.to_string())?;
@@ -37,7 +36,7 @@ impl Watched {
         Ok(Watched { watch, text, first: first as u32, entry })
     }
 
-    /// The same, if it is true or false.
+    /// Parses a formula with the type bool.
     ///
     /// # Errors
     /// As [`Watched::new`].
@@ -49,7 +48,7 @@ impl Watched {
         }
     }
 
-    /// Its value; none while an entry in it has none.
+    /// Computes its value; `None` while one of its entries is unset.
     ///
     /// # Errors
     /// It cannot be computed.
@@ -62,18 +61,18 @@ impl Watched {
         self.watch.value(&entry).map_err(|why| format!("'{}' cannot be computed: {why}", self.text))
     }
 
-    /// Whether it is true; what has no value is not.
+    /// Whether it is true; an unset value counts as false.
     pub fn holds(&self, program: &Program, state: &State) -> bool {
         matches!(self.value(program, state), Ok(Some(Constant::Bool(true))))
     }
 
-    /// Its value as people write it.
+    /// Its value with a unit.
     ///
     /// # Errors
     /// It cannot be computed.
     pub fn shown(&self, program: &Program, state: &State) -> Result<String, String> {
         let Some(value) = self.value(program, state)? else {
-            // No formula knows the inside of an object; which one an entry holds is told as of entries.
+            // Formulas cannot read objects, so an entry with an object is shown like other entries.
             let object = self.entry.and_then(|entry| state.entry(entry));
             let object = object.filter(|held| matches!(held, Datum::Object(_)));
             return Ok(object.map_or("unset".to_owned(), |held| held.to_string()));
@@ -82,14 +81,13 @@ impl Watched {
         Ok(datum(value, self.watch.ty()).in_unit(&unit).to_string())
     }
 
-    /// The type of its value, as in the text.
+    /// The type of its value in source form.
     pub fn ty(&self) -> String {
         self.watch.ty().to_string()
     }
 }
 
 impl Program {
-    /// The declaration of an entry.
     fn graph_entry(&self, id: TraceEntryId) -> Option<&afp_dsl::graph::Entry> {
         let plan = self.entries.get(id.0 as usize)?.plan;
         let first = self.entries.iter().position(|entry| entry.plan == plan)?;
@@ -98,7 +96,7 @@ impl Program {
     }
 }
 
-/// A value as formulas have it; none for one that is unset or an object.
+/// A value for formulas; `None` if it is unset or an object.
 fn constant(value: &Datum, ty: &Type) -> Option<Constant> {
     let place = |name: String| {
         let (name, Type::Enum(choices)) = (name.rsplit('.').next()?, ty) else { return None };
@@ -108,7 +106,7 @@ fn constant(value: &Datum, ty: &Type) -> Option<Constant> {
     Some(value).filter(|value| *value != Constant::Unset)
 }
 
-/// A value as runs tell of it.
+/// A value in the format of runs.
 fn datum(value: Constant, ty: &Type) -> Datum {
     let name = |place| match ty {
         Type::Enum(choices) => {

@@ -1,7 +1,9 @@
-//! Talks with the adapter, as data: `tests/dap/*.txt` has a plan, what a client says and what it is told.
+//! Conversations with the adapter, as data: `tests/dap/*.txt` has a plan and the messages of
+//! clients and adapter.
 //!
-//! `--> COMMAND ARGUMENTS` is a request, `tick` lets the run go on until it stands still or ends, `tick 40` for so many
-//! milliseconds on the wall at once, `wait 400` in steps of 100 ms. The answers, `<--`, are written by the test with `AFP_BLESS=1`.
+//! `--> COMMAND ARGUMENTS` is a request. `tick` continues the run until it stops or ends, `tick 40`
+//! passes 40 ms of real time at once, and `wait 400` passes 400 ms in steps of 100 ms. With
+//! `AFP_BLESS=1` the test writes the answers, `<--`.
 
 mod common;
 
@@ -14,7 +16,6 @@ use afp_token::Token;
 
 use common::{Clients, Texted, compiled, session};
 
-/// A case with the answers that are given now.
 fn answered(case: &str) -> String {
     let (plan, talk) = case.split_once("\n---\n").expect("a plan, '---', a talk");
     let mut clients = Clients::new(Box::new(Texted(plan.to_owned())));
@@ -50,7 +51,7 @@ fn cases() -> Vec<PathBuf> {
 }
 
 #[test]
-fn clients_are_told_what_they_were() {
+fn every_case_has_its_answers() {
     let mut wrong = Vec::new();
     for path in cases() {
         let case = fs::read_to_string(&path).expect("a text");
@@ -68,7 +69,7 @@ fn clients_are_told_what_they_were() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A plan whose text is another one with each launch.
+/// A plan with a new text at each launch.
 struct Edited(Vec<String>);
 
 impl Host<'static> for Edited {
@@ -82,7 +83,7 @@ impl Host<'static> for Edited {
 }
 
 #[test]
-fn a_restart_finds_breakpoints_in_the_text_as_it_is_then() {
+fn a_restart_finds_breakpoints_in_the_new_text() {
     let plan = "use std
 plan P {
     start a
@@ -90,7 +91,7 @@ plan P {
     actor b: Wait(duration = 1 s) { Elapsed -> terminate }
 }
 ";
-    // A component more before those that there were, and one of another name.
+    // One more component before the old ones, and a renamed one.
     let more =
         plan.replace("start a\n", "start c\n    actor c: Wait(duration = 1 s) { Elapsed -> a }\n");
     let more = more.replace("Elapsed -> b", "Elapsed -> d").replace("actor b", "actor d");
@@ -125,7 +126,7 @@ plan P {
 }
 
 #[test]
-fn breakpoints_that_are_nowhere_for_a_while_are_found_again() {
+fn breakpoints_without_a_place_are_found_again() {
     let short = "use std
 plan P {
     start a
@@ -189,7 +190,7 @@ plan P {
 }
 
 #[test]
-fn breakpoints_of_another_program_do_not_hold_the_next_one() {
+fn breakpoints_of_one_program_do_not_stop_the_next() {
     let one = "use std
 plan P {
     start a
@@ -227,7 +228,7 @@ plan Q {
 }
 
 #[test]
-fn who_has_no_token_ends_no_run() {
+fn a_client_without_a_token_cannot_end_a_run() {
     let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
     let adapter = Adapter::guarded(Box::new(Texted(plan.to_owned())), &Token::from_word("open"), 2);
     let mut clients = Clients::of(adapter);
@@ -240,7 +241,7 @@ fn who_has_no_token_ends_no_run() {
     clients.say_as(3, r#"attach {"token":"open"}"#);
     clients.say_as(3, r#"disconnect {"terminateDebuggee":true}"#);
     assert!(clients.told.contains("<-- event terminated"), "{}", clients.told);
-    // Whoever is let in has a place until it goes, whether something runs or not.
+    // An admitted client keeps its place until it leaves, even without a run.
     clients.say_as(4, r#"attach {"token":"open"}"#);
     assert!(
         clients.told.contains("2 clients are there already: end one first"),
@@ -253,7 +254,7 @@ fn who_has_no_token_ends_no_run() {
 }
 
 #[test]
-fn a_run_is_held_where_edges_are_taken_without_time_passing() {
+fn a_run_stops_between_edges_of_one_instant() {
     let plan = "use std
 plan Spin {
     var left: int = 0
@@ -288,7 +289,7 @@ plan Spin {
     assert!(clients.told.contains("Spin ended in Error after 0.100 s"), "{}", clients.told);
 }
 
-/// Runs that may be copied, or not.
+/// Runs with or without copies.
 struct Copied(bool);
 
 impl Host<'static> for Copied {
@@ -309,7 +310,7 @@ impl Host<'static> for Copied {
 }
 
 #[test]
-fn a_run_that_cannot_be_copied_goes_back_from_the_start_and_says_so() {
+fn a_run_without_copies_goes_back_from_the_start() {
     let told = [true, false].map(|kept| {
         let mut clients = Clients::new(Box::new(Copied(kept)));
         clients.say(r#"launch {"program":"plan.afp"}"#);

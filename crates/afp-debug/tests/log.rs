@@ -1,4 +1,4 @@
-//! A log is debugged as the run was from which it comes.
+//! A log is debugged like its run.
 
 mod common;
 
@@ -24,7 +24,7 @@ impl Host<'static> for Recorded {
     }
 }
 
-/// Runs a plan for so many seconds with a log; the bumper may be pressed.
+/// Runs a plan for some seconds with a log; the bumper may be pressed.
 fn recorded(text: &str, name: &str, seconds: u64, press: Option<Duration>) -> LogData {
     let (graph, _) = compiled(text, name).expect("the plan is sound");
     let mut session = session(&graph, &Launch::default()).expect("a session");
@@ -58,7 +58,7 @@ const WORDS: [(u32, &str); 8] = [
     (16, "Elapsed"),
 ];
 
-/// What a client sees where a run stands still.
+/// A client's view of a stopped run.
 fn look(client: &mut Clients) -> String {
     client.told.clear();
     client.say("threads");
@@ -73,11 +73,11 @@ fn look(client: &mut Clients) -> String {
         let place = format!(r#""source":{{"path":"plan.afp"}},"line":{line}"#);
         client.say(&format!(r#"evaluate {{"expression":"{word}","context":"hover",{place}}}"#));
     }
-    // Only a run can be written to.
+    // Only a run can be changed.
     std::mem::take(&mut client.told)
 }
 
-/// The lines of what happened, by time.
+/// The lines of the events, by time.
 fn happened(told: &str) -> Vec<&str> {
     told.lines().filter(|line| line.contains(r#""category":"console""#)).collect()
 }
@@ -131,7 +131,7 @@ fn a_log_shows_what_its_run_showed() {
 }
 
 #[test]
-fn a_log_is_sought_through_and_cannot_be_changed() {
+fn a_log_can_be_searched_but_not_changed() {
     let log = recorded(SHIPPED, "plan.afp", 12, Some(Duration::from_secs(3)));
     let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
     past.say(r#"initialize {"adapterID":"afp"}"#);
@@ -159,7 +159,7 @@ fn a_log_is_sought_through_and_cannot_be_changed() {
         past.say(change);
         assert!(past.told.contains("refused"), "{}", past.told);
     }
-    // Wherever one comes from, an instant looks the same.
+    // An instant looks the same from every previous position.
     past.say(r#"afp/seek {"at":11.5}"#);
     past.tick(None);
     let late = look(&mut past);
@@ -186,9 +186,9 @@ fn a_log_is_sought_through_and_cannot_be_changed() {
 }
 
 #[test]
-fn a_deadline_that_was_missed_holds_a_log_where_that_is_wanted() {
+fn a_missed_deadline_stops_a_log_on_request() {
     let mut log = recorded(SHIPPED, "plan.afp", 5, None);
-    // Simulated supervisors are never late: it is made to seem so.
+    // Simulated supervisors are never late, so the test changes the times.
     let polled = |event: &RunEvent| {
         event.kind == EventKind::Started && event.component.path.ends_with(".touch")
     };
@@ -222,7 +222,7 @@ fn a_deadline_that_was_missed_holds_a_log_where_that_is_wanted() {
 }
 
 #[test]
-fn a_log_that_was_cut_short_says_so() {
+fn an_incomplete_log_is_reported() {
     let mut log = recorded(SHIPPED, "plan.afp", 5, None);
     log.events.truncate(40);
     let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
@@ -235,7 +235,7 @@ fn a_log_that_was_cut_short_says_so() {
 }
 
 #[test]
-fn events_out_of_order_are_told_in_theirs() {
+fn events_out_of_order_are_sorted() {
     let mut log = recorded(SHIPPED, "plan.afp", 5, None);
     let mut heard = Vec::new();
     for turned in [false, true] {
@@ -267,7 +267,7 @@ fn a_log_of_another_plan_is_refused() {
 }
 
 #[test]
-fn nothing_of_a_log_can_be_changed() {
+fn a_log_cannot_be_changed() {
     let log = recorded(SHIPPED, "plan.afp", 1, None);
     let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
     for fresh in [r#""seed":3"#, r#""until":3"#, r#""set":{"walldist":"3 cm"}"#] {

@@ -1,5 +1,4 @@
-//! Whatever several clients say to a run of the simulator, in whatever order: each request has one response, and nothing
-//! breaks.
+//! Any messages of several clients in any order: each request has one response, and nothing panics.
 
 mod common;
 
@@ -31,7 +30,7 @@ plan P {
 }
 ";
 
-/// Requests that mean something, each with arguments that may.
+/// Known requests, each with possibly valid arguments.
 fn requests() -> Vec<(&'static str, Value)> {
     let line = json!({ "source": { "path": "plan.afp" }, "line": 14 });
     let mut pointed = line.clone();
@@ -95,16 +94,14 @@ fn requests() -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// What happens next.
 #[derive(Clone, Debug)]
 enum Next {
-    /// A client asks.
+    /// A client sends a request.
     Ask(usize, usize),
-    /// A client answers.
     Answer(usize),
     /// Milliseconds pass.
     Pass(u64),
-    /// A client is gone; another one comes in its place.
+    /// A client leaves, and a new one joins.
     Leave(usize),
 }
 
@@ -117,12 +114,11 @@ fn next() -> impl Strategy<Value = Next> {
     ]
 }
 
-/// So many conversations by day; `AFP_BY_NIGHT` holds forty times as many.
+/// The number of cases by day; `AFP_BY_NIGHT` multiplies it by forty.
 fn cases() -> u32 {
     if std::env::var_os("AFP_BY_NIGHT").is_some() { 64 * 40 } else { 64 }
 }
 
-/// How many responses a client is told.
 fn responses(told: &[Outgoing], to: ClientId) -> usize {
     let is_response = |told: &&Outgoing| {
         let message: Value = serde_json::from_str(&told.message).expect("messages are JSON");

@@ -1,4 +1,4 @@
-//! What can be done about a place at once: fixes of diagnostics, and changes of meaning.
+//! Code actions: fixes of diagnostics, and changes of meaning.
 
 use crate::View;
 use crate::edit::{Change, TextEdit, edit_all, fresh_name};
@@ -6,30 +6,28 @@ use afp_dsl::outline::{Component, ComponentKind, Plan};
 use afp_syntax::diagnostics::Diagnostic;
 use afp_syntax::source::{Source, Span};
 
-/// Something that can be done.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Action {
-    /// What it does, as an order: lower case.
+    /// Its title, a lower-case imperative.
     pub title: String,
     pub kind: ActionKind,
-    /// What it mends: an index into the diagnostics of the compilation.
+    /// The diagnostic that it fixes: an index into those of the compilation.
     pub mends: Option<usize>,
     /// The edits; spans are in the files of the compilation.
     pub edits: Vec<TextEdit>,
 }
 
-/// What an [`Action`] is.
+/// The kind of an [`Action`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ActionKind {
-    /// It mends a diagnostic.
     Fix,
-    /// It makes a plan of elements.
+    /// Moves elements into a new plan.
     Extract,
-    /// It puts the elements of a plan in place of it.
+    /// Replaces a sub-plan by its elements.
     Inline,
 }
 
-/// Everything that can be done about a place, fixes first.
+/// Returns all actions at a place, fixes first.
 pub fn actions(view: &View, place: Span) -> Vec<Action> {
     let mut actions = fixes(view, place);
     let components = components_at(view, place);
@@ -43,7 +41,7 @@ pub fn actions(view: &View, place: Span) -> Vec<Action> {
     actions
 }
 
-/// The fix of each diagnostic that touches a place.
+/// Returns the fix of each diagnostic that touches a place.
 fn fixes(view: &View, place: Span) -> Vec<Action> {
     let touches = |diagnostic: &Diagnostic| {
         let span = diagnostic.span;
@@ -61,7 +59,7 @@ fn fixes(view: &View, place: Span) -> Vec<Action> {
     found.filter_map(fix).collect()
 }
 
-/// The elements and supervisors that cover the start of a place, the outermost first.
+/// The elements and supervisors that cover the start of a place, outermost first.
 fn components_at<'a>(view: &View<'a>, place: Span) -> Vec<&'a Component> {
     let start = place.before();
     let plan = view.plan_at(place.start);
@@ -69,8 +67,8 @@ fn components_at<'a>(view: &View<'a>, place: Span) -> Vec<&'a Component> {
     all.filter(|component| component.span.contains(start)).collect()
 }
 
-/// Lets the exits that lead nowhere end the plan, those of a supervisor be ignored: whoever wants
-/// something else has their lines to change.
+/// Connects open exits to the end of the plan and ignores open events. The user can then edit these
+/// lines.
 fn missing_exits(view: &View, component: &Component) -> Option<Action> {
     let missing = component.exits.iter().filter(|exit| exit.required && exit.edge.is_none());
     let missing: Vec<_> = missing.map(|exit| exit.name.to_string()).collect();
@@ -94,7 +92,8 @@ fn missing_exits(view: &View, component: &Component) -> Option<Action> {
     Some(Action { title, kind: ActionKind::Fix, mends, edits })
 }
 
-/// Makes a plan of the elements that a selection touches, of several or of all of one.
+/// Moves the elements of a selection into a new plan, if it touches several or contains a whole
+/// one.
 fn extract(view: &View, plan: &Plan, place: Span) -> Option<Action> {
     let touched =
         |element: &&Component| element.span.start < place.end && place.start < element.span.end;
@@ -128,7 +127,7 @@ fn inline(view: &View, component: &Component) -> Option<Action> {
     Some(Action { title, kind: ActionKind::Inline, mends: None, edits })
 }
 
-/// The edits of changes of the file; `None` where they are refused or change nothing.
+/// Returns the edits of changes to the file; `None` if they are refused or change nothing.
 fn made(view: &View, changes: &[Change]) -> Option<Vec<TextEdit>> {
     let first = view.compiled.plan_files.start;
     let home = usize::from(view.file).checked_sub(first)?;

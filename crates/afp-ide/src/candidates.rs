@@ -1,4 +1,4 @@
-//! What an exit can lead to and what a port can be bound to.
+//! Candidates for an exit's target and for a port's binding.
 
 use crate::View;
 use crate::describe::{bound, units};
@@ -10,39 +10,37 @@ use afp_syntax::item::Item;
 use afp_syntax::literal::Literal;
 use serde::Serialize;
 
-/// Something that can stand there, or that cannot.
+/// A candidate, valid or not.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Candidate {
     pub text: String,
-    /// Why it does not fit; `None` where it does.
+    /// The reason if it does not fit.
     pub refused: Option<String>,
 }
 
-/// What a port can be bound to.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PortCandidates {
-    /// Entries, and values where there are few, those that fit first.
+    /// Entries, and values of small types; fitting ones come first.
     #[serde(rename = "candidates")]
     pub list: Vec<Candidate>,
     #[serde(rename = "type")]
     pub ty: String,
-    /// What it is bound to.
+    /// The current binding.
     pub value: Option<String>,
-    /// Its value where it is not bound.
+    /// The value of an unbound port.
     pub default: Option<String>,
-    /// Least and greatest value.
+    /// Minimum and maximum.
     pub range: Option<(String, String)>,
-    /// A step of the value that does something visible: a round number in [`PortCandidates::unit`].
+    /// A step with a visible effect: a round number in [`PortCandidates::unit`].
     pub step: Option<f64>,
-    /// The unit in which people write it; empty for a plain number.
+    /// The usual unit; empty for a plain number.
     pub unit: String,
-    /// All units that it can be written in.
     pub units: Vec<String>,
-    /// The SI value of one of each of these units.
+    /// The SI value of each of these units.
     pub scales: Vec<f64>,
 }
 
-/// Where a state or event can lead; `None` where there is no such component or exit.
+/// Returns the targets of a state or event; `None` without such a component or exit.
 pub fn of_exit(view: &View, item: &Item, outcome: &str) -> Option<Vec<Candidate>> {
     let (plan, component) = component(view, item)?;
     let exit = component.exits.iter().find(|exit| *exit.name == *outcome);
@@ -57,7 +55,7 @@ pub fn of_exit(view: &View, item: &Item, outcome: &str) -> Option<Vec<Candidate>
     Some(list)
 }
 
-/// Exits that every component has and that stand in the outline only once they are connected.
+/// Exits of every component, which the outline lists only if they are connected.
 fn of_word(outcome: &str) -> Option<ExitKind> {
     match outcome {
         "Error" => Some(ExitKind::Error),
@@ -66,7 +64,7 @@ fn of_word(outcome: &str) -> Option<ExitKind> {
     }
 }
 
-/// What a port can be bound to; `None` where there is no such component or port.
+/// Returns the candidates for a port; `None` without such a component or port.
 pub fn of_port(view: &View, item: &Item, port: &str) -> Option<PortCandidates> {
     let (plan, component) = component(view, item)?;
     if let Some(input) = component.inputs.iter().find(|input| *input.name == *port) {
@@ -99,7 +97,7 @@ fn component<'a>(
     Some((plan, plan.component(item)?))
 }
 
-/// Why a value of one type is none of another; `None` where it is, or where one is unknown.
+/// The reason why a type does not fit another one; `None` if it fits, or if one is unknown.
 fn differs(own: Option<&Type>, wanted: Option<&Type>) -> Option<String> {
     let (own, wanted) = (own?, wanted?);
     let fits = match (own, wanted) {
@@ -147,13 +145,14 @@ fn of_input(entries: &[Entry], input: &Input) -> PortCandidates {
     }
 }
 
-/// The SI value of one of a unit.
+/// The SI value of a unit.
 fn worth(unit: &str) -> f64 {
     let one = Literal::parse(&format!("1 {unit}")).and_then(|literal| literal.value());
     one.filter(|one| *one > 0.0).unwrap_or(1.0)
 }
 
-/// About a tenth of the default, at most a hundredth of the range, as 1, 2 or 5 of a power of ten.
+/// About a tenth of the default, at most a hundredth of the range, rounded to 1, 2 or 5 times a
+/// power of ten.
 fn step(input: &Input, unit: &str) -> Option<f64> {
     use afp_dsl::toolbox::Constant;
 
@@ -176,7 +175,7 @@ fn step(input: &Input, unit: &str) -> Option<f64> {
     Some(round(about / one))
 }
 
-/// The greatest 1, 2 or 5 of a power of ten that is not above a positive number.
+/// Rounds a positive number down to 1, 2 or 5 times a power of ten.
 fn round(value: f64) -> f64 {
     let mut power = 1.0;
     while power * 10.0 <= value {
@@ -186,7 +185,7 @@ fn round(value: f64) -> f64 {
         power /= 10.0;
     }
     let least = [5.0, 2.0].into_iter().find(|digit| digit * power <= value);
-    // A quotient of powers of ten has no digits of its own.
+    // A quotient of powers of ten adds no digits.
     let step = least.unwrap_or(1.0) * power;
     (step * 1e9).round() / 1e9
 }

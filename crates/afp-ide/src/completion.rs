@@ -1,7 +1,7 @@
-//! What can be written at a place, best first.
+//! Completions at a place, best first.
 //!
-//! Where the place is in the grammar is asked of the tree, see `context`; what can stand there is
-//! asked of index and outline, so that whatever the check understands is offered.
+//! The syntax tree gives the grammatical context, see `context`. Index and outline give the
+//! candidates, so that every valid name is offered.
 
 pub(crate) mod bodies;
 mod context;
@@ -22,42 +22,38 @@ use afp_syntax::source::Span;
 pub use bodies::{Piece, plain};
 use context::{Context, Place};
 
-/// Something that can be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// Under which name it is offered and found.
+    /// The name in the list, also used for filtering.
     pub label: String,
     pub kind: CompletionKind,
-    /// How it is declared, in one line; may be empty.
+    /// Its declaration in one line, or an empty string.
     pub detail: String,
     pub doc: String,
-    /// What is written in place of [`Completion::replaces`], with holes to fill.
+    /// The text for [`Completion::replaces`], with placeholders.
     pub insert: Vec<Piece>,
-    /// The word that it takes the place of.
     pub replaces: Span,
-    /// Edits elsewhere in the file that it needs: a `use` line.
+    /// Additional edits in the file: a `use` line.
     pub with: Vec<TextEdit>,
-    /// Less is better.
+    /// The sort order; lower is better.
     pub rank: u8,
 }
 
-/// What a [`Completion`] is.
+/// The kind of a [`Completion`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CompletionKind {
-    /// A word of the grammar.
     Keyword,
-    /// Something that is declared.
+    /// A declared name.
     Definition(DefinitionKind),
     /// A built-in type.
     Type,
     Unit,
     /// A literal.
     Value,
-    /// A function of the language.
     Function,
 }
 
-/// Everything that can be written at a byte, best first; the word that ends there is taken as begun.
+/// Returns all completions at a byte offset, best first; a word that ends there counts as a prefix.
 pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
     let context = Context::at(view, offset);
     let mut list = List { view, replaces: context.word, all: Vec::new(), uses: BTreeMap::new() };
@@ -112,22 +108,21 @@ struct List<'v, 'a> {
     view: &'v View<'a>,
     replaces: Span,
     all: Vec<Completion>,
-    /// The edits that bring toolboxes into view, by toolbox: each reads the whole file.
+    /// The edits that import toolboxes, by toolbox; each needs the whole file.
     uses: BTreeMap<String, Option<TextEdit>>,
 }
 
 impl List<'_, '_> {
-    /// Adds a word of the grammar with what is written behind it.
+    /// Adds a keyword and the text after it.
     fn keyword(&mut self, label: &str, insert: Vec<Piece>, rank: u8) {
         self.add(label, CompletionKind::Keyword, insert, rank);
     }
 
-    /// Adds words of the grammar as they are.
     fn keywords(&mut self, words: &[&str], rank: u8) {
         words.iter().for_each(|word| self.keyword(word, plain(&format!("{word} ")), rank));
     }
 
-    /// Adds words that nothing follows.
+    /// Adds keywords without a following space.
     fn keywords_alone(&mut self, words: &[&str], rank: u8) {
         words.iter().for_each(|word| self.keyword(word, plain(word), rank));
     }
@@ -149,13 +144,13 @@ impl List<'_, '_> {
         ids.into_iter().for_each(|id| self.definition(id, rank));
     }
 
-    /// Adds something declared by its name.
+    /// Adds a declared name.
     fn definition(&mut self, id: DefinitionId, rank: u8) {
         let name = self.view.name_of(id).to_owned();
         self.definition_as(id, &name, plain(&name), rank);
     }
 
-    /// Adds something declared, written as said.
+    /// Adds a declared name with a label and a text.
     fn definition_as(&mut self, id: DefinitionId, label: &str, insert: Vec<Piece>, rank: u8) {
         let definition = self.view.index().definition(id);
         self.all.push(Completion {

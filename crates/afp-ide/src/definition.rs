@@ -1,4 +1,4 @@
-//! Where what a name means is declared, and what it is made from.
+//! The declaration and the template of a name.
 
 use crate::View;
 use afp_dsl::index::{DefinitionId, DefinitionKind, Meaning};
@@ -7,22 +7,21 @@ use afp_syntax::source::Span;
 /// A declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// Its name; of a whole file its first byte.
+    /// Its name; for a whole file, its first byte.
     pub name: Span,
-    /// The whole of it.
     pub span: Span,
 }
 
-/// A name and where it leads.
+/// A name and its declarations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definitions {
-    /// The name that was asked about.
+    /// The name at the cursor.
     pub origin: Span,
-    /// Where it is declared; several places where it is ambiguous, or stands for an entry and its port.
+    /// The declarations: several for an ambiguous name, or for an entry and its port.
     pub targets: Vec<Target>,
 }
 
-/// Where the name at a byte is declared; `None` where no name stands or nothing is known of it.
+/// Returns the declaration of the name at a byte offset; `None` without a known name.
 pub fn definition(view: &View, offset: u32) -> Option<Definitions> {
     let name = view.name_at(offset)?;
     let targets = match name.meaning {
@@ -39,8 +38,8 @@ pub fn definition(view: &View, offset: u32) -> Option<Definitions> {
     Some(Definitions { origin: name.span, targets })
 }
 
-/// What the name at a byte is made from: the template of an element, the enum of an entry, the plan of
-/// a scenario.
+/// Returns the template or type of the name at a byte offset: of an element, an entry or a
+/// scenario.
 pub fn type_definition(view: &View, offset: u32) -> Option<Definitions> {
     let name = view.name_at(offset)?;
     let made = view.index().definition(name.meaning.definition()?).made_from?;
@@ -50,7 +49,7 @@ pub fn type_definition(view: &View, offset: u32) -> Option<Definitions> {
 fn target(view: &View, id: DefinitionId) -> Target {
     let definition = view.index().definition(id);
     match (definition.kind, definition.made_from) {
-        // Who follows a short name means the toolbox.
+        // The target of an alias is the toolbox.
         (DefinitionKind::Alias, Some(toolbox)) => target(view, toolbox),
         _ => Target { name: definition.name, span: definition.span },
     }

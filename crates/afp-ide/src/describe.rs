@@ -1,4 +1,4 @@
-//! What something is, in one line, as it would be declared.
+//! Definitions as one-line declarations.
 
 use crate::View;
 use afp_dsl::index::{Definition, DefinitionId, DefinitionKind, Meaning, Word};
@@ -41,14 +41,12 @@ pub(crate) fn declaration(view: &View, id: DefinitionId) -> String {
     }
 }
 
-/// The entry of the outline that a definition is.
 pub(crate) fn entry<'a>(view: &View<'a>, definition: &Definition) -> Option<&'a Entry> {
     let plans = view.outline().plans.iter();
     let mut entries = plans.flat_map(|plan| &plan.entries);
     entries.find(|entry| entry.span == definition.span)
 }
 
-/// The component of the outline that a definition is.
 pub(crate) fn component<'a>(view: &View<'a>, definition: &Definition) -> Option<&'a Component> {
     let plans = view.outline().plans.iter();
     let mut all = plans.flat_map(|plan| plan.components());
@@ -67,26 +65,25 @@ fn table(view: &View, definition: &Definition, name: &str) -> String {
 
 fn entry_line(view: &View, entry: &Entry) -> String {
     let mut line = head(&one_line(view.text_of(entry.span)));
-    // A type that only the value says is worth telling.
+    // Only an inferred type is worth adding.
     if let (None, Some(ty), Some(name)) = (&entry.written_type, &entry.ty, &entry.name) {
         line = line.replacen(&name.text, &format!("{}: {ty}", name.text), 1);
     }
     line
 }
 
-/// What stands before a body.
+/// The part before a body.
 fn head(line: &str) -> String {
     line.split('{').next().unwrap_or_default().trim_end().to_owned()
 }
 
-/// A text in one line: what separates its words becomes a blank, comments go.
+/// A text in one line, with single spaces and without comments.
 pub(crate) fn one_line(text: &str) -> String {
     let solid = text.lines().map(|line| line.split("//").next().unwrap_or_default());
     let words: Vec<_> = solid.flat_map(str::split_whitespace).collect();
     words.join(" ")
 }
 
-/// The word that declares a template.
 pub(crate) fn template_keyword(kind: TemplateKind) -> &'static str {
     match kind {
         TemplateKind::Actor => "actor",
@@ -95,7 +92,6 @@ pub(crate) fn template_keyword(kind: TemplateKind) -> &'static str {
     }
 }
 
-/// The kind of component that a template makes.
 pub(crate) fn component_kind(kind: TemplateKind) -> ComponentKind {
     match kind {
         TemplateKind::Actor => ComponentKind::Actor,
@@ -113,7 +109,7 @@ pub(crate) fn units(dimension: Dimension) -> Vec<String> {
     usual.iter().cloned().chain(others.map(str::to_owned)).collect()
 }
 
-/// A bound in the spelling of literals.
+/// A bound as a literal.
 pub(crate) fn bound(value: f64, ty: Option<&Type>) -> String {
     match ty {
         Some(Type::Quantity(dimension)) => quantity(value, *dimension),
@@ -121,7 +117,7 @@ pub(crate) fn bound(value: f64, ty: Option<&Type>) -> String {
     }
 }
 
-/// What a name means that needs no declaration.
+/// The description of a built-in name.
 pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
     let Meaning::Word(word) = meaning else { return None };
     Some(match word {

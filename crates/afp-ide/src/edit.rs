@@ -1,10 +1,9 @@
-//! Changes of meaning as changes of text, for the editor and for code actions.
+//! Changes of meaning as text edits, for the drawing and for code actions.
 //!
-//! Every change comes to the smallest edits of the text: what it does not mean stays byte for byte,
-//! with its comments, blank lines and order. Comments above an item up to a blank line and the
-//! comment behind it go where the item goes. The text may have errors elsewhere; only the items
-//! that a change touches must be whole. Plans may use plans of other files: a change then comes to
-//! edits of several files.
+//! Every change gives the smallest edits. All other text keeps its bytes, comments, blank lines and
+//! order. An item moves with the comments above it, up to a blank line, and the comment after it.
+//! The text may have errors elsewhere, but the changed items must be valid. If plans use plans of
+//! other files, a change can edit several files.
 
 mod add;
 mod buffer;
@@ -51,7 +50,6 @@ pub use refused::Refused;
 pub use several::{Given, Made, edit_all};
 pub use wire::{item, path};
 
-/// What a port is bound to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Binding {
@@ -61,53 +59,52 @@ pub enum Binding {
     Out(String),
 }
 
-/// A change of meaning. Fragments of text are checked before anything is changed.
+/// A change of meaning. Its fragments of text are checked first.
 ///
-/// In messages each is an object under its name in camel case, with items as paths:
-/// `{"connect": {"from": "Patrol.go", "outcome": "ForwardSuccessful", "to": "turn"}}`.
+/// In messages each is an object with its name in camel case, and items are paths: `{"connect":
+/// {"from": "Patrol.go", "outcome": "ForwardSuccessful", "to": "turn"}}`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", rename_all_fields = "camelCase", deny_unknown_fields)]
 pub enum Change {
     /// Adds `use toolbox as alias` below the other `use` lines.
     AddUse {
-        /// The toolbox, or the path of another plan file in quotes.
+        /// The toolbox, or the path of a different plan file in quotes.
         toolbox: String,
-        /// Its short name.
         alias: Option<String>,
     },
-    /// Adds plans, given as text, below the last plan.
+    /// Adds plans, given as text, after the last plan.
     AddPlan {
         /// The text of one or more plans.
         text: String,
     },
     /// Adds entries, elements or supervisors, given as text.
     Add {
-        /// The plan that they are put into.
+        /// The new plan of the items.
         plan: String,
-        /// The element that they belong to; supervisors only.
+        /// The element, for supervisors.
         owner: Option<String>,
         /// The text of one or more items.
         text: String,
-        /// The item above which they stand; without one they go below their like.
+        /// The next item; by default items follow the last item of their kind.
         before: Option<String>,
     },
-    /// Removes an item with its comments. With an element go the edges to it and a `start` that
-    /// names it, with an entry the outputs that are bound to it.
+    /// Removes an item and its comments. Removing an element also removes edges and a `start` to
+    /// it. Removing an entry also removes the outputs bound to it.
     Remove {
         #[serde(with = "wire")]
         item: Item,
     },
-    /// Gives an item another name wherever the files refer to it, scenarios included.
+    /// Renames an item in all files, including scenarios.
     Rename {
         #[serde(with = "wire")]
         item: Item,
         to: String,
     },
-    /// Gives a column of a table another name wherever the files bind it.
+    /// Renames a column of a table and its bindings in all files.
     RenameColumn { table: String, column: String, to: String },
-    /// Gives a value of an enum another name wherever the files refer to it.
+    /// Renames a value of an enum in all files.
     RenameValue { enumeration: String, value: String, to: String },
-    /// Connects a state or event, or leads its edge elsewhere.
+    /// Connects a state or event, or changes its target.
     Connect {
         #[serde(with = "wire")]
         from: Item,
@@ -122,21 +119,19 @@ pub enum Change {
         from: Item,
         outcome: String,
     },
-    /// Lets the plan start with an element.
+    /// Sets the first element of a plan.
     SetStart { plan: String, to: String },
-    /// Moves an item above another one of its list, or below its like.
+    /// Moves an item before another one of its list, or after the last of its kind.
     Reorder {
         #[serde(with = "wire")]
         item: Item,
-        /// The item that it shall stand above.
+        /// The next item.
         before: Option<String>,
     },
-    /// Binds a port, or changes what it is bound to.
     Bind {
         #[serde(with = "wire")]
         component: Item,
         port: String,
-        /// What it is bound to.
         to: Binding,
     },
     /// Removes the binding of a port.
@@ -145,14 +140,14 @@ pub enum Change {
         component: Item,
         port: String,
     },
-    /// Makes an element or supervisor from another template; bindings and edges stay.
+    /// Changes the template of an element or supervisor and keeps bindings and edges.
     SetTemplate {
         #[serde(with = "wire")]
         component: Item,
         /// `Name` or `home.Name`
         template: String,
     },
-    /// Sets, or without a value removes, `every` or `deadline` of a supervisor.
+    /// Sets `every` or `deadline` of a supervisor; without a value removes it.
     SetTiming {
         #[serde(with = "wire")]
         supervisor: Item,
@@ -167,7 +162,6 @@ pub enum Change {
         entry: Item,
         keyword: String,
     },
-    /// Sets or removes the type of an entry.
     SetEntryType {
         #[serde(with = "wire")]
         entry: Item,
@@ -183,41 +177,39 @@ pub enum Change {
     SetDoc {
         #[serde(with = "wire")]
         item: Item,
-        /// Its lines, without the slashes; empty for none.
+        /// Its lines without slashes; empty to remove it.
         text: String,
     },
     /// Sets or removes the `//` lines above an item.
     SetNote {
         #[serde(with = "wire")]
         item: Item,
-        /// Its lines, without the slashes; empty for none.
+        /// Its lines without slashes; empty to remove them.
         text: String,
     },
     /// Moves an entry, element or supervisor to another plan, or a supervisor to another owner.
     ///
-    /// Edges whose target is not in the new plan, and edges of the old plan to what has moved, are
-    /// removed: their states and events are unconnected then.
+    /// Edges whose target is missing in the new plan are removed, and so are edges of the old plan
+    /// to a moved element. Their states and events become unconnected.
     Move {
         #[serde(with = "wire")]
         item: Item,
-        /// The plan that it is put into.
         plan: String,
-        /// The element that it belongs to from now on; supervisors only.
+        /// The new element, for supervisors.
         owner: Option<String>,
     },
-    /// Makes a plan of some elements and puts a sub-plan in their place.
+    /// Moves elements into a new plan and replaces them by a sub-plan.
     ///
-    /// What the elements write is visible outside when the sub-plan ends, no longer at once.
+    /// Values written by these elements become visible outside only when the sub-plan ends.
     Extract {
         plan: String,
         elements: Vec<String>,
-        /// The name of the new plan.
         new_plan: String,
         /// The name of the sub-plan in the old plan.
         element: String,
     },
-    /// Puts the elements of a sub-plan in its place; the plan that it was made from, which may stand
-    /// in another file, stays. What its elements name is brought into view with `use` lines.
+    /// Replaces a sub-plan by its elements. Its plan stays, and may be in a different file. New
+    /// `use` lines import the names of the elements.
     Inline {
         plan: String,
         /// The sub-plan.
@@ -226,7 +218,7 @@ pub enum Change {
 }
 
 impl Change {
-    /// Whether it may concern other files than its own: those that use that one, and what they see besides.
+    /// Whether it may affect other files: the users of its file, and the files that they use.
     pub fn concerns_others(&self) -> bool {
         matches!(
             self,
@@ -241,18 +233,16 @@ impl Change {
     }
 }
 
-/// The edits that make a change of the file `home`, file by file, in order and without overlaps.
+/// Returns the edits of a change of the file `home`, by file, in order and without overlaps.
 ///
-/// `files` are the files of the project, with paths under which they find each other; spans carry a
-/// file's place among them. `toolboxes` tell which ports are outputs. A rename edits every file that
-/// refers to the item, inlining takes plans of other files; other changes edit their own file alone,
-/// and are refused where another file names what they take away. A change that is already made needs
-/// no edits.
+/// `files` are the project's files, with paths relative to each other; a span contains the index of
+/// its file. `toolboxes` define which ports are outputs. A rename edits every referring file, and
+/// inlining reads plans of other files. All other changes edit only their own file, and are refused
+/// if another file needs a removed name. A change without an effect returns no edits.
 ///
 /// # Errors
-/// The change names what is not there, a fragment of text cannot be read, a name cannot be used, or
-/// the change would alter more than it says; the reason tells which. So does a `home` that is none of
-/// the files.
+/// A missing item, an invalid fragment, an unusable name, a change with side effects, or a `home`
+/// outside `files`; the reason names the problem.
 pub fn edit(
     files: &[Source],
     toolboxes: &Toolboxes,
@@ -281,7 +271,6 @@ fn begin(files: &[Source], toolboxes: Rc<Toolboxes>, home: usize) -> Result<Work
     }
 }
 
-/// The edits that a workspace has come to.
 fn end(workspace: Workspace, files: &[Source], errors: usize) -> Result<Vec<TextEdit>, Refused> {
     if workspace.syntax_errors() > errors {
         return Err(Refused::new("the text could not be read any more"));
@@ -290,16 +279,15 @@ fn end(workspace: Workspace, files: &[Source], errors: usize) -> Result<Vec<Text
     Ok(buffers.flat_map(|((file, source), buffer)| buffer.edits(source.text.len(), file)).collect())
 }
 
-/// A name that none of those taken is equal to, or differs from in case or `_` alone: the name itself,
-/// or with the least number behind it.
+/// Returns an unused name: the name itself, or with the lowest free number. Names that differ only
+/// in case or `_` count as equal.
 pub fn fresh_name(name: &str, taken: &[String]) -> String {
     name::fresh(name, taken)
 }
 
-/// The text after the edits of its file, which must be in order and without overlaps, as [`edit`]
-/// gives them.
+/// Returns a text after edits of its file, in order and without overlaps, as from [`edit`].
 ///
-/// Edits that do not fit the text are left out.
+/// Edits that do not fit the text are skipped.
 pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     let mut result = String::new();
     let mut at = 0;
@@ -315,7 +303,7 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     result + text.get(at..).unwrap_or_default()
 }
 
-/// The place of an item of a file with the comments that belong to it, as [`Change::Remove`] takes them out.
+/// The span of an item with its comments, as removed by [`Change::Remove`].
 pub fn with_comments(file: u16, text: &str, item: &Item) -> Option<Span> {
     let root = afp_syntax::parse(text, file, &mut Diagnostics::default()).root();
     tree::find(&root, item).ok().map(|node| buffer::span(file, tree::own_range(&node)))
@@ -343,7 +331,7 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
     inside(workspace.buffer(), change)
 }
 
-/// Makes a change that moves lines about: files that were in canonical form before it are so after it.
+/// Makes a change that moves lines, and keeps files in canonical form.
 fn in_form(
     workspace: &mut Workspace,
     change: impl FnOnce(&mut Workspace) -> Result<(), Refused>,
@@ -355,7 +343,7 @@ fn in_form(
     Ok(())
 }
 
-/// Makes a change that edits one file.
+/// Makes a change of one file.
 fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
     match change {
         Change::AddUse { toolbox, alias } => add::line_of_use(buffer, toolbox, alias.as_deref()),

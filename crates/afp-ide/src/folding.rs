@@ -1,4 +1,4 @@
-//! What can be folded away: bodies, brackets, blocks of comments and of `use` lines.
+//! Foldable ranges: bodies, brackets, blocks of comments and of `use` lines.
 
 use crate::View;
 use crate::view::token;
@@ -6,24 +6,24 @@ use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 use afp_syntax::{Node, Token};
 
-/// Something that takes several lines.
+/// A range of several lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Fold {
-    /// From the first byte that goes to the last one.
+    /// From the first hidden byte to the last.
     pub span: Span,
     pub kind: FoldKind,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FoldKind {
-    /// What stands between brackets.
+    /// The contents of brackets.
     Body,
     Comment,
     /// `use` lines.
     Uses,
 }
 
-/// All of it, in the order of the text.
+/// Returns all folds in source order.
 pub fn folds(view: &View) -> Vec<Fold> {
     let mut folds: Vec<_> =
         view.root().descendants().filter_map(|node| body(view, &node)).collect();
@@ -34,7 +34,7 @@ pub fn folds(view: &View) -> Vec<Fold> {
     folds
 }
 
-/// What stands between the brackets of a node.
+/// The contents of a node's brackets.
 fn body(view: &View, node: &Node) -> Option<Fold> {
     let pairs = [
         (Kind::OpenBrace, Kind::CloseBrace),
@@ -47,7 +47,7 @@ fn body(view: &View, node: &Node) -> Option<Fold> {
     Some(Fold { span, kind: FoldKind::Body })
 }
 
-/// Comments on lines of their own that follow each other without a blank line.
+/// Consecutive lines of comments without a blank line.
 fn comments(view: &View) -> Vec<Fold> {
     let tokens = view.root().descendants_with_tokens().filter_map(|each| each.into_token());
     let mut blocks: Vec<Span> = Vec::new();
@@ -74,7 +74,7 @@ fn begins_line(token: &Token) -> bool {
     token.prev_token().is_none_or(|before| before.text().contains('\n'))
 }
 
-/// `use` lines with nothing else between them.
+/// Consecutive `use` lines.
 fn uses(view: &View) -> Vec<Fold> {
     let mut blocks: Vec<Span> = Vec::new();
     let mut open = false;

@@ -1,4 +1,4 @@
-//! What stands behind the text: the bound of each supervisor.
+//! Inlay hints: the timing bound of each supervisor.
 
 use crate::View;
 use crate::hover::bound;
@@ -6,19 +6,19 @@ use afp_dsl::outline::Component;
 use afp_dsl::timing::Timing;
 use afp_syntax::source::Span;
 
-/// A text that is shown behind a place.
+/// A text shown after a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hint {
-    /// The empty place behind which it stands.
+    /// The empty span before it.
     pub at: Span,
-    /// What is shown.
+    /// The text.
     pub label: String,
-    /// What it is made of.
+    /// The parts of the bound.
     pub why: String,
 }
 
-/// How long after its condition each supervisor of the file has made the robot stand, in the order of
-/// the text: of the plan that was compiled and of those that it uses, but none with an error in it.
+/// Returns the reaction bound of each valid supervisor in the file, in source order: those of the
+/// compiled plan and of its sub-plans.
 pub fn hints(view: &View) -> Vec<Hint> {
     let Some(Timing { supervisors: rows, .. }) = view.compiled.timing() else { return Vec::new() };
     let supervisors = view.plans().flat_map(|plan| plan.all_supervisors());
@@ -32,7 +32,7 @@ pub fn hints(view: &View) -> Vec<Hint> {
     hints
 }
 
-/// What stands before the body.
+/// The part before the body.
 fn head(supervisor: &Component) -> Option<Span> {
     let times = supervisor.times.iter().flat_map(|times| [times.every_span, times.deadline_span]);
     let template = supervisor.template.as_ref()?.span;

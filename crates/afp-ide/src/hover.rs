@@ -1,4 +1,4 @@
-//! What is to be said of the word at a place.
+//! The description of the word at a place.
 
 mod words;
 
@@ -10,20 +10,19 @@ use afp_dsl::types::{Dimension, Type};
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 
-/// What is to be said of a word.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hover {
     pub span: Span,
-    /// How it is declared, in one line; empty for words of the grammar.
+    /// Its declaration in one line; empty for keywords.
     pub declaration: String,
     pub doc: String,
-    /// What else is known of it, a sentence or an item of a list each, in Markdown.
+    /// Facts in Markdown, each a sentence or a list item.
     pub facts: Vec<String>,
 }
 
 impl Hover {
-    /// All of it as Markdown. Help comes from plans and toolboxes: whoever shows it must not take
-    /// HTML from it.
+    /// All of it as Markdown. Help texts come from plans and toolboxes, so do not render HTML in
+    /// it.
     pub fn markdown(&self) -> String {
         let code = match self.declaration.is_empty() {
             true => String::new(),
@@ -36,7 +35,7 @@ impl Hover {
     }
 }
 
-/// What is to be said of the word at a byte; `None` where nothing is known.
+/// Returns the description of the word at a byte offset; `None` if it is unknown.
 pub fn hover(view: &View, offset: u32) -> Option<Hover> {
     match view.name_at(offset) {
         Some(name) => of_name(view, name.span, name.meaning),
@@ -104,7 +103,7 @@ fn of_definition(view: &View, span: Span, id: DefinitionId) -> Hover {
     Hover { span, declaration: declaration(view, id), doc, facts }
 }
 
-/// Ports and outcomes of a template, entries of a plan that are its ports.
+/// Ports and outcomes of a template; for a plan, the entries that are its ports.
 fn members(view: &View, id: DefinitionId) -> Vec<String> {
     use DefinitionKind as Is;
     use afp_dsl::graph::EntryKind;
@@ -154,7 +153,7 @@ fn units(ty: &Type) -> Option<String> {
     }
 }
 
-/// How long after its condition the robot stands, of a supervisor without errors.
+/// The time from the condition of a supervisor without errors until the robot has stopped.
 fn bounds(view: &View, definition: &Definition) -> Vec<String> {
     let mut facts = Vec::new();
     let times = component(view, definition).and_then(|component| component.times);
@@ -173,8 +172,7 @@ fn bounds(view: &View, definition: &Definition) -> Vec<String> {
     facts
 }
 
-/// How long after its condition a supervisor has made the robot stand, and what that is made of;
-/// `None` where it interrupts nothing.
+/// The reaction bound of a supervisor and its parts; `None` if it interrupts nothing.
 pub(crate) fn bound(row: &SupervisorTiming) -> Option<(String, String)> {
     let interruption = row.interruption.as_ref()?;
     let trust = interruption.trust.as_str();
@@ -185,7 +183,6 @@ pub(crate) fn bound(row: &SupervisorTiming) -> Option<(String, String)> {
     Some((label, interruption.terms_in_words()))
 }
 
-/// A word of the grammar.
 fn of_keyword(view: &View, offset: u32) -> Option<Hover> {
     let at = rowan::TextSize::from(offset.min(u32::from(view.root().text_range().end())));
     let token = view.root().token_at_offset(at).find(|token| token.kind() == Kind::Keyword)?;

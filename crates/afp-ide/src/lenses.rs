@@ -1,31 +1,27 @@
-//! What can be done with a plan or scenario, offered above it.
+//! Code lenses above plans and scenarios.
 
 use crate::View;
 use afp_syntax::source::Span;
 
-/// Something that can be done.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lens {
     /// The name of the plan or scenario.
     pub span: Span,
-    /// What can be done with it.
     pub action: LensAction,
     /// The plan's name, or the scenario's without quotes.
     pub name: String,
 }
 
-/// What can be done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LensAction {
     Run,
-    /// Running a plan step by step.
     Debug,
-    /// Showing the drawing of a plan.
+    /// Shows the drawing of a plan.
     Draw,
     Test,
 }
 
-/// All of it in the order of the text.
+/// Returns all lenses in source order.
 pub fn lenses(view: &View) -> Vec<Lens> {
     let mut lenses = Vec::new();
     for plan in view.plans() {

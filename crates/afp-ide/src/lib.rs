@@ -1,8 +1,8 @@
-//! Plain data for editors of plans, whatever protocol they speak: one file for each feature.
+//! Editor features as plain data, independent of a protocol: one file for each feature.
 //!
-//! It does no I/O: texts come in as values, answers and edits of them go out. What a file says is
-//! asked of a [`View`] of it; places are bytes, as everywhere in the compiler. Every question has an
-//! answer for any text, however broken.
+//! The crate does no I/O: texts come in as values, and answers and edits go out. Each query reads a
+//! [`View`] of a file, with places as byte offsets like in the compiler. Every query has an answer
+//! for any text, also with errors.
 
 pub mod actions;
 pub mod candidates;

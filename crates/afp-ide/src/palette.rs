@@ -1,5 +1,4 @@
-//! What a plan can be made of: templates of all toolboxes and plans in view, each with what is written
-//! for it.
+//! The palette of a plan: templates of all toolboxes and visible plans, each with its text.
 
 use crate::View;
 use crate::completion::Piece;
@@ -15,21 +14,19 @@ pub struct Offer {
     pub kind: ComponentKind,
     /// Its toolbox; `None` for a plan.
     pub toolbox: Option<String>,
-    /// The name of its icon.
     pub icon: Option<String>,
     pub help: String,
-    /// Its ports as they are declared.
     pub ports: Vec<String>,
     pub exits: Vec<String>,
-    /// The item that is written for it, with holes for its name, what it needs and where it leads.
+    /// The text of the item, with placeholders for its name, its required inputs and its targets.
     pub insert: Vec<Piece>,
-    /// The toolbox that must be used first.
+    /// The toolbox to import first.
     pub missing_use: Option<String>,
 }
 
-/// All offers for the file whose name or help holds a text, the best first: those in view before others,
-/// names that begin so before names that hold it before helps. What another robot than the project's can do is offered
-/// where the file uses it alone.
+/// Returns all offers whose name or help contains a text, best first: visible ones before others,
+/// then prefixes of names before other matches in names before matches in help. Another robot's
+/// templates are offered only if the file uses its toolbox.
 pub fn palette(view: &View, query: &str) -> Vec<Offer> {
     let query = query.to_lowercase();
     let is_offered = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
@@ -117,9 +114,9 @@ mod tests {
 
     const VACUUM: &str = include_str!("../../../examples/vacuum/vacuum.afp");
 
-    /// A vacuum cleaner was offered a camera to look through.
+    /// Previously a vacuum cleaner was offered a camera template.
     #[test]
-    fn another_robots_templates_are_offered_where_they_are_used_alone() {
+    fn another_robots_templates_are_offered_only_if_they_are_used() {
         let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
         toolboxes.add(Source::new("vacuum.afp", VACUUM), "vacuum");
         let offered = |toolboxes: &Toolboxes, plan: &str| {

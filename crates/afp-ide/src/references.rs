@@ -1,23 +1,23 @@
-//! Who refers to what a name means.
+//! References to a name.
 
 use crate::View;
 use afp_dsl::index::DefinitionId;
 use afp_syntax::source::Span;
 
-/// The places in all files of the compilation that refer to what the name at a byte means, in order,
-/// its own declaration among them.
+/// Returns all references in the compilation to the name at a byte offset, in order, with its
+/// declaration.
 pub fn references(view: &View, offset: u32) -> Vec<Span> {
     let id = view.name_at(offset).and_then(|name| name.meaning.definition());
     id.map_or_else(Vec::new, |id| of(view, id))
 }
 
-/// The places in all files of the compilation that refer to what is declared at a place, in order, the
-/// place itself among them; none where nothing is declared there.
+/// Returns all references in the compilation to a declaration, in order, with the declaration
+/// itself; empty without a declaration at that place.
 pub fn references_to(view: &View, name: Span) -> Vec<Span> {
     view.index().declared_at(name).map_or_else(Vec::new, |id| of(view, id))
 }
 
-/// Those of them that stand in the file itself.
+/// Returns the references in the file itself.
 pub fn highlights(view: &View, offset: u32) -> Vec<Span> {
     let mut all = references(view, offset);
     all.retain(|span| span.file == view.file);

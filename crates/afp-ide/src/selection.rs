@@ -1,15 +1,15 @@
-//! What a selection grows to: from the word at a place outwards to the whole file.
+//! Growing selections: from the word at a place to the whole file.
 
 use crate::View;
 use afp_syntax::source::Span;
 
-/// The places around a byte, each inside the next one, the smallest first; at least the whole file.
+/// Returns the spans around a byte offset, from the smallest to the whole file.
 pub fn selections(view: &View, offset: u32) -> Vec<Span> {
     let length = u32::try_from(view.text().len()).unwrap_or(u32::MAX);
     let file = Span { file: view.file, start: 0, end: length };
     let at = rowan::TextSize::from(offset.min(u32::from(view.root().text_range().end())));
     let found = view.root().token_at_offset(at);
-    // Between two tokens the one that means something counts.
+    // Between two tokens the solid one counts.
     let token = found.clone().find(|token| !token.kind().is_trivia()).or(found.right_biased());
     let mut all: Vec<Span> = Vec::new();
     let mut add = |span: Span| {

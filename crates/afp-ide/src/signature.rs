@@ -1,4 +1,4 @@
-//! The ports of an element or supervisor whose bindings are being written.
+//! The ports of the element or supervisor at the cursor.
 
 use std::ops::Range;
 
@@ -12,25 +12,24 @@ use afp_syntax::source::Span;
 /// The ports of a template or plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
-    /// All of it: `Forward(distance: length = 100 cm, driven => length)`.
+    /// The whole text: `Forward(distance: length = 100 cm, driven => length)`.
     pub label: String,
     pub doc: String,
     /// The ports in order.
     pub ports: Vec<Port>,
-    /// The port whose binding covers the place.
+    /// The port at the cursor.
     pub active: Option<usize>,
 }
 
 /// A port of a [`Signature`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Port {
-    /// Its place in the label, in bytes.
     pub label: Range<usize>,
     pub doc: String,
 }
 
-/// The ports of the component between whose brackets a byte lies; `None` elsewhere, and where its
-/// template is unknown.
+/// Returns the ports of the component whose parentheses contain a byte offset; `None` elsewhere,
+/// and for an unknown template.
 pub fn signature(view: &View, offset: u32) -> Option<Signature> {
     let component = around(view, offset)?;
     let template = component.template.as_ref()?;
@@ -68,7 +67,7 @@ impl Signature {
     }
 }
 
-/// The component between whose brackets a byte lies.
+/// The component whose parentheses contain a byte offset.
 fn around<'a>(view: &View<'a>, offset: u32) -> Option<&'a Component> {
     let place = view.place(offset);
     let mut components = view.plan_at(offset)?.components();

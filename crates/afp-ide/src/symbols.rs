@@ -1,27 +1,26 @@
-//! What a file is made of, as a tree of names.
+//! The outline of a file, as a tree of names.
 
 use crate::View;
 use crate::describe::declaration;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_syntax::source::Span;
 
-/// Something that has a name.
+/// A named item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
-    /// Its name; of a scenario without the quotes.
+    /// Its name; for a scenario without the quotes.
     pub name: String,
     pub kind: DefinitionKind,
-    /// How it is declared, in one line.
+    /// Its declaration in one line.
     pub detail: String,
-    /// The whole of it, all that is declared in it included.
+    /// Its whole span, with all its children.
     pub span: Span,
-    /// Its own name.
     pub name_span: Span,
-    /// What is declared in it, in the order of the text.
+    /// Its children in source order.
     pub children: Vec<Symbol>,
 }
 
-/// The symbols of the file in the order of the text; names of toolboxes behind `as` are none.
+/// Returns the symbols of the file in source order, without aliases.
 pub fn symbols(view: &View) -> Vec<Symbol> {
     let top = view.index().definitions_in(view.file);
     let top = top.filter(|(_, known)| known.owner.is_none() && known.kind != DefinitionKind::Alias);
@@ -32,7 +31,7 @@ fn symbol(view: &View, id: DefinitionId) -> Symbol {
     let definition = view.index().definition(id);
     let children: Vec<_> =
         view.index().members(id).map(|(member, _)| symbol(view, member)).collect();
-    // A toolbox has the whole file below its own line.
+    // A toolbox contains the whole file after its own line.
     let span = children.iter().fold(definition.span, |span, child| Span {
         start: span.start.min(child.span.start),
         end: span.end.max(child.span.end),

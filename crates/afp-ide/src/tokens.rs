@@ -1,4 +1,4 @@
-//! What each word of a file is, for colouring by meaning.
+//! Semantic tokens of a file.
 
 use crate::View;
 use afp_dsl::graph::EntryKind;
@@ -7,12 +7,11 @@ use afp_syntax::Token;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 
-/// A piece of text of one colour; none spans several lines.
+/// A piece of text with one colour, within a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour {
     pub span: Span,
     pub kind: ColourKind,
-    /// Whether it declares a name.
     pub declares: bool,
     /// Whether it never changes.
     pub constant: bool,
@@ -20,7 +19,7 @@ pub struct Colour {
 
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident $name:literal)*) => {
-        /// What a piece of text is, under the names that editors know.
+        /// The kind of a piece of text, with its name in the protocol.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum ColourKind {
             $($(#[$doc])* $kind,)*
@@ -30,7 +29,6 @@ macro_rules! kinds {
             /// All kinds in order.
             pub const ALL: &'static [ColourKind] = &[$(ColourKind::$kind),*];
 
-            /// The name under which editors know it.
             pub fn name(self) -> &'static str {
                 match self {
                     $(ColourKind::$kind => $name,)*
@@ -41,33 +39,27 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// A word of the grammar.
     Keyword "keyword"
     /// A comment or a help text.
     Comment "comment"
     Text "string"
-    /// A number, its unit included.
     Number "number"
-    /// A sign that computes, compares or leads somewhere.
     Operator "operator"
     /// A toolbox or its short name.
     Toolbox "namespace"
-    /// A type, a built-in one or an object type.
+    /// A built-in type or an object type.
     Type "type"
     Enum "enum"
-    /// A value of an enum.
     Value "enumMember"
-    /// A template or a plan.
     Template "class"
     Component "function"
     Entry "variable"
     Port "parameter"
     Outcome "event"
-    /// A device, or something that belongs to one.
     Device "property"
 }
 
-/// All of it in the order of the text; what is wrong or means nothing has no colour.
+/// Returns all colours in source order; erroneous text and punctuation have none.
 pub fn colours(view: &View) -> Vec<Colour> {
     let tokens = view.root().descendants_with_tokens().filter_map(|each| each.into_token());
     tokens.filter_map(|token| colour(view, &token)).collect()
@@ -78,7 +70,7 @@ fn colour(view: &View, token: &Token) -> Option<Colour> {
     let plain = |kind| Some(Colour { span, kind, declares: false, constant: false });
     match token.kind() {
         Kind::Keyword => plain(ColourKind::Keyword),
-        // Those over several lines are diagnosed.
+        // A comment over several lines is an error.
         Kind::Comment | Kind::Doc => plain(ColourKind::Comment),
         Kind::Int | Kind::Float | Kind::Unit => plain(ColourKind::Number),
         Kind::Name => name(view, span),

@@ -1,4 +1,4 @@
-//! What editors ask about: one file of a compilation, a plan file or a toolbox.
+//! The subject of queries: one file of a compilation, a plan file or a toolbox.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -16,23 +16,22 @@ use afp_syntax::{Node, Parse, Token, parse};
 /// A file of a compilation, with its tree.
 #[derive(Clone, Debug)]
 pub struct View<'a> {
-    /// What became of the file's text and of all that it uses.
+    /// The compilation of the file and everything that it uses.
     pub compiled: &'a Compiled,
     /// The toolboxes that the compilation could use.
     pub toolboxes: &'a Toolboxes,
-    /// The file, as [`Span::file`] says it.
+    /// The file, as in [`Span::file`].
     pub file: u16,
-    /// Asked for by some questions alone.
+    /// Computed on demand.
     root: OnceCell<Node>,
 }
 
 impl<'a> View<'a> {
-    /// A file of a compilation; one that is not there is empty.
+    /// A view of a file of a compilation; a missing one is empty.
     pub fn new(compiled: &'a Compiled, toolboxes: &'a Toolboxes, file: u16) -> View<'a> {
         View { compiled, toolboxes, file, root: OnceCell::new() }
     }
 
-    /// The text of the file.
     pub fn text(&self) -> &'a str {
         self.compiled.sources.get(self.file).map_or("", |source| &source.text)
     }
@@ -60,7 +59,6 @@ impl<'a> View<'a> {
         self.compiled.sources.text(span)
     }
 
-    /// The name of a definition.
     pub(crate) fn name_of(&self, id: DefinitionId) -> &'a str {
         self.text_of(self.index().definition(id).name)
     }
@@ -70,23 +68,22 @@ impl<'a> View<'a> {
         self.index().at(self.file, offset)
     }
 
-    /// What the last name of a path means.
+    /// The meaning of the last name of a path.
     pub(crate) fn named_by(&self, path: &Node) -> Option<DefinitionId> {
         let name = tokens(path).filter(|token| token.kind() == Kind::Name).last()?;
         self.index().name(self.token_span(&name))?.meaning.definition()
     }
 
-    /// The empty place at a byte.
+    /// The empty span at a byte offset.
     pub(crate) fn place(&self, offset: u32) -> Span {
         Span { file: self.file, start: offset, end: offset }
     }
 
-    /// The place of a token of the file.
     pub(crate) fn token_span(&self, token: &Token) -> Span {
         afp_syntax::token_span(token, self.file)
     }
 
-    /// The place of a node of the file, without comments around it.
+    /// The span of a node of the file, without comments around it.
     pub(crate) fn node_span(&self, node: &Node) -> Span {
         afp_syntax::node_span(node, self.file)
     }
@@ -97,26 +94,23 @@ impl<'a> View<'a> {
         self.outline().plans.iter().find(|plan| plan.span.contains(place))
     }
 
-    /// The plans of the file.
     pub(crate) fn plans(&self) -> impl Iterator<Item = &'a Plan> {
         let file = self.file;
         self.outline().plans.iter().filter(move |plan| plan.file() == file)
     }
 
-    /// The element or supervisor whose node that is.
+    /// The element or supervisor of a node.
     pub(crate) fn component(&self, node: &Node) -> Option<&'a Component> {
         let span = self.node_span(node);
         let plan = self.plan_at(span.start)?;
         plan.components().find(|component| component.span == span)
     }
 
-    /// The plan whose node that is.
     pub(crate) fn plan(&self, node: &Node) -> Option<&'a Plan> {
         let span = self.node_span(node);
         self.plans().find(|plan| plan.span == span)
     }
 
-    /// The template that a definition is, with its toolbox.
     pub(crate) fn template(
         &self,
         definition: &Definition,
@@ -133,7 +127,7 @@ impl<'a> View<'a> {
         all.find(|it| !it.kind().is_trivia() && u32::from(it.text_range().end()) <= offset)
     }
 
-    /// The token that a byte lies in or ends.
+    /// The token that contains or ends at a byte offset.
     pub(crate) fn token_at(&self, offset: u32) -> Option<Token> {
         let at = rowan::TextSize::from(offset.min(u32::from(self.root().text_range().end())));
         self.root().token_at_offset(at).left_biased()

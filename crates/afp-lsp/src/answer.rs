@@ -1,4 +1,4 @@
-//! How requests end: a result, or an error of the protocol.
+//! Responses: a result or an error of the protocol.
 
 use afp_ide::edit::Refused;
 use lsp_server::{Message, RequestId, Response};
@@ -6,24 +6,23 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-/// Why a request has no result.
+/// The reason why a request has no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Failure {
-    /// Nothing is known of such a request.
+    /// The server does not know the request.
     Unknown(String),
-    /// Its parameters cannot be read.
+    /// The parameters are invalid.
     Malformed(String),
-    /// It comes at the wrong time.
+    /// The request came in the wrong state.
     OutOfTurn(&'static str),
-    /// It comes before the first one.
+    /// The request came before `initialize`.
     NotInitialized,
-    /// What it asks for cannot be: the reason, for people.
+    /// The server cannot do it; the text says why.
     Refused(String),
-    /// There is nothing to say, so the result is `null`.
+    /// There is no result, so the response is `null`.
     Nothing,
 }
 
-/// What becomes of a request.
 pub(crate) type Answer = Result<Value, Failure>;
 
 impl From<Refused> for Failure {
@@ -32,10 +31,10 @@ impl From<Refused> for Failure {
     }
 }
 
-/// The message of a text.
+/// Parses a message.
 ///
 /// # Errors
-/// It is none: the text of the response that says so.
+/// The text of an error response if the message is invalid.
 pub fn read_message(text: &str) -> Result<Message, String> {
     let refusal = |id: Value, code: i32, why: &str| {
         json!({"jsonrpc": "2.0", "id": id, "error": {"code": code, "message": why}}).to_string()
@@ -52,7 +51,7 @@ pub fn read_message(text: &str) -> Result<Message, String> {
     }
 }
 
-/// The response to a request, with the protocol's code of a failure.
+/// Makes the response to a request, with the protocol's error code on failure.
 pub(crate) fn response(id: RequestId, answer: Answer) -> Response {
     let (code, message) = match answer {
         Ok(value) => return Response::new_ok(id, value),
@@ -68,7 +67,6 @@ pub(crate) fn response(id: RequestId, answer: Answer) -> Response {
     Response::new_err(id, code, message)
 }
 
-/// A result as JSON.
 pub(crate) fn ok(result: impl Serialize) -> Answer {
     serde_json::to_value(result).map_err(|error| Failure::Refused(error.to_string()))
 }

@@ -1,4 +1,4 @@
-//! The order of a conversation: what each message of the client brings about.
+//! The order of a conversation: which messages each client message causes.
 
 use gen_lsp_types as lsp;
 use lsp_server::{Message, Notification, Request};
@@ -10,7 +10,7 @@ use crate::uri;
 use crate::{diagnostics, dispatch, standard};
 
 impl Server {
-    /// Takes a message of the client and gives what it brings about at once: the response to a request.
+    /// Handles a message of the client and returns the response to a request.
     pub fn handle(&mut self, message: Message) -> Vec<Message> {
         match message {
             Message::Request(request) => {
@@ -18,19 +18,18 @@ impl Server {
                 vec![response(id, self.request(request)).into()]
             }
             Message::Notification(notification) => {
-                // Nobody can be told that a notification makes no sense.
+                // The protocol has no response to an invalid notification.
                 let _ = self.notification(notification);
                 Vec::new()
             }
-            // The answers to what the server asks say nothing.
+            // Responses to the server's own requests carry no data.
             Message::Response(_) => Vec::new(),
         }
     }
 
-    /// What has changed since it was last called: diagnostics of open documents and drawings.
+    /// Returns changed diagnostics of open documents, and changed drawings.
     ///
-    /// To be called when no further message of the client is waiting. Each document that a change
-    /// concerns is compiled once.
+    /// Call it when no client message is waiting. Each affected document is compiled once.
     pub fn idle(&mut self) -> Vec<Message> {
         if self.phase != Phase::Running {
             return Vec::new();
@@ -101,7 +100,8 @@ impl Server {
         Ok(())
     }
 
-    /// Diagnostics that differ from what the client was last told, and a refresh where it asks itself.
+    /// Returns diagnostics that changed since the last message, and a refresh for a client that
+    /// pulls.
     fn changed_diagnostics(&mut self) -> Vec<Message> {
         let open = self.workspace.documents.iter();
         let open: Vec<_> =
@@ -133,7 +133,7 @@ impl Server {
         messages
     }
 
-    /// Asks the client to ask again for what a change elsewhere may have changed.
+    /// Asks the client to refresh tokens and hints after a change elsewhere.
     fn refreshes(&mut self) -> Vec<Message> {
         const METHODS: [&str; 3] = [
             "workspace/diagnostic/refresh",
@@ -150,7 +150,7 @@ impl Server {
     }
 }
 
-/// The message that tells the diagnostics of a document.
+/// Makes the message with a document's diagnostics.
 fn published(uri: lsp::Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) -> Message {
     let params = lsp::PublishDiagnosticsParams { uri, version, diagnostics };
     Notification::new("textDocument/publishDiagnostics".to_owned(), params).into()

@@ -1,4 +1,4 @@
-//! From places of the compiler to those of the protocol, and back.
+//! Converts places of the compiler to those of the protocol and back.
 
 use afp_dsl::Compiled;
 use afp_ide::edit::TextEdit;
@@ -8,7 +8,7 @@ use gen_lsp_types::{Location, Position, Range, Uri};
 use crate::uri::uri;
 use crate::workspace::Workspace;
 
-/// The lines of a text, counted as the client counts.
+/// The lines of a text, in the client's column units.
 pub(crate) struct Places<'t> {
     lines: Lines<'t>,
     encoding: Encoding,
@@ -35,20 +35,19 @@ impl<'t> Places<'t> {
 }
 
 impl Workspace {
-    /// The place of a span of a compilation.
     pub fn location(&self, compiled: &Compiled, span: Span) -> Option<Location> {
         let source = compiled.sources.get(span.file)?;
         let range = Places::new(&source.text, self.encoding).range(span);
         Some(Location { uri: self.uri(&source.name), range })
     }
 
-    /// The address of a path, as the client writes it where it has it open.
+    /// Returns the address of a path, in the client's spelling if the document is open.
     pub fn uri(&self, path: &str) -> Uri {
         self.documents.get(path).map_or_else(|| uri(path), |document| document.uri.clone())
     }
 }
 
-/// An edit of a text as the protocol has it.
+/// Converts a text edit to the protocol's type.
 pub(crate) fn text_edit(places: &Places<'_>, edit: &TextEdit) -> gen_lsp_types::TextEdit {
     gen_lsp_types::TextEdit { range: places.range(edit.span), new_text: edit.text.clone() }
 }

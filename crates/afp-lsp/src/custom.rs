@@ -1,4 +1,4 @@
-//! Requests of our own: drawings, changes of meaning, what can be offered.
+//! AFP's own requests: drawings, changes of meaning, candidates.
 
 pub(crate) mod drawing;
 mod drawings;
@@ -17,7 +17,7 @@ pub(crate) use subscription::Subscription;
 use gen_lsp_types::TextDocumentIdentifier as Document;
 use serde::Deserialize;
 
-/// Those that clients may ask for, by name.
+/// The names of these requests.
 pub(crate) const METHODS: &[&str] = &[
     "afp/drawing",
     "afp/edit",
@@ -34,7 +34,7 @@ pub(crate) const METHODS: &[&str] = &[
     "afp/explain",
 ];
 
-/// A document and nothing else.
+/// A request with a document and no other parameters.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct WholeDocument {

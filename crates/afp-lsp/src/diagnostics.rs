@@ -1,4 +1,4 @@
-//! What is wrong with a document, as the protocol has it.
+//! Diagnostics in the protocol's format.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,6 @@ use gen_lsp_types as lsp;
 use crate::convert::Places;
 use crate::workspace::{Analysis, Workspace, is_project};
 
-/// What is wrong with a document.
 pub(crate) fn of(workspace: &mut Workspace, path: &str) -> Vec<lsp::Diagnostic> {
     if is_project(path) {
         return of_project(workspace, path);
@@ -28,7 +27,8 @@ pub(crate) fn of(workspace: &mut Workspace, path: &str) -> Vec<lsp::Diagnostic> 
     own.chain(of_used(workspace, &analysis, &source.name, &places)).collect()
 }
 
-/// Errors of the files that a file uses, each file at the line that leads to it: the plan cannot run with them.
+/// Returns the errors of used files, at the lines that lead to them, since they keep the plan from
+/// running.
 fn of_used(
     workspace: &Workspace,
     analysis: &Analysis,
@@ -76,7 +76,7 @@ fn of_used(
     by_file.into_iter().filter_map(at).collect()
 }
 
-/// A diagnostic of a document.
+/// Converts a diagnostic of a document.
 pub(crate) fn one(
     workspace: &Workspace,
     analysis: &Analysis,
@@ -110,7 +110,6 @@ fn said(message: &str, help: &str) -> String {
     }
 }
 
-/// What is wrong with a project file.
 fn of_project(workspace: &Workspace, path: &str) -> Vec<lsp::Diagnostic> {
     let Ok(text) = workspace.text(path) else { return Vec::new() };
     let places = Places::new(&text, workspace.encoding);

@@ -1,4 +1,4 @@
-//! Which function answers which request.
+//! The function for each request.
 
 use lsp_server::Request;
 use serde_json::Value;
@@ -8,7 +8,7 @@ use crate::custom::{drawing, edit, explain, export, items, offers, robot};
 use crate::server::Server;
 use crate::standard::{actions, completion, edits, hierarchy, looks, navigation, sync};
 
-/// Answers a request of a running conversation.
+/// Answers a request of an initialized conversation.
 pub(crate) fn request(server: &mut Server, request: Request) -> Answer {
     let Request { method, params: value, .. } = request;
     match method.as_str() {

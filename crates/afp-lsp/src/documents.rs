@@ -1,21 +1,20 @@
-//! The documents that the client has open, and their changes.
+//! Open documents and their changes.
 
 use std::collections::BTreeMap;
 
 use afp_syntax::source::{Encoding, LineColumn, Lines};
 use gen_lsp_types::{Position, TextDocumentContentChangeEvent, TextDocumentItem, Uri};
 
-/// A document that is open.
 #[derive(Clone, Debug)]
 pub(crate) struct Document {
-    /// Its address as the client writes it.
+    /// Its address in the client's spelling.
     pub uri: Uri,
-    /// What the client says that it is written in.
+    /// The language that the client reports.
     pub language: String,
-    /// The client's number of this state of it.
+    /// The client's version number.
     pub version: i32,
     pub text: String,
-    /// Tells this state from all others of all documents.
+    /// A stamp that is unique among all states of all documents.
     pub stamp: u64,
 }
 
@@ -24,12 +23,11 @@ pub(crate) struct Document {
 pub(crate) struct Documents {
     open: BTreeMap<String, Document>,
     stamps: u64,
-    /// The stamp of everything that is not open.
+    /// The stamp of all files that are not open.
     disk: u64,
 }
 
 impl Documents {
-    /// Opens a document, or opens it anew.
     pub fn open(&mut self, path: String, item: TextDocumentItem) {
         let stamp = self.next();
         let TextDocumentItem { uri, language_id, version, text } = item;
@@ -37,13 +35,13 @@ impl Documents {
         self.open.insert(path, Document { uri, language, version, text, stamp });
     }
 
-    /// Forgets a document; its file counts from now on.
+    /// Closes a document, so that its file applies again.
     pub fn close(&mut self, path: &str) -> Option<Document> {
         self.disk_changed();
         self.open.remove(path)
     }
 
-    /// Makes changes of a document, one after the other; changes of one that is not open are lost.
+    /// Applies changes in order; changes of a document that is not open are ignored.
     pub fn change(
         &mut self,
         path: &str,
@@ -59,12 +57,11 @@ impl Documents {
         (document.version, document.stamp) = (version, stamp);
     }
 
-    /// Files have changed that are not open.
+    /// Notes that files have changed on disk.
     pub fn disk_changed(&mut self) {
         self.disk = self.next();
     }
 
-    /// An open document.
     pub fn get(&self, path: &str) -> Option<&Document> {
         self.open.get(path)
     }
@@ -74,7 +71,7 @@ impl Documents {
         self.open.iter().map(|(path, document)| (path.as_str(), document))
     }
 
-    /// What changes whenever the text of a path may have changed.
+    /// Returns a stamp that changes with every possible change of a path's text.
     pub fn stamp(&self, path: &str) -> u64 {
         self.open.get(path).map_or(self.disk, |document| document.stamp)
     }

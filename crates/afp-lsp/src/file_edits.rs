@@ -1,17 +1,14 @@
-//! Edits of texts, by the file that they are made on.
+//! Edits of texts, by their file.
 
 use afp_ide::edit::TextEdit;
 use afp_syntax::source::Source;
 
-/// The edits of one file.
 pub(crate) struct FileEdits {
     pub path: String,
-    /// The text that they are made on.
     pub text: String,
     pub edits: Vec<TextEdit>,
 }
 
-/// Edits by the file that they are made on.
 pub(crate) fn by_file<'s>(
     source: impl Fn(u16) -> Option<&'s Source>,
     edits: Vec<TextEdit>,

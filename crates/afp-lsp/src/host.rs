@@ -1,31 +1,31 @@
-//! Where texts come from that no client has open.
+//! Texts that no client has open.
 
-/// The surroundings of a server.
+/// The environment of a server.
 pub trait Host: Send {
-    /// The text of a file. Paths are absolute, their parts separated by `/`.
+    /// Returns the text of a file. Paths are absolute with `/` separators.
     ///
     /// # Errors
-    /// Why there is no text: lower case, no final period.
+    /// The reason: lower case, no final period.
     fn read(&self, path: &str) -> Result<String, String>;
 
-    /// The `.afp` files below a folder, as paths.
+    /// Returns the paths of the `.afp` files below a folder.
     fn plan_files(&self, folder: &str) -> Vec<String>;
 
-    /// A path under which an editor finds a built-in toolbox, given by its file name and text; without
-    /// one it gets the address `afp:/NAME` and asks the server for the text.
+    /// Returns a path at which an editor finds a built-in toolbox, given its file name and text.
+    /// The default is the address `afp:/NAME`, whose text editors request from the server.
     fn built_in(&self, name: &str, text: &str) -> Option<String>;
 
-    /// A picture as the bytes of a PNG file.
+    /// Converts a picture to the bytes of a PNG file.
     ///
     /// # Errors
-    /// Why there are none, and what to do.
+    /// The reason and an action.
     fn png(&self, svg: &str) -> Result<Vec<u8>, String> {
         let _ = svg;
         Err("this server makes no pixels: take 'svg'".to_owned())
     }
 }
 
-/// Surroundings without any file: all that there is, clients have open.
+/// An environment without files: all texts come from clients.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoFiles;
 

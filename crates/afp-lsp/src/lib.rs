@@ -1,13 +1,13 @@
-//! The language server as a value: messages go in, messages come out.
+//! The language server as a value: messages in, messages out.
 //!
-//! It does no I/O and knows no thread and no clock, so it runs wherever it is put: behind standard
-//! input, behind a socket, in a browser. What no client has open it asks its [`Host`] for. A request is
-//! answered by the call of [`Server::handle`] that brings it; what can wait, such as diagnostics after
-//! a change, comes from [`Server::idle`], which its owner calls when no further message is waiting. So
-//! a client that types faster than a large plan is compiled is not kept waiting by what it has typed over.
+//! It has no I/O, no thread and no clock, so it runs over standard input, over a socket or in a
+//! browser. Its [`Host`] provides the files that no client has open. [`Server::handle`] answers
+//! requests immediately. Deferrable messages, such as diagnostics after a change, come from
+//! [`Server::idle`]. Call it when no client message is waiting. A client that types faster than a
+//! large plan compiles then skips the outdated compilations.
 //!
-//! It speaks the Language Server Protocol 3.18, and requests of its own named `afp/...` for drawings
-//! and changes of meaning, which `docs/editors.md` lists.
+//! It implements the Language Server Protocol 3.18, and AFP's own requests `afp/...` for drawings
+//! and changes of meaning. `docs/editors.md` lists them.
 
 mod answer;
 mod conversation;
@@ -30,7 +30,7 @@ pub use lsp_server::Message;
 pub use server::Server;
 pub use uri::{path_of, uri_of};
 
-/// Whether a text has a plan in it, whatever else is wrong with it.
+/// Whether a text contains a plan, even with errors.
 pub fn holds_plan(text: &str) -> bool {
     let file =
         afp_syntax::parse(text, 0, &mut afp_syntax::diagnostics::Diagnostics::default()).file();

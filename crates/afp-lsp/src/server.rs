@@ -14,33 +14,32 @@ use crate::workspace::Workspace;
 pub struct Server {
     pub(crate) workspace: Workspace,
     pub(crate) client: Client,
-    /// The drawings that the client wants to hear of, by path.
+    /// The subscribed drawings, by path.
     pub(crate) subscriptions: BTreeMap<String, Subscription>,
-    /// What new drawings are made from.
+    /// Recent drawings, the base of new ones.
     pub(crate) drawings: Drawings,
-    /// The diagnostics that each document was last said to have.
+    /// The last published diagnostics of each document.
     pub(crate) published: BTreeMap<String, Value>,
     pub(crate) phase: Phase,
-    /// The number of the next request to the client.
+    /// The number of the last request to the client.
     pub(crate) asked: i32,
 }
 
-/// What the client can do.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Client {
-    /// It asks for diagnostics, so that none are pushed.
+    /// The client pulls diagnostics, so the server does not push them.
     pub pulls: bool,
-    /// It takes up a refresh of diagnostics, tokens and hints.
+    /// The client supports refreshing diagnostics, tokens and hints.
     pub refreshes: [bool; 3],
-    /// It fills holes in what is completed.
+    /// The client supports placeholders in completions.
     pub snippets: bool,
-    /// It takes edits with versions, and new files.
+    /// The client supports edits with versions, and new files.
     pub versions: bool,
-    /// It nests symbols.
+    /// The client supports nested symbols.
     pub nests: bool,
-    /// It asks for texts of addresses that are no files.
+    /// The client requests the texts of addresses that are not files.
     pub contents: bool,
-    /// The commands that it offers above plans and scenarios.
+    /// The commands that the client offers above plans and scenarios.
     pub commands: Vec<String>,
 }
 
@@ -59,12 +58,12 @@ impl fmt::Debug for Server {
 }
 
 impl Server {
-    /// A server that has not heard of its client yet.
+    /// A server that waits for `initialize`.
     pub fn new(host: Box<dyn Host>) -> Server {
         Server::among(host, Drawings::default())
     }
 
-    /// A server that shares what it draws with others.
+    /// A server that shares its drawings with others.
     pub fn among(host: Box<dyn Host>, drawings: Drawings) -> Server {
         Server {
             drawings,
@@ -83,8 +82,7 @@ impl Server {
         Some((document.version, &document.text))
     }
 
-    /// The code to exit with, once the client has said goodbye: 0, or 1 where it did not shut the
-    /// server down before.
+    /// The exit code after `exit`: 0, or 1 without a preceding `shutdown`.
     pub fn exit_code(&self) -> Option<u8> {
         match self.phase {
             Phase::New | Phase::Running | Phase::ShutDown => None,

@@ -23,7 +23,7 @@ use crate::uri;
 use crate::workspace::Analysis;
 
 impl Server {
-    /// What a document means.
+    /// Returns the analysis of a document.
     ///
     /// # Errors
     /// [`Failure::Nothing`] if it is neither a plan file nor a toolbox, or does not exist.
@@ -33,7 +33,7 @@ impl Server {
         may_be.then(|| self.workspace.analysis(&path)).flatten().ok_or(Failure::Nothing)
     }
 
-    /// A document and a byte of it.
+    /// Returns the analysis of a document and a byte offset.
     ///
     /// # Errors
     /// Those of [`Server::analysis`].

@@ -1,5 +1,5 @@
-//! What the documents mean: projects, toolboxes and compilations, each made again only when a text
-//! that it read has changed.
+//! The meaning of documents: projects, toolboxes and compilations. Each is recomputed only if a
+//! text that it read has changed.
 
 mod reads;
 
@@ -24,29 +24,28 @@ use crate::uri::BUILT_IN;
 
 pub(crate) use reads::Reads;
 
-/// The name of the project file.
 pub(crate) const PROJECT: &str = "afp.toml";
 
-/// Whether a path is that of a project file.
+/// Whether a path names a project file.
 pub(crate) fn is_project(path: &str) -> bool {
     path.rsplit('/').next() == Some(PROJECT)
 }
 
-/// The toolboxes that the files of a folder can use.
+/// The toolboxes available to the files of a folder.
 #[derive(Debug)]
 pub(crate) struct ToolboxSet {
     pub toolboxes: Toolboxes,
-    /// The folder of each toolbox of the project, by its name; built-in ones are not among them.
+    /// The folder of each of the project's toolboxes, by name, without built-in ones.
     folders: BTreeMap<String, String>,
     reads: Reads,
 }
 
-/// What became of a file.
+/// A compiled file.
 #[derive(Debug)]
 pub(crate) struct Analysis {
     pub compiled: Compiled,
     pub set: Arc<ToolboxSet>,
-    /// The file itself in the compilation.
+    /// The index of the file in its compilation.
     pub file: u16,
     reads: Reads,
 }
@@ -57,16 +56,15 @@ impl Analysis {
     }
 }
 
-/// The state of a server apart from its conversation.
+/// The state of a server without its conversation.
 pub(crate) struct Workspace {
     pub documents: Documents,
     pub host: Box<dyn Host>,
     pub encoding: Encoding,
-    /// The folders that the client works in.
     pub folders: Vec<String>,
     sets: BTreeMap<String, Arc<ToolboxSet>>,
     analyses: BTreeMap<String, Arc<Analysis>>,
-    /// Texts that count instead of those that the client has, by path.
+    /// Texts by path that override the client's, for drafts.
     drafts: BTreeMap<String, String>,
 }
 
@@ -83,7 +81,7 @@ impl Workspace {
         }
     }
 
-    /// The text of a path: the client's, the host's, or that of a built-in toolbox.
+    /// Returns the text of a path: the client's, the host's, or a built-in toolbox's.
     pub fn text(&self, path: &str) -> Result<String, String> {
         let open = || self.documents.get(path).map(|document| &document.text);
         if let Some(text) = self.drafts.get(path).or_else(open) {
@@ -99,18 +97,18 @@ impl Workspace {
         self.host.read(path)
     }
 
-    /// Whether a file is one of plans or of a toolbox: by its name or, where it has none yet, as the client says.
+    /// Whether a file holds plans or a toolbox, by its name or else by the client's language.
     pub fn is_afp(&self, path: &str) -> bool {
         let said = || self.documents.get(path).is_some_and(|document| document.language == "afp");
         path.ends_with(".afp") || said()
     }
 
-    /// Forgets what a file meant.
+    /// Discards the analysis of a file.
     pub fn forget(&mut self, path: &str) {
         self.analyses.remove(path);
     }
 
-    /// What a file means now; `None` where it cannot be read.
+    /// Returns the current analysis of a file; `None` if it is unreadable.
     pub fn analysis(&mut self, path: &str) -> Option<Arc<Analysis>> {
         let known = self.analyses.get(path);
         if let Some(known) =
@@ -123,7 +121,6 @@ impl Workspace {
         Some(analysis)
     }
 
-    /// The meaning of a file after edits.
     pub fn drafted(&mut self, path: &str, edits: &[FileEdits]) -> Option<Arc<Analysis>> {
         let edited = |file: &FileEdits| (file.path.clone(), apply(&file.text, &file.edits));
         self.drafts = edits.iter().map(edited).collect();
@@ -137,7 +134,7 @@ impl Workspace {
         let text = reads.borrow_mut().text(self, path).ok()?;
         if is_toolbox(&text) {
             let set = self.toolboxes_with(path, text);
-            // Toolboxes are checked when they are added; an empty plan file brings what they mean.
+            // Adding a toolbox checks it; an empty plan file collects the diagnostics.
             let compiled = compile(&Source::new("", ""), &set.toolboxes, &no_files);
             let named = |source: &Source| source.name == path;
             let file = compiled.sources.iter().position(named)?;
@@ -151,7 +148,6 @@ impl Workspace {
         Some(Analysis { compiled, set, file, reads: reads.into_inner() })
     }
 
-    /// The toolboxes for a file.
     fn toolboxes(&mut self, path: &str) -> Arc<ToolboxSet> {
         let folder = folder(path).to_owned();
         if let Some(known) = self.sets.get(&folder).filter(|known| known.reads.hold(self)) {
@@ -162,7 +158,7 @@ impl Workspace {
         set
     }
 
-    /// The toolboxes for a file that is one itself.
+    /// Returns the toolboxes for a file that is itself a toolbox.
     fn toolboxes_with(&mut self, path: &str, text: String) -> Arc<ToolboxSet> {
         let known = self.toolboxes(path);
         let is_known = known.toolboxes.sources().iter().any(|source| source.name == path);
@@ -195,7 +191,7 @@ impl Workspace {
         ToolboxSet { toolboxes, folders, reads }
     }
 
-    /// The folder of the nearest project file above a file, and what it says.
+    /// Returns the folder and the content of the nearest project file above a file.
     fn project(&self, path: &str, reads: &mut Reads) -> (String, Project) {
         let mut home = folder(path);
         loop {
@@ -210,7 +206,8 @@ impl Workspace {
         }
     }
 
-    /// The icon of a template: `icons/NAME.svg` beside the toolbox of a project, else a built-in one.
+    /// Returns the icon of a template: `icons/NAME.svg` next to a project's toolbox, or else a
+    /// built-in one.
     pub fn icon(
         &self,
         set: &ToolboxSet,
@@ -227,19 +224,19 @@ impl Workspace {
         }
     }
 
-    /// The plan files that the client has open or works on, by path.
+    /// Returns the paths of all plan files that are open or in the workspace.
     pub fn plan_files(&self) -> Vec<String> {
         let mut paths = self.afp_files();
         paths.retain(|path| self.plan_text(path).is_some());
         paths
     }
 
-    /// The text of a file that may have plans: of one that declares toolboxes alone there is none.
+    /// Returns the text of a file that may have plans; `None` for a toolbox without plans.
     pub fn plan_text(&self, path: &str) -> Option<String> {
         self.text(path).ok().filter(|text| !is_toolbox(text))
     }
 
-    /// The files of plans and of toolboxes that the client has open or works on, by path.
+    /// Returns the paths of all plan and toolbox files that are open or in the workspace.
     pub fn afp_files(&self) -> Vec<String> {
         let mut paths: Vec<String> =
             self.folders.iter().flat_map(|folder| self.host.plan_files(folder)).collect();
@@ -255,7 +252,7 @@ fn no_files(_: &str) -> Result<String, String> {
     Err("there is no such file".to_owned())
 }
 
-/// What stands before the last `/` of a path.
+/// The part of a path before the last `/`.
 pub(crate) fn folder(path: &str) -> &str {
     path.rsplit_once('/').map_or("", |(folder, _)| folder)
 }

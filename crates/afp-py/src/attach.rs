@@ -1,4 +1,4 @@
-//! The interpreter, taken for a call and given back while something computes for long.
+//! Attaching to the interpreter for a call, and releasing it during long computations.
 
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
@@ -7,10 +7,11 @@ use std::time::Duration;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-/// How often a computation in the background looks for signals.
+/// The interval of signal checks during a background computation.
 const EVERY: Duration = Duration::from_millis(30);
 
-/// Calls Python. A thread that comes after the end of the interpreter rests for good: the program is about to end.
+/// Calls Python. After the end of the interpreter the thread sleeps permanently, since the program
+/// is about to end.
 pub fn attached<T>(call: impl FnOnce(Python<'_>) -> T) -> T {
     Python::try_attach(call).unwrap_or_else(|| {
         loop {
@@ -19,11 +20,11 @@ pub fn attached<T>(call: impl FnOnce(Python<'_>) -> T) -> T {
     })
 }
 
-/// Computes something in a thread of its own, so that other threads of Python run and Ctrl-C is seen meanwhile; it is
-/// left to itself then.
+/// Computes in a separate thread, so that other Python threads run and Ctrl-C works. After a signal
+/// the thread is abandoned.
 ///
 /// # Errors
-/// What a handler of a signal raises; it panicked.
+/// The exception of a signal handler, or a panic.
 pub fn in_background<T: Send + 'static>(
     py: Python<'_>,
     compute: impl FnOnce() -> T + Send + 'static,
@@ -31,7 +32,7 @@ pub fn in_background<T: Send + 'static>(
     let (send, done) = channel();
     py.detach(move || {
         thread::spawn(move || {
-            // Nobody waits any more after a signal.
+            // After a signal there is no receiver.
             let _ = send.send(compute());
         });
         loop {

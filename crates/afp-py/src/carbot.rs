@@ -1,4 +1,4 @@
-//! The Carbot: the robot of the wheel. What is said of it here nobody else in this crate knows.
+//! The Carbot, the wheel's robot. Only this module of the crate knows it.
 
 mod alone;
 mod learn;
@@ -14,10 +14,10 @@ use crate::link::Link;
 pub use alone::Carbot;
 pub use robot::CarbotRobot;
 
-/// A room in which nothing is.
+/// An empty room.
 const EMPTY: &str = "version = 1\nname = \"nowhere\"\n[robot]\npose_m_deg = [0, 0, 0]\n";
 
-/// The Carbot with the built-in toolboxes and others: their names, and what registers their templates.
+/// The Carbot with the built-in and additional toolboxes: their names and registrations.
 pub fn carbot(
     toolboxes: &'static [&'static str],
     more: impl Fn(&mut Registry<Simulation>) + Send + Sync + 'static,
@@ -35,7 +35,7 @@ pub fn carbot(
     )
 }
 
-/// Adds the classes that only the Carbot has.
+/// Adds the Carbot's classes.
 ///
 /// # Errors
 /// Python has no memory.

@@ -1,7 +1,8 @@
-//! Components in Python: the slots that a loaded plan polls, and what they share.
+//! Components in Python: the slots that a loaded plan polls, and their shared state.
 //!
-//! What implements a template is an object with a `poll` and, for an actor, an `interrupt`; the package makes it of
-//! classes, functions and coroutines. The [`Robot`] has the simulation for the time of a call.
+//! An implementation is an object with `poll` and, for an actor, `interrupt`. The package makes it
+//! from classes, functions and coroutines. The [`Robot`] holds the simulation for the duration of a
+//! call.
 
 mod actor;
 mod call;
@@ -25,7 +26,7 @@ use handles::PyHandle;
 pub use host::{ENDED_ALL, Host, RAISED};
 pub use registry::AnyRegistry;
 
-/// An object of a plan: whatever Python put there.
+/// A plan's object value: any Python object.
 pub type Object = Arc<PyHandle>;
 
 /// Adds the implementations of a toolbox to a registry.

@@ -17,13 +17,13 @@ use crate::plan::diagnostics;
 create_exception!(afp, AfpError, PyException, "What goes wrong with plans, worlds, logs and runs.");
 create_exception!(afp, PlanError, AfpError, "A plan with errors; `diagnostics` has them.");
 
-/// An [`AfpError`] that says this.
+/// An [`AfpError`] with this message.
 pub fn error(message: impl Display) -> PyErr {
     let text = message.to_string();
     AfpError::new_err(text.strip_prefix("error: ").unwrap_or(&text).to_owned())
 }
 
-/// The exception that tells of a file that cannot be read is `OSError`, of anything else [`AfpError`].
+/// The exception of a run: `OSError` for an unreadable file, [`AfpError`] otherwise.
 pub fn run_error(why: &RunError) -> PyErr {
     match why {
         RunError::File { what, path, error } => os_error(what, path, error),
@@ -32,7 +32,7 @@ pub fn run_error(why: &RunError) -> PyErr {
     }
 }
 
-/// The exception of a log that cannot be written or read, as [`run_error`].
+/// The exception of a log that cannot be written or read, like [`run_error`].
 pub fn log_error(why: &LogError) -> PyErr {
     match why {
         LogError::Create { path, error } => os_error("cannot write the log", path, error),
@@ -41,10 +41,10 @@ pub fn log_error(why: &LogError) -> PyErr {
     }
 }
 
-/// Python chooses the kind of `OSError` by the number.
+/// Python selects the subclass of `OSError` by the number.
 pub fn os_error(what: &str, path: &Path, why: &io::Error) -> PyErr {
     let text = why.to_string();
-    // Python tells the number itself.
+    // Python adds the number itself.
     let text = text.split(" (os error").next().unwrap_or_default();
     match why.raw_os_error().or_else(|| number_of(why.kind())) {
         Some(number) => {
@@ -54,7 +54,7 @@ pub fn os_error(what: &str, path: &Path, why: &io::Error) -> PyErr {
     }
 }
 
-/// The number of what was found out without asking the system; it is the same on all.
+/// The error number for an error found without the system; it is the same on all systems.
 fn number_of(kind: io::ErrorKind) -> Option<i32> {
     match kind {
         io::ErrorKind::NotFound => Some(2),
@@ -67,7 +67,7 @@ fn number_of(kind: io::ErrorKind) -> Option<i32> {
     }
 }
 
-/// The exception for a plan that has no graph.
+/// The exception for a plan without a graph.
 pub fn plan_error(py: Python<'_>, compiled: &Compiled) -> PyErr {
     let text = compiled.render(false);
     let why = PlanError::new_err(text.trim_end().to_owned());

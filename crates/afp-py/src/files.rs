@@ -1,4 +1,4 @@
-//! Texts of files as everything of the project reads and writes them: with a bound, and whole.
+//! Files are read with a size limit and written atomically, as everywhere in the project.
 
 use std::path::PathBuf;
 
@@ -6,14 +6,14 @@ use pyo3::prelude::*;
 
 use crate::errors::os_error;
 
-/// The text of a file with its own line ends; `what` says what cannot be done where it cannot be read.
+/// Read a file with its own line ends; `what` describes the failed action in an error.
 #[pyfunction]
 pub fn read_text(py: Python<'_>, what: &str, path: PathBuf) -> PyResult<String> {
     let read = py.detach(|| afp_output::read_text(&path));
     read.map_err(|why| os_error(what, &path, &why))
 }
 
-/// Writes a text to a file that appears under its name only when it is whole.
+/// Write a file atomically.
 #[pyfunction]
 pub fn write_text(py: Python<'_>, what: &str, path: PathBuf, text: &str) -> PyResult<()> {
     let written = py.detach(|| afp_output::write_whole(&path, text.as_bytes()));

@@ -1,6 +1,6 @@
-//! Which process this is, among those that were forked from one another.
+//! The generation of this process among its forks.
 //!
-//! Python tells of its forks. Asking the system takes longer than a step of most plans.
+//! Python reports forks; a system call would take longer than a step of most plans.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -10,18 +10,18 @@ use pyo3::wrap_pyfunction;
 
 static FORKS: AtomicU32 = AtomicU32::new(0);
 
-/// How many forks lie between the process that loaded the package and this one.
+/// The number of forks between the process that loaded the package and this one.
 pub fn process() -> u32 {
     FORKS.load(Ordering::Relaxed)
 }
 
-/// Lets Python tell.
+/// Registers for Python's fork reports.
 ///
 /// # Errors
 /// Those of Python.
 pub fn listen(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
-    // There is no fork on Windows.
+    // Windows has no fork.
     if let Some(register) = py.import("os")?.getattr_opt("register_at_fork")? {
         let told = PyDict::new(py);
         told.set_item("after_in_child", wrap_pyfunction!(forked, module)?)?;

@@ -1,11 +1,11 @@
-//! The Python face of AFP: the native half of the package `afp` under python/, for any robot.
+//! The Python interface of AFP: the native half of the package `afp` under python/, for any robot.
 //!
-//! What needs the compiler, the scheduler or the simulator is here, one Python type a file; what can be said in
-//! Python is said there. Nothing here borrows from a simulation: arrays and values are copies that outlive it.
-//! While a plan runs, the interpreter's lock is free for other threads.
+//! Code that needs the compiler, the scheduler or the simulator is here, one Python type per file.
+//! The rest is in Python. Arrays and values are copies that outlive their simulation. While a plan
+//! runs, the interpreter's lock is released for other threads.
 //!
-//! An extension is a crate of a few lines that calls [`fill`] with what it links in: `afp-py-wheel` for the Carbot, a
-//! generated one for a project with a robot or toolboxes of its own.
+//! An extension is a crate of a few lines that calls [`fill`] with its links: `afp-py-wheel` for
+//! the Carbot, or a generated crate for a project with its own robot or toolboxes.
 
 mod attach;
 #[cfg(feature = "carbot")]
@@ -36,7 +36,7 @@ pub use errors::{error, run_error};
 pub use link::{AnyLink, Link, linked};
 pub use pyo3;
 
-/// What generated extensions name of the crates below.
+/// Paths that generated extensions use.
 #[doc(hidden)]
 pub mod __private {
     pub use afp_core;
@@ -80,7 +80,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_function(wrap_pyfunction!(simulation::faults, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::alike, module)?)?;
     module.add_function(wrap_pyfunction!(value::number_of, module)?)?;
-    // Its robot takes the place of the common one.
+    // The Carbot's class replaces the common one.
     #[cfg(feature = "carbot")]
     if is_carbot {
         carbot::fill(module)?;

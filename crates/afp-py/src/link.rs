@@ -1,7 +1,7 @@
-//! What an extension links in: a robot, and the templates that plans for it may use.
+//! The links of an extension: a robot, and the templates for its plans.
 //!
-//! Classes of Python have no type parameters, so this is where the robot's type ends: everything else drives an
-//! [`AnyLink`], of which a process has one.
+//! Python classes have no type parameters, so the robot's type ends here. All other code uses the
+//! process's only [`AnyLink`].
 
 use std::any::Any;
 use std::path::Path;
@@ -21,41 +21,39 @@ use crate::errors::{error, run_error};
 use crate::robot::Robot;
 use crate::sensed::Sensed;
 
-/// Registers more templates for a plan.
+/// Registers additional templates for a plan.
 pub type More<'a> = dyn Fn(&mut dyn AnyRegistry) + Sync + 'a;
 
-/// What an extension links in, whatever its robot is.
+/// The links of an extension, for any robot.
 pub trait AnyLink: Send + Sync {
-    /// The kind of its robot.
     fn kind(&self) -> &dyn AnyRobot;
 
-    /// The path of the robot's type, where it is one of a project; none for the Carbot.
+    /// The path of the robot's type in a project; `None` for the Carbot.
     fn own_robot(&self) -> Option<&'static str>;
 
-    /// The toolboxes beside the built-in ones.
+    /// The toolboxes in addition to the built-in ones.
     fn toolboxes(&self) -> &'static [&'static str];
 
-    /// Loads plans, whose templates are those of the link and more.
+    /// Makes a loader of plans, with the templates of the link and `more`.
     fn loader<'a>(&'a self, more: &'a More<'a>) -> Box<dyn Loader + 'a>;
 
-    /// The robot as components have it, with nothing in it yet.
+    /// The robot object for components, without a simulation.
     ///
     /// # Errors
-    /// Python has no memory; the robot's own default world cannot be built.
+    /// Python has no memory, or the robot's default world is invalid.
     fn robot(&self, py: Python<'_>) -> PyResult<Py<Robot>>;
 
-    /// What the robot senses of that name, or what a signal of it says. What only a judge may know is left out unless
-    /// `truth` is set.
+    /// Reads a sensor or signal of the robot by name. Ground truth is excluded unless `truth` is
+    /// set.
     ///
     /// # Errors
-    /// No such sensor, or one that is broken.
+    /// The sensor is unknown or broken.
     fn sense(&self, robot: &dyn Any, name: &str, truth: bool) -> PyResult<Sensed>;
 }
 
-/// What this extension links in.
+/// The link of this extension.
 static LINK: OnceLock<Box<dyn AnyLink>> = OnceLock::new();
 
-/// What this extension links in.
 pub fn link() -> &'static dyn AnyLink {
     &**LINK.get().expect("the module says what it links before it has anything that can be called")
 }
@@ -65,15 +63,15 @@ pub fn devices() -> &'static [DeviceRow] {
     link().kind().devices()
 }
 
-/// Says what this extension links in; a module that is made again links the same.
+/// Sets the link of this extension; importing the module again keeps it.
 pub(crate) fn set(link: impl AnyLink + 'static) {
     let _ = LINK.set(Box::new(link));
 }
 
-/// Says whether the robot of this process is that of the project around a plan's file.
+/// Checks that the project around a plan's file has the robot of this process.
 ///
 /// # Errors
-/// It is another one, or the project file is wrong.
+/// It has a different robot, or the project file is invalid.
 pub fn fits(plan: &Path) -> PyResult<()> {
     let project = ProjectFile::of_plan(plan).map_err(|why| run_error(&why.into()))?;
     let robot = project.robot().map_err(|why| run_error(&why.into()))?;
@@ -94,11 +92,11 @@ pub fn fits(plan: &Path) -> PyResult<()> {
     }))
 }
 
-/// Sensors of a robot by names of their own beside those of its signals: the names, and what one of them says; none for
-/// another name.
+/// A robot's own names for sensors, in addition to its signals: the names, and a function that
+/// reads one and returns `None` for other names.
 type Named<R> = (&'static [&'static str], fn(&R, &str) -> Option<PyResult<Sensed>>);
 
-/// What registers the templates that plans for a robot may use.
+/// Registers the templates for plans of a robot.
 type Register<R> = Box<dyn Fn(&mut Registry<R>) + Send + Sync>;
 
 /// A robot and its templates.
@@ -107,13 +105,14 @@ pub struct Link<R: Simulated> {
     own_robot: Option<&'static str>,
     toolboxes: &'static [&'static str],
     register: Register<R>,
-    /// The text of a world for the robot that stands in while nobody may use the true one.
+    /// The world of the stand-in robot outside of calls.
     nowhere: &'static str,
     named: Option<Named<R>>,
     robot: fn(Python<'_>, Robot) -> PyResult<Py<Robot>>,
 }
 
-/// A project's robot by its type: its path, the toolboxes beside the built-in ones, and what registers all templates.
+/// Makes the link of a project's robot: its path, the additional toolboxes, and the registration of
+/// all templates.
 pub fn linked<R: Simulated>(
     robot: &'static str,
     toolboxes: &'static [&'static str],
@@ -132,7 +131,7 @@ pub fn linked<R: Simulated>(
 
 #[cfg(feature = "carbot")]
 impl<R: Simulated> Link<R> {
-    /// The built-in robot, with a class and names of its own.
+    /// Makes the link of the built-in robot, with its own class and names.
     pub(crate) fn built_in(
         toolboxes: &'static [&'static str],
         register: impl Fn(&mut Registry<R>) + Send + Sync + 'static,
@@ -198,7 +197,7 @@ impl<R: Simulated> AnyLink for Link<R> {
     }
 }
 
-/// What to say of a sensor that is not there.
+/// The error for an unknown sensor.
 fn no_sensor(own: &[&str], name: &str, truth: bool) -> String {
     let known = signals(devices()).filter(|(.., row)| truth || !row.truth);
     let known = known.map(|(_, device, row)| format!("{}.{}", device.name, row.name));

@@ -1,4 +1,4 @@
-//! `read_log`: what an MCAP log holds.
+//! `read_log`: the contents of an MCAP log.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use crate::sensed::table;
 use crate::simulation::{Event, value};
 use crate::world::World;
 
-/// Reads a log, as far as it goes, into a dictionary.
+/// Read a log into a dictionary, up to its first defect.
 #[pyfunction]
 pub fn read_log<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDict>> {
     let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
@@ -49,10 +49,10 @@ pub fn read_log<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDi
     Ok(dict)
 }
 
-/// Paths and texts of a plan's files, the name of the plan, the world, the seed.
+/// Paths and texts of a plan's files, the plan's name, the world, the seed.
 type Made = (Vec<(String, String)>, String, World, u64);
 
-/// What the run of a log was made of.
+/// The inputs of a logged run.
 #[pyfunction]
 pub fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<Made> {
     let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
@@ -68,7 +68,7 @@ pub fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<Made> {
     Ok((texts, recipe.plan, world, recipe.seed))
 }
 
-/// A picture of a log, as SVG: `path`, `sonar` or `film`.
+/// A picture of a log as SVG: `path`, `sonar` or `film`.
 #[pyfunction]
 pub fn draw_log(py: Python<'_>, path: PathBuf, what: &str) -> PyResult<String> {
     let draw = match what {

@@ -1,4 +1,4 @@
-//! Checks for signals and stop requests while something runs for long.
+//! Checks for signals and stop requests during long runs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,55 +9,55 @@ use pyo3::prelude::*;
 use crate::attach::attached;
 use crate::component::Host;
 
-/// How often signals are looked at.
+/// The interval of signal checks.
 const EVERY: Duration = Duration::from_millis(30);
-/// The clock is read once for so many turns.
+/// The turns between two readings of the clock.
 const TURNS: u32 = 8;
 
-/// What can end a run from outside.
+/// The ways to end a run from outside.
 pub struct Pause {
     host: Option<Arc<Host>>,
     stop: Arc<AtomicBool>,
     next: Instant,
     turns: u32,
-    /// Whether the last look took its time.
+    /// Whether the last turn took long.
     pub is_long: bool,
 }
 
-/// Why a run does not go on.
+/// The reason why a run stops.
 pub enum Halt {
-    /// Somebody asked for it.
+    /// A stop request.
     Asked,
-    /// A component raised what ends everything; [`Host::aborted`] has it.
+    /// An exception of a component that ends the run, stored in [`Host::aborted`].
     Aborted,
-    /// A handler of a signal raised this, `KeyboardInterrupt` as a rule.
+    /// The exception of a signal handler, usually `KeyboardInterrupt`.
     Raised(PyErr),
 }
 
 impl Pause {
-    /// For what nobody can ask to stop.
+    /// Checks only signals.
     pub fn of_signals() -> Self {
         Pause::new(None, Arc::default())
     }
 
-    /// For a plan: with its components, and what asks it to stop.
+    /// Checks a plan's components and stop requests, too.
     pub fn new(host: Option<Arc<Host>>, stop: Arc<AtomicBool>) -> Self {
         Pause { host, stop, next: Instant::now() + EVERY, turns: 0, is_long: false }
     }
 
-    /// Whether a component has ended everything.
+    /// Whether a component has ended the run.
     pub fn has_ended_all(&self) -> bool {
         self.host.as_ref().is_some_and(|host| host.has_ended_all())
     }
 
-    /// Whether somebody asked for an end.
+    /// Whether a stop was requested.
     #[inline]
     pub fn is_asked(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
             || self.host.as_ref().is_some_and(|host| host.is_aborted())
     }
 
-    /// Looks whether somebody asked for an end, which is asked for once.
+    /// Takes a stop request, if there is one.
     #[inline]
     pub fn asked(&mut self) -> Option<Halt> {
         self.is_long = false;
@@ -70,13 +70,13 @@ impl Pause {
         None
     }
 
-    /// Looks whether the run goes on; at signals from time to time.
+    /// Checks whether the run continues, with signals at intervals.
     pub fn look(&mut self) -> Option<Halt> {
         if let Some(halt) = self.asked() {
             return Some(halt);
         }
         self.turns += 1;
-        // Components take their time: then every turn counts.
+        // Components can be slow, so with them every turn counts.
         if self.turns < TURNS && self.host.is_none() {
             return None;
         }

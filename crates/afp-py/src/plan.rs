@@ -1,4 +1,4 @@
-//! `Plan`: a text, what the compiler says of it, its drawings, and changes of it.
+//! `Plan`: a text, its diagnostics, drawings and changes.
 
 mod change;
 mod compile;
@@ -29,7 +29,7 @@ use crate::attach::in_background;
 use compile::Workspace;
 pub use diagnostic::{Diagnostic, diagnostics};
 
-/// A plan: its text, what the compiler says of it, its drawings, and changes of it.
+/// A plan: its text, diagnostics, drawings and changes.
 #[pyclass(module = "afp", frozen, subclass)]
 pub struct Plan {
     workspace: Mutex<Workspace>,
@@ -51,13 +51,12 @@ impl Plan {
         Ok(Plan { workspace: Mutex::new(workspace), toolboxes })
     }
 
-    /// The text.
     #[getter]
     fn text(&self) -> String {
         self.lock().text().to_owned()
     }
 
-    /// The file that it came from and is saved to.
+    /// The file that it was read from and is saved to.
     #[getter]
     fn path(&self) -> Option<PathBuf> {
         self.lock().path().cloned()
@@ -71,13 +70,13 @@ impl Plan {
         Ok(graph.main().name.clone())
     }
 
-    /// The toolboxes that were given with it.
+    /// The toolboxes given with it.
     #[getter]
     fn toolboxes(&self, py: Python<'_>) -> Vec<Py<Toolbox>> {
         self.python_toolboxes(py)
     }
 
-    /// Everything the compiler has to say, in the order of the text.
+    /// All diagnostics, in source order.
     #[getter]
     fn diagnostics(&self, py: Python<'_>) -> PyResult<Vec<Diagnostic>> {
         Ok(diagnostics(&*self.compiled(py)?))
@@ -89,7 +88,7 @@ impl Plan {
         Ok(self.compiled(py)?.graph.is_some())
     }
 
-    /// The scenarios of the file; none while it has errors.
+    /// The scenarios of the file; empty if it has errors.
     #[getter]
     fn scenarios(&self, py: Python<'_>) -> PyResult<Vec<Scenario>> {
         let compiled = self.compiled(py)?;
@@ -105,12 +104,12 @@ impl Plan {
         Ok((0..compiled.scenarios.len()).map(one).collect())
     }
 
-    /// The scenarios that cannot be run, while nothing else has errors: name, line and what is wrong.
+    /// Invalid scenarios of an otherwise valid file: name, line and error.
     fn _invalid(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, String)>> {
         Ok(scenario::invalid(&*self.compiled(py)?))
     }
 
-    /// Raises `PlanError` if the plan has errors.
+    /// Raise `PlanError` if the plan has errors.
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         let compiled = self.compiled(py)?;
         match compiled.graph {
@@ -119,33 +118,33 @@ impl Plan {
         }
     }
 
-    /// The diagnostics as `afpc check` prints them.
+    /// The diagnostics as printed by `afpc check`.
     #[pyo3(signature = (*, color=false))]
     fn report(&self, py: Python<'_>, color: bool) -> PyResult<String> {
         Ok(self.compiled(py)?.render(color))
     }
 
-    /// The text in canonical form; the plan stays as it is.
+    /// The text in canonical form; the plan does not change.
     fn formatted(&self, py: Python<'_>) -> PyResult<String> {
         let text = self.text();
         let compiled = self.compiled(py)?;
         afp_format::format(&text).map_err(|_| plan_error(py, &compiled))
     }
 
-    /// Brings the text into canonical form.
+    /// Format the text.
     fn format(&self, py: Python<'_>) -> PyResult<()> {
         let text = self.formatted(py)?;
         self.lock().set_text(text);
         Ok(())
     }
 
-    /// Writes the text, and those of other files that a change has reached, to their files.
+    /// Write the text to its file, and texts of other changed files to theirs.
     #[pyo3(signature = (path=None))]
     fn save(&self, path: Option<PathBuf>) -> PyResult<()> {
         self.lock().save(path)
     }
 
-    /// The drawing in the notation of the paper, as SVG, with what is wrong marked where it is.
+    /// The drawing in the paper's notation as SVG, with errors marked.
     #[pyo3(signature = (*, theme="auto", fold=false, data=true))]
     fn svg(&self, py: Python<'_>, theme: &str, fold: bool, data: bool) -> PyResult<String> {
         let theme = match theme {
@@ -165,7 +164,7 @@ impl Plan {
         })
     }
 
-    /// The drawing with what the run of a log made use of, as SVG.
+    /// The drawing with the coverage of a logged run, as SVG.
     fn _coverage(&self, py: Python<'_>, log: PathBuf) -> PyResult<String> {
         let compiled = self.checked(py)?;
         let read = in_background(py, move || afp_log::read(&log))?;
@@ -173,7 +172,7 @@ impl Plan {
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
         let texts = compiled.plan_texts();
         let known = |text: &str| texts.iter().any(|(_, known)| known == text);
-        // The numbers of another plan may happen to fit.
+        // The numbers of a different plan may match by chance.
         let same = log.recipe().texts.iter().all(|text| known(&text.text));
         let used = Some(graph).filter(|_| same).and_then(|graph| Coverage::of_log(graph, &log));
         let used =
@@ -212,14 +211,14 @@ impl Plan {
         Ok(afp_draw::scxml(graph, Some(&compiled.sources), true))
     }
 
-    /// The names of the plans of the file.
+    /// The names of the plans in the file.
     #[getter]
     fn plans(&self) -> Vec<String> {
         change::plans(self.lock().text())
     }
 
-    /// Makes a change of meaning: its kind and its parts by name, see the methods of `afp.Plan`; with `fits` one that is
-    /// refused where the compiler finds an error in what it writes.
+    /// Make a change of meaning, given by kind and named parts; see the methods of `afp.Plan`. With
+    /// `fits`, reject a change that writes an invalid value.
     #[pyo3(signature = (kind, parts, fits=false))]
     fn _change(
         &self,
@@ -239,28 +238,28 @@ impl Plan {
         self.toolboxes.iter().try_for_each(|toolbox| visit.call(toolbox))
     }
 
-    /// What it is made of: text, path, the plan that runs, toolboxes, texts of other files that a change has reached.
+    /// Its parts: text, path, name of the plan that runs, toolboxes, texts of other changed files.
     fn _state(&self, py: Python<'_>) -> State {
         self.state(py)
     }
 
-    /// Takes over texts of other files.
+    /// Set texts of other files.
     fn _set_others(&self, others: BTreeMap<String, String>) {
         self.lock().set_others(others);
     }
 }
 
-/// What a plan is made of.
+/// The parts of a plan.
 pub type State =
     (String, Option<PathBuf>, Option<String>, Vec<Py<Toolbox>>, BTreeMap<String, String>);
 
 impl Plan {
     fn lock(&self) -> MutexGuard<'_, Workspace> {
-        // A text is replaced as a whole: a panic leaves nothing half done.
+        // A text is replaced as a whole, so a panic leaves no partial change.
         self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Where the icons of templates are: of the project, where there is one, and built-in ones.
+    /// Finds icons of templates in the project or among the built-in ones.
     fn icons(&self) -> impl Fn(&Declared, &str) -> Option<String> + Send + use<> {
         let own = self.lock().own();
         move |toolbox, name| match &own {
@@ -269,7 +268,7 @@ impl Plan {
         }
     }
 
-    /// What became of the text, compiled anew only after a change of it or of a toolbox.
+    /// The compilation of the text, repeated only after a change of it or of a toolbox.
     ///
     /// # Errors
     /// As [`Workspace::compiled`].
@@ -278,7 +277,7 @@ impl Plan {
         compiled.map_err(|why| run_error(&why))
     }
 
-    /// What it is made of, for pickles and copies.
+    /// Its parts for pickles and copies.
     pub fn state(&self, py: Python<'_>) -> State {
         let workspace = self.lock();
         let (text, path) = (workspace.text().to_owned(), workspace.path().cloned());
@@ -291,12 +290,12 @@ impl Plan {
         )
     }
 
-    /// The toolboxes that were given with it.
+    /// The toolboxes given with it.
     pub fn python_toolboxes(&self, py: Python<'_>) -> Vec<Py<Toolbox>> {
         self.toolboxes.iter().map(|toolbox| toolbox.clone_ref(py)).collect()
     }
 
-    /// Why 'afpc run' with the plan's file does something else than the plan does; none where it does the same.
+    /// The reason why 'afpc run' with the plan's file behaves differently; `None` if it does not.
     pub fn caveat(&self) -> Option<&'static str> {
         if !self.toolboxes.is_empty() {
             return Some("components are in Python: run it there");
@@ -308,12 +307,12 @@ impl Plan {
         (!same || !others.is_empty()).then_some("the plan has been changed and not saved")
     }
 
-    /// Where the plan stands, for logs and for the world beside it.
+    /// The plan's file, for logs and for the world next to it.
     pub fn file(&self) -> PathBuf {
         self.lock().file()
     }
 
-    /// What became of the text.
+    /// The compilation.
     ///
     /// # Errors
     /// The plan has errors.

@@ -1,4 +1,4 @@
-//! `Robot`: the robot of a project, or what the Carbot has in common with it, for components in Python.
+//! `Robot`: the robot of a project, or the Carbot's common part, for components in Python.
 
 use std::any::Any;
 use std::mem;
@@ -12,25 +12,25 @@ use pyo3::prelude::*;
 use crate::sensed::Sensed;
 use crate::value::no_pickle;
 
-/// The robot as a component in Python has it: devices and time, not the truth.
+/// The robot of a component: devices and time, without ground truth.
 ///
-/// It can be used while a component is being called and not between calls.
+/// Use it only while a component is being called.
 #[pyclass(module = "afp", frozen, subclass)]
 pub struct Robot {
     slot: Mutex<Slot>,
     sense: Sense,
 }
 
-/// What a robot senses under a name.
+/// Reads a sensor of a robot by name.
 pub type Sense = fn(&dyn Any, &str) -> PyResult<Sensed>;
 
-/// The robot while a component is called; one that stands in for it otherwise.
+/// The robot during a call, or its stand-in.
 struct Slot {
     robot: Box<dyn Held>,
     caller: Option<Arc<Caller>>,
 }
 
-/// A template in Python, whose component has the robot for the time of a call.
+/// A Python template whose component uses the robot during a call.
 #[derive(Debug)]
 pub struct Caller {
     /// Its name.
@@ -66,16 +66,16 @@ impl<R: Simulated> Held for R {
     }
 }
 
-/// What to say outside of calls.
+/// The error outside of calls.
 const NO_CALL: &str = "the robot can be used only while a component is being called";
 
 impl Robot {
-    /// A robot for which another one stands in.
+    /// A robot object with a stand-in.
     pub fn new(stand_in: Box<dyn Held>, sense: Sense) -> Robot {
         Robot { slot: Mutex::new(Slot { robot: stand_in, caller: None }), sense }
     }
 
-    /// Takes the robot for a caller, or gives it back for none.
+    /// Swaps in the robot for a caller, or swaps it out without one.
     pub fn exchange<R: Simulated>(&self, env: &mut R, caller: Option<&Arc<Caller>>) {
         let mut slot = self.lock();
         if let Some(held) = slot.robot.as_any_mut().downcast_mut::<R>() {
@@ -88,7 +88,7 @@ impl Robot {
         self.slot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Uses the robot, without a call of Python meanwhile.
+    /// Uses the robot, without calling Python in between.
     fn with<T>(&self, use_it: impl FnOnce(&mut dyn Held) -> T) -> PyResult<T> {
         let mut slot = self.lock();
         match slot.caller {
@@ -97,7 +97,7 @@ impl Robot {
         }
     }
 
-    /// Commands a device of a robot of known type, which the template must have said to use.
+    /// Commands a device of a robot with a known type; the template must declare its use.
     #[cfg(feature = "carbot")]
     pub(crate) fn command<R: Simulated, T>(
         &self,
@@ -116,7 +116,7 @@ impl Robot {
         used.ok_or_else(|| crate::errors::error("the robot is of another kind"))
     }
 
-    /// What a sensor says.
+    /// The value of a sensor.
     pub(crate) fn sensed<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let sensed = self.with(|robot| (self.sense)(robot.as_any(), name))?;
         sensed?.into_bound(py)
@@ -125,18 +125,19 @@ impl Robot {
 
 #[pymethods]
 impl Robot {
-    /// The time of this step, seconds since the start.
+    /// The time of this step, in seconds since the start.
     #[getter]
     fn time(&self) -> PyResult<f64> {
         self.with(|robot| robot.time().as_secs_f64())
     }
 
-    /// Asks for a standstill.
+    /// Request a stop.
     fn stop(&self) -> PyResult<()> {
         self.with(|robot| robot.halt())
     }
 
-    /// What a signal says, by device and name: `robot.sense("bumper.left")`. `None` before it says anything.
+    /// The value of a signal, by device and name: `robot.sense("bumper.left")`. `None` before its
+    /// first value.
     fn sense<'py>(&self, py: Python<'py>, signal: &str) -> PyResult<Bound<'py, PyAny>> {
         self.sensed(py, signal)
     }

@@ -27,22 +27,22 @@ use crate::value::Pickled;
 use verdict::verdict;
 pub use verdict::{Broken, Verdict};
 
-/// A scenario of a file: a world, what happens, what is expected.
+/// A scenario of a file: a world, actions and expectations.
 #[pyclass(module = "afp", frozen)]
 pub struct Scenario {
     pub compiled: Arc<Compiled>,
     pub index: usize,
     pub file: PathBuf,
     pub toolboxes: Vec<Py<Toolbox>>,
-    /// Why `afpc test` does something else than this does.
+    /// The reason why `afpc test` would behave differently.
     pub caveat: Option<&'static str>,
-    /// What the plan is pickled as, with the text that this is a scenario of.
+    /// The pickled plan, with the text of this scenario.
     pub source: Py<PyAny>,
 }
 
 #[pymethods]
 impl Scenario {
-    /// Its name.
+    /// The name.
     #[getter]
     fn name(&self) -> PyResult<&str> {
         Ok(&self.checked()?.name)
@@ -54,7 +54,7 @@ impl Scenario {
         Ok(&self.checked()?.graph.main().name)
     }
 
-    /// The file in which it stands.
+    /// Its file.
     #[getter]
     fn path(&self) -> PathBuf {
         self.file.clone()
@@ -72,13 +72,13 @@ impl Scenario {
         Ok(self.checked()?.seed)
     }
 
-    /// When it ends at the latest, seconds.
+    /// Its time limit, in seconds.
     #[getter]
     fn until(&self) -> PyResult<f64> {
         Ok(self.checked()?.until as f64 / 1e9)
     }
 
-    /// Runs it; with `log`, records it there. Ctrl-C interrupts it.
+    /// Run it; with `log`, record it there. Ctrl-C interrupts it.
     #[pyo3(signature = (*, log=None))]
     fn run(&self, py: Python<'_>, log: Option<PathBuf>) -> PyResult<Verdict> {
         may_run()?;
@@ -112,7 +112,7 @@ impl Scenario {
         Ok(verdict(&self.compiled, came, self.command()?))
     }
 
-    /// Whether it is the same one of the same text.
+    /// Whether it is the same scenario of the same text.
     fn __eq__(&self, py: Python<'_>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
         let Ok(other) = other.cast::<Scenario>() else { return Ok(false) };
         let other = other.get();
@@ -134,7 +134,7 @@ impl Scenario {
         self.toolboxes.iter().try_for_each(|toolbox| visit.call(toolbox))
     }
 
-    /// By its plan and its place among the scenarios of that.
+    /// Pickled as its plan, and its index among the plan's scenarios.
     fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, (Py<PyAny>, usize)> {
         let again = py.import("afp.plan")?.getattr("_scenario")?;
         Ok((again, (self.source.clone_ref(py), self.index)))
@@ -147,7 +147,7 @@ impl Scenario {
         found.ok_or_else(|| PyIndexError::new_err("there is no such scenario"))
     }
 
-    /// The line that runs it again, with what it does otherwise.
+    /// The command that repeats it, with differences in a comment.
     fn command(&self) -> PyResult<String> {
         let file = shell_file(&self.file.display().to_string());
         let command = format!("afpc test {file} {}", shell_word(&self.checked()?.name));
@@ -155,7 +155,7 @@ impl Scenario {
     }
 }
 
-/// The scenarios that cannot be run: name, line and what is wrong.
+/// Invalid scenarios: name, line and error.
 pub fn invalid(compiled: &Compiled) -> Vec<(String, usize, String)> {
     let one = |each: &InvalidScenario| {
         let said = each.errors.render(&compiled.sources, false);

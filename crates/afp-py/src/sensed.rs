@@ -1,21 +1,21 @@
-//! What a robot senses, as values that own what they say.
+//! A robot's sensor values, which own their data.
 
 use afp_session::{Image, Pose2, Ranging, SampleRef};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods, ToPyArray};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
-/// What a sensor said.
+/// A sensor value.
 #[derive(Debug, PartialEq)]
 pub enum Sensed {
-    /// It has not measured anything.
+    /// No measurement.
     Nothing,
     Truth(bool),
     Integer(i64),
     Number(f64),
     Text(String),
     Pair(f64, f64),
-    /// A place and a heading.
+    /// A position and a heading.
     Pose(f64, f64, f64),
     /// As an array.
     Numbers(Vec<f64>),
@@ -29,7 +29,7 @@ pub enum Sensed {
 }
 
 impl Sensed {
-    /// A sample of a signal: silence of a range sensor is infinity.
+    /// Converts a sample of a signal; a range sensor without an echo gives infinity.
     pub fn of(sample: SampleRef<'_>) -> Sensed {
         match sample {
             SampleRef::Bool(truth) => Sensed::Truth(truth),
@@ -51,7 +51,7 @@ impl Sensed {
         }
     }
 
-    /// The value as Python has it.
+    /// Converts the value to Python.
     pub fn into_bound(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         match self {
             Sensed::Nothing => Ok(py.None().into_bound(py)),

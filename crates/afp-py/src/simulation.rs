@@ -51,7 +51,7 @@ pub use stimuli::{control, fault};
 use time::some;
 pub use time::{duration, instant};
 
-/// A plan in a simulated world. `afp.Simulation` is made of it.
+/// A plan in a simulated world, the base of `afp.Simulation`.
 #[pyclass(module = "afp", frozen)]
 pub struct Runner {
     session: Mutex<Run>,
@@ -115,41 +115,43 @@ impl Runner {
         Ok(Runner::new(run, host, &compiled))
     }
 
-    /// Runs the plan until it ends or until a time, when it is stopped if `stop` is set; whether it still runs.
+    /// Run the plan until it ends or until a time; with `stop`, stop it at that time. Return
+    /// whether it is still running.
     fn run(&self, py: Python<'_>, until: Option<f64>, stop: bool) -> PyResult<bool> {
         let until = until.map(instant).transpose()?;
         self.drive(py, |session| session.run(until.unwrap_or(Instant::MAX), stop))
     }
 
-    /// Makes one step of the plan; whether it still runs.
+    /// Make one step of the plan; return whether it is still running.
     #[inline]
     fn step(&self, py: Python<'_>) -> PyResult<bool> {
-        // Components get hold of the interpreter by themselves; without any, letting it go costs more than a step.
+        // Components attach to the interpreter themselves; without components, releasing it costs
+        // more than a step.
         if self.host.is_none() {
             return self.lock()?.step();
         }
         self.drive(py, Run::step)
     }
 
-    /// Goes on until something has happened after the first `seen` events, or until a time; whether the plan still
-    /// runs.
+    /// Continue until there are more than `seen` events, or until a time; return whether the plan
+    /// is still running.
     fn listen(&self, py: Python<'_>, seen: usize, until: Option<f64>) -> PyResult<bool> {
         let until = until.map(instant).transpose()?.unwrap_or(Instant::MAX);
         self.drive(py, |session| session.listen(seen, until))
     }
 
-    /// Asks the plan to stop at its next step; from any thread.
+    /// Request the plan to stop at its next step; callable from any thread.
     fn request_stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Asks for all that came from outside in the run of a log.
+    /// Request all stimuli of a logged run.
     fn repeat(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
         log.recipe().ask(&mut *self.lock()?.session).map_err(error)
     }
 
-    /// The same run at this moment, which goes on by itself; it writes no log.
+    /// A copy of the run at this moment, which continues independently; it writes no log.
     fn keyframe(&self) -> PyResult<Runner> {
         let copied = self.lock()?.keyframe().ok_or_else(|| {
             error(
@@ -159,13 +161,13 @@ impl Runner {
         Ok(Runner::new(copied?, None, &self.compiled))
     }
 
-    /// Goes on from the moment of another run of the same plan.
+    /// Continue from the moment of another run of the same plan.
     fn restore(&self, moment: &Runner) -> PyResult<()> {
         let run = moment.keyframe()?.session.into_inner();
         self.lock()?.restore(run.unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// The time, seconds.
+    /// The time in seconds.
     #[getter]
     fn time(&self) -> PyResult<f64> {
         self.see(|run| Ok(run.session.now().as_secs_f64()), |glance| Ok(glance.time))
@@ -183,44 +185,44 @@ impl Runner {
         Ok(self.lock()?.fault())
     }
 
-    /// Why the plan stopped though it did not end by itself: `until` or `stop`.
+    /// The reason why the plan stopped before its own end: `until` or `stop`.
     #[getter]
     fn stopped_by(&self) -> PyResult<Option<&'static str>> {
         Ok(self.lock()?.stopped_by)
     }
 
-    /// The hash of the trace so far, as `afpc run` tells it.
+    /// The hash of the trace so far, as in `afpc run`.
     #[getter]
     fn trace_hash(&self) -> PyResult<String> {
         Ok(self.lock()?.session.trace().to_string())
     }
 
-    /// Deadlines missed so far.
+    /// The number of missed deadlines so far.
     #[getter]
     fn deadline_misses(&self) -> PyResult<u64> {
         Ok(self.lock()?.session.misses())
     }
 
-    /// The path of the active element, sub-plans left out.
+    /// The path of the active element, without sub-plans.
     #[getter]
     fn active(&self) -> PyResult<Option<String>> {
         self.see(|run| Ok(run.active()), |glance| Ok(glance.active))
     }
 
-    /// How many events there are.
+    /// The number of events.
     #[getter]
     fn event_count(&self) -> PyResult<usize> {
         Ok(self.lock()?.keeper.happened.len())
     }
 
-    /// The events from the `first`-th on.
+    /// The events from index `first` on.
     fn events(&self, first: usize) -> PyResult<Vec<Event>> {
         let session = self.lock()?;
         let news = session.keeper.happened.get(first..).unwrap_or_default();
         Ok(news.iter().map(|each| Event::new(each, &session.names)).collect())
     }
 
-    /// The timeline as `afpc run` prints it.
+    /// The timeline as printed by `afpc run`.
     #[getter]
     fn timeline(&self) -> PyResult<Vec<String>> {
         let session = self.lock()?;
@@ -228,7 +230,7 @@ impl Runner {
         Ok(happened.filter_map(|each| line(each, &session.names)).collect())
     }
 
-    /// Where the robot was every 20 ms: time, x, y, heading.
+    /// The robot's pose every 20 ms: time, x, y, heading.
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let session = self.lock()?;
         let row = |point: &Waypoint| {
@@ -239,7 +241,7 @@ impl Runner {
         table(py, &path)
     }
 
-    /// Where what moves was last: outlines in metres.
+    /// The last outlines of moving things, in metres.
     fn things(&self) -> PyResult<Outlines> {
         Ok(self.lock()?.track.things.clone())
     }
@@ -263,20 +265,20 @@ impl Runner {
         })
     }
 
-    /// Where the robot is: x, y, heading.
+    /// The robot's pose: x, y, heading.
     #[getter]
     fn pose(&self) -> PyResult<(f64, f64, f64)> {
         let pose = self.see(Run::pose, |glance| glance.pose.ok_or_else(no_pose))?;
         Ok((pose.x, pose.y, pose.heading))
     }
 
-    /// What the robot touched: obstacle, first and last time.
+    /// The robot's contacts: obstacle, first and last time.
     #[getter]
     fn collisions(&self) -> PyResult<Vec<(String, f64, f64)>> {
         Ok(self.lock()?.collisions())
     }
 
-    /// What a sensor says.
+    /// The value of a sensor.
     fn sense<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let sensed = link().sense(self.lock()?.session.robot(), name, true)?;
         sensed.into_bound(py)
@@ -305,10 +307,11 @@ impl Runner {
         to_python(py, value.as_deref(), |choice| names.choice(id, choice).to_owned())
     }
 
-    /// Writes an entry: before the start an `in` entry, later an `in` or `var` entry at the next step.
+    /// Write an entry: before the start an `in` entry, later an `in` or `var` entry at the next
+    /// step.
     #[pyo3(signature = (name, value, at=None))]
     fn set(&self, name: &str, value: &Bound<'_, PyAny>, at: Option<f64>) -> PyResult<()> {
-        // This may run Python, which must find the simulation free.
+        // This may run Python code that uses the simulation.
         let given = Given::new(value)?;
         let mut session = self.lock()?;
         let number = session.entry(name)?;
@@ -325,7 +328,7 @@ impl Runner {
         set.map_err(|why| error(format!("'{name}': {why}")))
     }
 
-    /// Holds a control down for a while.
+    /// Hold a control for a while.
     fn hold(&self, control: Option<&str>, at: Option<f64>, time: f64) -> PyResult<()> {
         let control = self::control(control)?;
         let time = some("hold", time)?;
@@ -334,7 +337,7 @@ impl Runner {
         session.ask(from, Request::Hold(control, time)).map_err(error)
     }
 
-    /// Breaks something.
+    /// Inject a fault.
     #[pyo3(signature = (device, kind, at, lasting, delay, share))]
     fn fail(
         &self,
@@ -355,7 +358,7 @@ impl Runner {
         session.ask(from, Request::Break(fault, amount, lasting)).map_err(error)
     }
 
-    /// Lets a component report an outcome that it did not see, with its outputs.
+    /// Make a component report an outcome with its outputs.
     fn fire(
         &self,
         component: &str,
@@ -376,7 +379,7 @@ impl Runner {
         session.ask(from, Request::Inject(id, reported, outputs)).map_err(error)
     }
 
-    /// Lets an actor, those of a sub-plan, or all of them do nothing from their next start on.
+    /// Make an actor, the actors of a sub-plan, or all of them do nothing from their next start on.
     fn idle(&self, element: Option<&str>, at: Option<f64>) -> PyResult<()> {
         let mut session = self.lock()?;
         let element = element.map(|path| session.element(path)).transpose()?;
@@ -384,7 +387,7 @@ impl Runner {
         session.ask(from, Request::Idle(element)).map_err(error)
     }
 
-    /// Ends the log, where there is one; its path. In a process that was forked there is none.
+    /// End the log and return its path. A forked process has no log.
     fn close(&self) -> PyResult<Option<PathBuf>> {
         if self.process != forks::process() {
             return Ok(None);
@@ -392,14 +395,15 @@ impl Runner {
         self.lock()?.close()
     }
 
-    /// The exceptions of components after the first `seen`: time, element or supervisor, template, exception.
+    /// The exceptions of components after the first `seen`: time, element or supervisor, template,
+    /// exception.
     fn failures<'py>(
         &self,
         py: Python<'py>,
         seen: usize,
     ) -> Vec<(f64, String, String, Bound<'py, PyAny>)> {
         let failures = self.host.as_ref().map(|host| host.failures()).unwrap_or_default();
-        // The trace knows who it was, and when, of computations too; while the plan runs nobody can look at it.
+        // The trace has component and time, also for computations; it is inaccessible during a run.
         let run = self.lock().ok();
         let mut raised = run.as_ref().map(|run| run.raised().skip(seen));
         let each = failures.into_iter().map(|failure| {
@@ -426,7 +430,7 @@ impl Runner {
     }
 }
 
-/// What to say of a plan that cannot be loaded.
+/// The error for a plan that cannot be loaded.
 fn no_session(why: &SessionError) -> PyErr {
     match why {
         SessionError::Load(_) => error(format!(
@@ -436,7 +440,7 @@ fn no_session(why: &SessionError) -> PyErr {
     }
 }
 
-/// Every fault that `fail` knows: device and kind.
+/// Every fault for `fail`: device and kind.
 #[pyfunction]
 pub fn faults() -> Vec<(&'static str, &'static str)> {
     faults_of(devices()).map(|(_, device, row)| (device.name, row.name)).collect()

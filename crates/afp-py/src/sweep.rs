@@ -1,8 +1,8 @@
 //! `Sweeper`: many runs of a plan, on the engine of `afpc sweep`.
 //!
-//! The runs go on in threads of the engine while the interpreter is free; components in Python take its lock in
-//! turn. The calling thread looks at signals and tells how it goes. Outcomes travel as lines of JSON, those of the
-//! journal, so that runs may be done by other processes.
+//! The runs use the engine's threads while the interpreter is released; components in Python take
+//! its lock in turn. The calling thread checks signals and reports progress. Outcomes are passed as
+//! the journal's lines of JSON, so that other processes can do runs.
 
 mod given;
 mod rows;
@@ -47,13 +47,13 @@ pub struct Sweeper {
     file: PathBuf,
     toolboxes: Vec<Py<Toolbox>>,
     sweep: Sweep,
-    /// The names of figures that are taken of each run.
+    /// The names of the metrics of each run.
     metrics: Vec<String>,
     header: Header,
     done: Mutex<Done>,
 }
 
-/// What has been done.
+/// The finished runs.
 #[derive(Default)]
 struct Done {
     outcomes: Vec<Outcome>,
@@ -116,20 +116,21 @@ impl Sweeper {
         Ok(Sweeper { compiled, file, toolboxes, sweep, metrics, header, done: Mutex::default() })
     }
 
-    /// How many runs there are.
+    /// The number of runs.
     #[getter]
     fn total(&self) -> u64 {
         self.sweep.len()
     }
 
-    /// Whether its runs call nothing that is written in Python.
+    /// Whether its runs call no Python code.
     #[getter]
     fn is_quiet(&self) -> bool {
         self.toolboxes.is_empty()
     }
 
-    /// What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal, all but the
-    /// first by its hash. What Python reads is left out: where runs are done by other processes it goes along.
+    /// The identity of the sweep: program, plan, worlds, grid and Python code, as in its journal,
+    /// all but the first by its hash. Files read by Python are not included; they are sent along to
+    /// other processes.
     #[getter]
     fn identity(&self) -> String {
         let Header { program, plan, worlds, grid, parts, .. } = &self.header;
@@ -138,7 +139,7 @@ impl Sweeper {
         format!("{program} {plan} {worlds} {}{parts}", hash(grid))
     }
 
-    /// Keeps outcomes in a journal beside the table `out`, and takes up those that are there.
+    /// Keep outcomes in a journal next to the table `out`, and load earlier ones.
     fn open(&self, out: &str, restart: bool) -> PyResult<()> {
         let output = OutputFiles::new(Some(Path::new(out)), &self.file, &self.header);
         let output = output.map_err(|why| run_error(&why))?;
@@ -150,15 +151,15 @@ impl Sweeper {
         Ok(())
     }
 
-    /// The numbers of the runs that are not done.
+    /// The numbers of the remaining runs.
     fn left(&self) -> PyResult<Vec<u64>> {
         let done = self.lock()?;
         Ok((0..self.sweep.len()).filter(|run| !done.runs.contains(run)).collect())
     }
 
-    /// Does runs and keeps their outcomes; tells `progress` how many of this call are done, and `on_run` the row of
-    /// each. `judge` gives further figures of a run: its number, its end, its world and its seed go in, numbers by name
-    /// come out.
+    /// Do runs and keep their outcomes. `progress` receives the number of runs done by this call,
+    /// and `on_run` the row of each. `judge` computes metrics: it receives the run's number,
+    /// simulation, world and seed, and returns numbers by name.
     #[pyo3(signature = (runs, jobs=None, progress=None, on_run=None, judge=None))]
     fn run(
         &self,
@@ -181,7 +182,7 @@ impl Sweeper {
         })
     }
 
-    /// Does runs for another process; their outcomes as lines of JSON.
+    /// Do runs for another process and return their outcomes as lines of JSON.
     #[pyo3(signature = (runs, jobs=None, judge=None))]
     fn lines(
         &self,
@@ -200,8 +201,8 @@ impl Sweeper {
         Ok(lines)
     }
 
-    /// Keeps outcomes of another process, and passes their rows to `on_run`; those of runs that are done are dropped. How many
-    /// were new.
+    /// Keep outcomes of another process, and pass their rows to `on_run`. Drop outcomes of finished
+    /// runs, and return the number of new ones.
     #[pyo3(signature = (lines, on_run=None))]
     fn accept(
         &self,
@@ -225,7 +226,7 @@ impl Sweeper {
         Ok(count)
     }
 
-    /// A run about to begin again, and its world; its log is written to a file, perhaps with what the camera sees.
+    /// A run at its start, and its world; optionally with a log and the camera's pictures.
     #[pyo3(signature = (run, log=None, camera=false))]
     fn runner(
         &self,
@@ -260,7 +261,7 @@ impl Sweeper {
         Ok((runner, World::new(loaded)))
     }
 
-    /// Writes the table, if it is written anywhere, and closes the journal; its paths.
+    /// Write the table, if one is wanted, and close the journal; return the paths.
     fn write(&self) -> PyResult<Vec<PathBuf>> {
         let mut done = self.lock()?;
         let kept = done.journal.take().map_or(Ok(()), Journal::close);
@@ -270,7 +271,7 @@ impl Sweeper {
         Ok(output.tables.iter().map(|(path, _)| path.clone()).collect())
     }
 
-    /// The outcomes so far by column, in the order of the runs; the second of a pair is the type.
+    /// The outcomes so far by column, in the order of runs; each pair ends with the type.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         rows::columns(py, &self.sweep, &self.lock()?.sorted())
     }
@@ -294,7 +295,7 @@ impl Sweeper {
         Ok(self.sweep.row(run))
     }
 
-    /// The rows of outcomes, where somebody wants them.
+    /// The rows of outcomes, if there is a callback.
     fn rows<'py>(
         &self,
         py: Python<'py>,
@@ -317,7 +318,7 @@ impl Sweeper {
 }
 
 impl Done {
-    /// Keeps outcomes, in the journal too.
+    /// Keeps outcomes, also in the journal.
     fn keep(&mut self, new: Vec<Outcome>) -> PyResult<()> {
         for outcome in new {
             if let Some(journal) = &mut self.journal {
@@ -336,7 +337,7 @@ impl Done {
     }
 }
 
-/// Lets something be done with what registers the components in Python.
+/// Calls a function with the registration of the components in Python.
 fn with_setting<T>(
     py: Python<'_>,
     toolboxes: &[Py<Toolbox>],
@@ -350,13 +351,14 @@ fn with_setting<T>(
     used
 }
 
-/// The graph of a plan that has one.
+/// The graph of a valid plan.
 fn graph(compiled: &Compiled) -> PyResult<&Graph> {
     compiled.graph.as_ref().ok_or_else(|| error("the plan has errors"))
 }
 
-/// What runs the plans: with parts of a project, what the extension was built from counts too. `afpc sweep` goes on with a
-/// journal of plans without components in Python, on the Carbot with built-in toolboxes.
+/// The identity of the program; with parts of a project it includes the sources of the extension.
+/// `afpc sweep` resumes a journal if the plan has only built-in toolboxes and no components in
+/// Python, on the Carbot.
 fn program(py: Python<'_>) -> PyResult<String> {
     let mut program = Build::this().to_string();
     if link().own_robot().is_some() || !link().toolboxes().is_empty() {
@@ -366,7 +368,7 @@ fn program(py: Python<'_>) -> PyResult<String> {
     Ok(program)
 }
 
-/// Why a journal cannot be used, and what to do about it from Python.
+/// The error for an unusable journal, with help for Python.
 fn no_journal(why: &JournalError) -> PyErr {
     let help = match why {
         JournalError::File(why) => return run_error(why),
@@ -376,7 +378,7 @@ fn no_journal(why: &JournalError) -> PyErr {
     error(format!("{why}\n  help: {help}"))
 }
 
-/// Passes rows to a function of Python, one after the other.
+/// Passes rows to a Python function one by one.
 fn report(py: Python<'_>, to: Option<&Py<PyAny>>, rows: Vec<Bound<'_, PyDict>>) -> PyResult<()> {
     let Some(to) = to else { return Ok(()) };
     rows.into_iter().try_for_each(|row| to.call1(py, (row,)).map(drop))

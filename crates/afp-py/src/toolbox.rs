@@ -1,4 +1,4 @@
-//! `Toolbox`: a toolbox file whose templates are implemented in Python.
+//! `Toolbox`: a toolbox file with templates implemented in Python.
 
 use std::mem;
 use std::path::PathBuf;
@@ -22,16 +22,16 @@ pub struct Toolbox {
 
 struct Inner {
     file: String,
-    /// What the toolbox was made of.
+    /// The original text of the toolbox.
     text: String,
-    /// The templates that were declared later, by name.
+    /// Templates declared later, by name.
     declared: Vec<(String, String)>,
     makers: Vec<(String, Py<PyAny>)>,
-    /// How often its text has become another one.
+    /// The number of changes of its text.
     revision: u64,
 }
 
-/// A toolbox at one moment: its text, what that declares, and what makes the components, by template.
+/// A snapshot of a toolbox: its text, its declarations, and its implementations by template.
 pub struct Ready {
     pub text: String,
     pub declared: Arc<Declared>,
@@ -55,7 +55,7 @@ impl Toolbox {
         self.lock().whole()
     }
 
-    /// The name behind `use`.
+    /// The name after `use`.
     #[getter]
     fn name(&self) -> PyResult<String> {
         Ok(self.declared()?.name.clone())
@@ -67,14 +67,14 @@ impl Toolbox {
         Ok(self.declared()?.templates.iter().map(|template| template.name.clone()).collect())
     }
 
-    /// The names of the templates that have an implementation.
+    /// The names of the implemented templates.
     #[getter]
     fn implemented(&self) -> Vec<String> {
         self.lock().makers.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Adds the text of a template; one that was declared here before takes its place, as when a cell of a notebook
-    /// is run again.
+    /// Add the text of a template. It replaces an earlier declaration, for example if you run a
+    /// notebook cell again.
     fn _declare(&self, name: &str, text: String) -> PyResult<()> {
         let mut inner = self.lock();
         let mut declared = inner.declared.clone();
@@ -90,7 +90,7 @@ impl Toolbox {
         Ok(())
     }
 
-    /// Names what makes a component of a template; a later one takes the place of an earlier one.
+    /// Set the implementation of a template; a later one replaces an earlier one.
     fn _implement(&self, template: String, maker: Py<PyAny>) -> PyResult<()> {
         let declared = self.declared()?;
         if !declared.templates.iter().any(|known| known.name == template) {
@@ -107,12 +107,12 @@ impl Toolbox {
         let earlier = earlier.map(|place| inner.makers.remove(place));
         inner.makers.push((template, maker));
         drop(inner);
-        // As below: only now.
+        // As below, after the lock is released.
         drop(earlier);
         Ok(())
     }
 
-    /// What a template declares: kind, inputs (with `live`), outputs, outcomes.
+    /// The declaration of a template: kind, inputs (with `live`), outputs, outcomes.
     fn _template<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
         let declared = self.declared()?;
         let template = declared.templates.iter().find(|template| template.name == name);
@@ -122,13 +122,14 @@ impl Toolbox {
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        // Nobody waits for the interpreter while holding this, nor changes it without the interpreter.
+        // No thread waits for the interpreter while holding this lock, and changes need the
+        // interpreter.
         self.lock().makers.iter().try_for_each(|(_, maker)| visit.call(maker))
     }
 
     fn __clear__(&self) {
         let makers = mem::take(&mut self.lock().makers);
-        // What an object does when it goes may come back here.
+        // A destructor may call back here.
         drop(makers);
     }
 }
@@ -144,21 +145,21 @@ impl Toolbox {
         Source::new(&*inner.file, inner.whole())
     }
 
-    /// What its text declares.
+    /// Its declarations.
     pub fn declared(&self) -> PyResult<Arc<Declared>> {
         let inner = self.lock();
         parse(&inner.file, &inner.whole())
     }
 
-    /// How often its text has become another one, as when a cell of a notebook is run again.
+    /// The number of changes of its text, for example by a repeated notebook cell.
     pub fn revision(&self) -> u64 {
         self.lock().revision
     }
 
-    /// The toolbox as it is now.
+    /// A snapshot of the toolbox.
     ///
     /// # Errors
-    /// Its text can no longer be read.
+    /// Its text is invalid.
     pub fn ready(&self, py: Python<'_>) -> PyResult<Ready> {
         let inner = self.lock();
         let source = Source::new(&*inner.file, inner.whole());

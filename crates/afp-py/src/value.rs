@@ -13,18 +13,18 @@ use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyString};
 
-/// So many characters of a value are shown.
+/// The most characters shown of a value.
 const SHOWN: usize = 80;
 
-/// What '__reduce__' gives: what makes the object again, and its arguments.
+/// The result of '__reduce__': a constructor and its arguments.
 pub type Pickled<'py, A> = PyResult<(Bound<'py, PyAny>, A)>;
 
-/// The exception for what cannot be pickled, with what to do instead.
+/// The exception for an object that cannot be pickled, with an alternative.
 pub fn no_pickle(what: &str, instead: &str) -> PyErr {
     PyTypeError::new_err(format!("a {what} cannot be pickled; {instead}"))
 }
 
-/// A value of an entry as Python has it: enums by name, unset as `None`.
+/// Converts an entry's value to Python: enums by name, unset as `None`.
 pub fn to_python<'py>(
     py: Python<'py>,
     value: ValueRef<'_>,
@@ -41,7 +41,7 @@ pub fn to_python<'py>(
     }
 }
 
-/// The unit that a value brings along (`afp.cm(30)` has `m`), none for plain numbers.
+/// The unit of a value (`afp.cm(30)` has `m`), `None` for plain numbers.
 fn unit(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     match value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
         true => Ok(None),
@@ -49,13 +49,13 @@ fn unit(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     }
 }
 
-/// A value from Python that is meant for an entry, before anything is known of that.
+/// A value from Python for an entry, before the entry is known.
 pub enum Given {
-    /// A text, read as `--set` reads it unless the entry is a text itself.
+    /// A string, parsed as by `--set` unless the entry is a string.
     Text(String),
-    /// A number or truth value, perhaps with its unit.
+    /// A number or boolean, possibly with a unit.
     Plain(Value, Option<String>),
-    /// Something of another type.
+    /// A value of another type.
     Other(String),
 }
 
@@ -63,7 +63,7 @@ impl Given {
     /// Reads a value.
     ///
     /// # Errors
-    /// What the value itself raises; an integer of more than 64 bits.
+    /// The value's exception, or an integer of more than 64 bits.
     pub fn new(value: &Bound<'_, PyAny>) -> PyResult<Given> {
         if let Some(truth) = truth(value) {
             return Ok(Given::Plain(Value::Bool(truth), None));
@@ -81,7 +81,7 @@ impl Given {
         }
     }
 
-    /// The value for an entry of a session's plan.
+    /// Converts the value for an entry of a session's plan.
     ///
     /// # Errors
     /// It does not fit.
@@ -120,14 +120,14 @@ impl Given {
     }
 }
 
-/// What to say of a value that is none of an entry.
+/// The error for a value that does not fit an entry.
 pub fn unfit(about: EntryName<'_>, what: &str) -> PyErr {
     let (path, ty, unit) = (about.path, about.ty, about.unit);
     let link = if unit.is_empty() { "" } else { " in " };
     PyTypeError::new_err(format!("'{path}' is {}{link}{unit}, not {what}", a(ty)))
 }
 
-/// What to give an entry instead of a text that stands for none of its values.
+/// The help for a string that an entry cannot take.
 fn of_text(names: &dyn Names, id: TraceEntryId, text: &str) -> String {
     let choices = (0..u16::MAX).map(|value| names.choice(id, value));
     let choices: Vec<_> = choices.take_while(|choice| !choice.is_empty()).collect();
@@ -148,7 +148,7 @@ fn of_text(names: &dyn Names, id: TraceEntryId, text: &str) -> String {
     }
 }
 
-/// What a quantity in a unit is made of.
+/// The example of a quantity in a unit.
 fn such(unit: &str) -> String {
     match unit {
         "" => String::new(),
@@ -161,7 +161,7 @@ fn such(unit: &str) -> String {
     }
 }
 
-/// The number in SI units that a text stands for, where its unit is one of that kind: `30 cm` is 0.3 in metres.
+/// The SI value of a string with a unit of that kind: `30 cm` is 0.3 in metres.
 #[pyfunction]
 pub fn number_of(text: &str, unit: &str) -> Option<f64> {
     let of_kind = |name| {
@@ -174,22 +174,22 @@ pub fn number_of(text: &str, unit: &str) -> Option<f64> {
     }
 }
 
-/// A seed; what is none is told as everywhere in the package.
+/// Reads a seed, with the package's common error.
 ///
 /// # Errors
-/// It is none.
+/// It is not a seed.
 pub fn seed_of(seed: &Bound<'_, PyAny>) -> PyResult<u64> {
     seed.py().import("afp.seeds")?.call_method1("seed_of", (seed,))?.extract()
 }
 
-/// A truth value, of Python or numpy.
+/// A boolean of Python or numpy.
 fn truth(value: &Bound<'_, PyAny>) -> Option<bool> {
     value.extract().ok()
 }
 
 /// Whether a value is an integer, of Python or numpy.
 fn is_integer(value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    // Arrays have the method, and only those of one integer use it.
+    // Arrays have the method, but only those of one integer support it.
     let is_index = value.hasattr("__index__")?;
     let is_array = is_index && value.hasattr("__array_interface__")?;
     let is_none = is_array && value.call_method0("__index__").is_err();
@@ -200,7 +200,7 @@ fn integer(value: &Bound<'_, PyAny>) -> PyResult<i64> {
     value.extract().map_err(|_| PyOverflowError::new_err("an integer of more than 64 bits"))
 }
 
-/// A text of Python as Rust has it.
+/// Converts a Python string to Rust.
 fn text(value: &Bound<'_, PyString>) -> PyResult<String> {
     let text = value.to_cow().map(Cow::into_owned);
     text.map_err(|_| {
@@ -208,12 +208,12 @@ fn text(value: &Bound<'_, PyString>) -> PyResult<String> {
     })
 }
 
-/// What to say of a text that no entry holds.
+/// The error for a string that is too long for an entry.
 fn too_long(text: &str) -> String {
     format!("a text has at most {MAX_TEXT} bytes of UTF-8, not {}", text.len())
 }
 
-/// The beginning of what may be long.
+/// The beginning of a long text.
 pub fn short(text: String) -> String {
     match text.char_indices().nth(SHOWN) {
         Some((end, _)) => format!("{}...", text.get(..end).unwrap_or_default()),
@@ -221,7 +221,7 @@ pub fn short(text: String) -> String {
     }
 }
 
-/// A number, if the value is one. What ends a program is not taken for a value that does not fit.
+/// A number, if the value is one. An exception that ends the program is passed on.
 fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
     match value.extract() {
         Ok(number) => Ok(Some(number)),
@@ -233,10 +233,10 @@ fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
     }
 }
 
-/// A number in that unit; an empty one is that of plain numbers.
+/// A number in that unit; an empty unit means plain numbers.
 ///
 /// # Errors
-/// It is none, or a quantity in another unit.
+/// It is not a number, or it has a different unit.
 pub fn measured(what: &str, value: &Bound<'_, PyAny>, wanted: &str) -> PyResult<f64> {
     let wrong = |given: String| {
         let kind = match wanted {
@@ -253,7 +253,7 @@ pub fn measured(what: &str, value: &Bound<'_, PyAny>, wanted: &str) -> PyResult<
     }
 }
 
-/// A value from Python for a port of that type.
+/// Converts a value from Python for a port of that type.
 pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     let wrong = || {
         let name = value.get_type().name().map(|name| name.to_string()).unwrap_or_default();
@@ -293,13 +293,13 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     }
 }
 
-/// A text as entries hold it.
+/// Converts a string for an entry.
 fn held(text: &str) -> PyResult<Value> {
     let held = Text::try_from(text).map(Value::Text);
     held.map_err(|_| PyValueError::new_err(too_long(text)))
 }
 
-/// A value of whatever type Python gives.
+/// Converts a value by its Python type.
 fn any(value: &Bound<'_, PyAny>) -> PyResult<Option<Value>> {
     if let Some(truth) = truth(value) {
         return Ok(Some(Value::Bool(truth)));

@@ -14,27 +14,27 @@ use crate::link::{fits, link};
 use crate::sensed::table;
 use crate::value::{Pickled, seed_of};
 
-/// What a world is pickled as: its text, its path, and where the robot starts instead of where the text says.
+/// The pickled form of a world: its text, its path, and a start that overrides the text's.
 type Facts<'a> = (&'a str, Option<&'a Path>, Option<(f64, f64, f64)>);
 
-/// A room: where the robot starts and what stands, lies, shines and moves around it.
+/// A room: the robot's start, and obstacles, floor, lights and moving things around it.
 #[pyclass(module = "afp", frozen)]
 pub struct World {
     pub loaded: LoadedWorld,
-    /// The file of which it was read, whatever was changed in it since.
+    /// The file that it was read from, even if it was changed later.
     pub read: Option<PathBuf>,
 }
 
 #[pymethods]
 impl World {
-    /// Reads a world file, or a map of map_server (`.yaml`).
+    /// Read a world file, or a map_server map (`.yaml`).
     #[staticmethod]
     fn load(path: PathBuf) -> PyResult<World> {
         let loaded = find(Some(&path), &path, link().kind()).map_err(|why| run_error(&why))?;
         Ok(World::new(loaded))
     }
 
-    /// A room made up from a seed, as `--world random:7` is.
+    /// A random room from a seed, like `--world random:7`.
     #[staticmethod]
     fn random(seed: &Bound<'_, PyAny>) -> PyResult<World> {
         let seed = seed_of(seed)?;
@@ -43,7 +43,7 @@ impl World {
         Ok(World::new(loaded))
     }
 
-    /// Reads a world from the text of its file.
+    /// Read a world from the text of a world file.
     #[staticmethod]
     pub fn parse(text: String) -> PyResult<World> {
         let world = link().kind().world(&text).map_err(|why| match why.span {
@@ -56,7 +56,7 @@ impl World {
         Ok(World::new(LoadedWorld { world, text, path: None, start: None }))
     }
 
-    /// The world that `afpc run` would take for the plan of this file.
+    /// The default world of a plan file, as in `afpc run`.
     #[staticmethod]
     fn of_plan(path: PathBuf) -> PyResult<World> {
         fits(&path)?;
@@ -64,7 +64,8 @@ impl World {
         Ok(World::new(loaded))
     }
 
-    /// The same with values of its file changed, `robot.charge`, and with another start of the robot.
+    /// A copy with changed values of its file, `robot.charge`, and with a different start of the
+    /// robot.
     fn _changed(
         &self,
         values: Vec<(String, String)>,
@@ -80,12 +81,11 @@ impl World {
                 .started_at(Pose2 { x, y, heading })
                 .map_err(|why| PyValueError::new_err(format!("start: {why}")))?;
         }
-        // It is not that of the file any more.
+        // It differs from the file now.
         loaded.path = None;
         Ok(World { loaded, read: self.read.clone() })
     }
 
-    /// What it is called.
     #[getter]
     fn name(&self) -> &str {
         self.loaded.world.name()
@@ -103,26 +103,26 @@ impl World {
         self.loaded.path.as_deref()
     }
 
-    /// Where the robot starts: x and y in metres, heading in radians.
+    /// The robot's start: x and y in metres, heading in radians.
     #[getter]
     fn start(&self) -> (f64, f64, f64) {
         let start = self.loaded.world.drawing().start;
         (start.x, start.y, start.heading)
     }
 
-    /// The names of what stands in it.
+    /// The names of its obstacles.
     #[getter]
     fn obstacles(&self) -> Vec<String> {
         self.loaded.world.drawing().things.into_iter().map(|thing| thing.name).collect()
     }
 
-    /// The corners of everything that stands in it, metres, each an array of n x 2.
+    /// The corners of all obstacles in metres, each an array of n x 2.
     fn outlines<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
         let things = self.loaded.world.drawing().things;
         things.iter().map(|thing| table(py, &thing.outline)).collect()
     }
 
-    /// Whether their files say the same, and the robot starts in the same place.
+    /// Whether their texts are equal, and their robots' starts.
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
         let is_same =
             |other: &World| (other.text(), other.loaded.start) == (self.text(), self.loaded.start);
@@ -139,12 +139,12 @@ impl World {
         format!("<World '{}', {} obstacles>", self.name(), self.loaded.world.drawing().things.len())
     }
 
-    /// What a notebook shows.
+    /// The picture for a notebook.
     fn _repr_svg_(&self) -> String {
         afp_log::svg::draw_world(&*self.loaded.world)
     }
 
-    /// As it was pickled.
+    /// Restore from a pickle.
     #[staticmethod]
     fn _again(
         text: String,
@@ -164,7 +164,7 @@ impl World {
 }
 
 impl World {
-    /// A world as it was loaded.
+    /// Wraps a loaded world.
     pub fn new(loaded: LoadedWorld) -> World {
         let read = loaded.path.clone();
         World { loaded, read }

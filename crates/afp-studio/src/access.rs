@@ -1,4 +1,4 @@
-//! Access: a code that works once becomes a cookie; foreign hosts and pages are refused.
+//! Access: a one-time code becomes a cookie; other hosts and pages are refused.
 
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,21 +10,21 @@ use axum::http::header::{COOKIE, HOST, ORIGIN};
 
 use crate::lock::{CODE_LASTS, Lock};
 
-/// What a browser must know, and where it may come from.
+/// The secrets of a browser, and the allowed origins.
 #[derive(Clone, Debug)]
 pub struct Secret {
     port: u16,
-    /// What the cookie holds.
+    /// The value of the cookie.
     token: Token,
-    /// The code that has not been used yet, and when it was made.
+    /// The unused code and its time.
     code: Arc<Mutex<Option<(Token, Instant)>>>,
-    /// Where those who start a second studio leave codes; none where nothing can be locked.
+    /// The lock in which a second studio leaves codes; `None` if locking is not possible.
     lock: Option<Arc<Lock>>,
     origins: Arc<[String]>,
 }
 
 impl Secret {
-    /// New words for the server on a port.
+    /// Makes new secrets for the server on a port.
     ///
     /// # Errors
     /// The system has no randomness.
@@ -38,19 +38,17 @@ impl Secret {
         })
     }
 
-    /// The port of the server.
     pub(crate) fn port(&self) -> u16 {
         self.port
     }
 
-    /// The address with the code.
     pub fn address(&self) -> String {
         let code = self.code.lock().unwrap_or_else(PoisonError::into_inner);
         let code = code.as_ref().map_or("", |(code, _)| code.word());
         format!("http://127.0.0.1:{}/?code={code}", self.port)
     }
 
-    /// The cookie for who brings the code, which does not work again.
+    /// Returns the cookie for a code, which then expires.
     pub fn redeem(&self, code: &str) -> Option<String> {
         if !self.redeems(code) && !self.lock.as_ref().is_some_and(|lock| lock.redeem(code)) {
             return None;
@@ -59,7 +57,7 @@ impl Secret {
         Some(format!("{name}={token}; HttpOnly; SameSite=Strict; Path=/"))
     }
 
-    /// Whether a code is that of the printed address, which does not work again.
+    /// Whether a code is the printed one, which then expires.
     fn redeems(&self, code: &str) -> bool {
         let mut kept = self.code.lock().unwrap_or_else(PoisonError::into_inner);
         let works =
@@ -67,7 +65,7 @@ impl Secret {
         kept.take_if(works).is_some()
     }
 
-    /// Whether a request is for this server and from a page of it.
+    /// Whether a request is for this server, and from one of its pages.
     pub fn is_ours(&self, headers: &HeaderMap) -> bool {
         let named = |name| headers.get(name).map(|value| value.to_str().unwrap_or("?"));
         let hosts = ["127.0.0.1", "localhost", "[::1]"].map(|host| format!("{host}:{}", self.port));
@@ -75,7 +73,7 @@ impl Secret {
         let host = named(HOST).is_some_and(|host| {
             hosts.iter().any(|own| own == host) || tunnels().any(|(_, own)| own == host)
         });
-        // A page says where it is from whenever it opens a socket or sends anything.
+        // A page sends its origin whenever it opens a socket or sends data.
         let origin = named(ORIGIN).is_none_or(|origin| {
             let own =
                 origin.strip_prefix("http://").is_some_and(|it| hosts.iter().any(|own| own == it));
@@ -84,7 +82,7 @@ impl Secret {
         host && origin
     }
 
-    /// Whether a request brings the cookie.
+    /// Whether a request has the cookie.
     pub fn knows(&self, headers: &HeaderMap) -> bool {
         let name = self.cookie();
         let cookies = headers.get_all(COOKIE).iter().filter_map(|value| value.to_str().ok());
@@ -94,7 +92,7 @@ impl Secret {
             .any(|(key, value)| key == name && self.token.is(value))
     }
 
-    /// Cookies know no ports: their names do.
+    /// Cookies do not distinguish ports, so their names do.
     fn cookie(&self) -> String {
         format!("afp_studio_{}", self.port)
     }
@@ -112,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_code_works_once_and_its_cookie_afterwards() {
+    fn a_code_works_once_and_its_cookie_later() {
         let secret = Secret::new(4000, Vec::new(), None).unwrap();
         let address = secret.address();
         let code = address.split_once("code=").unwrap().1;
@@ -128,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn foreign_hosts_and_pages_are_not_ours() {
+    fn other_hosts_and_pages_are_refused() {
         let secret = Secret::new(4000, vec!["https://lab.example".to_owned()], None).unwrap();
         let own = [
             &[(HOST, "127.0.0.1:4000")][..],

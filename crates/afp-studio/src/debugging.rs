@@ -1,4 +1,4 @@
-//! Clients that run and debug plans: their messages go through, a frame each.
+//! Clients that run and debug plans: their messages are forwarded, a frame each.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
@@ -11,28 +11,28 @@ use crate::Debugging;
 use crate::outbox::{Pulse, is_sent};
 use crate::sockets::MOST_CLIENTS;
 
-/// So many messages wait for a client; then who sends more waits.
+/// The most messages waiting for a client; then senders wait.
 const WAITING: usize = 1024;
 
-/// So many clients at once: a page runs a plan, and asks for the world of the next run.
+/// The most clients: a page has one for its run, and one for the world of the next run.
 const MOST: usize = 2 * MOST_CLIENTS;
 
-/// Where clients that debug are served.
+/// The service for debugging clients.
 #[derive(Clone)]
 pub(crate) struct Debuggers {
     to: Sender<Debugging>,
-    /// One for each client that may come.
+    /// A permit for each possible client.
     places: Arc<Semaphore>,
 }
 
 impl Debuggers {
-    /// Clients are handed over.
+    /// Passes clients to a receiver.
     pub fn new(to: Sender<Debugging>) -> Debuggers {
         Debuggers { to, places: Arc::new(Semaphore::new(MOST)) }
     }
 }
 
-/// Carries messages between a client and whoever debugs for it, until one of them is gone.
+/// Carries messages between a client and its debugger until one of them closes.
 pub(crate) async fn talk(mut socket: WebSocket, debuggers: Debuggers) {
     let Ok(_place) = debuggers.places.try_acquire() else {
         return turn_away(socket).await;
@@ -71,7 +71,7 @@ pub(crate) async fn talk(mut socket: WebSocket, debuggers: Debuggers) {
     }
 }
 
-/// Says why to one client too many, as the answer to what it asks first.
+/// Rejects a surplus client, as the response to its first request.
 async fn turn_away(mut socket: WebSocket) {
     let Some(Ok(Message::Text(text))) = socket.recv().await else { return };
     let asked: Value = serde_json::from_str(&text).unwrap_or_default();

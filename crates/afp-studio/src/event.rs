@@ -1,4 +1,4 @@
-//! What arrives at the room: from clients, and from jobs.
+//! Events for the room: from clients and jobs.
 
 use afp_lsp::Message;
 

@@ -1,4 +1,4 @@
-//! Plans that people can begin with, each copied with the world that it drives in and the plans that it uses.
+//! Example plans, each copied with its world and the plans that it uses.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -7,27 +7,25 @@ use serde_json::{Value, json};
 
 use crate::files::Folder;
 
-/// A plan to begin with.
 #[derive(Clone, Debug, Default)]
 pub struct Example {
     /// The name of its file, `patrol.afp`.
     pub name: String,
-    /// The text of the plan.
     pub plan: String,
-    /// The text of its world; without one it drives in that of the robot.
+    /// The text of its world; by default the robot's world.
     pub world: Option<String>,
-    /// The files that it uses: their paths seen from its own, and their texts.
+    /// The files that it uses: paths relative to it, and texts.
     pub uses: Vec<(String, String)>,
 }
 
 impl Example {
-    /// As clients list it: with the help of its plan, which says what it does.
+    /// Its entry in the clients' list, with the help text of its plan.
     pub(crate) fn listed(&self) -> Value {
         json!({ "name": self.name, "title": title(&self.plan) })
     }
 }
 
-/// The help in front of the first plan of a text, or else the first one: its first sentence.
+/// The first sentence of the first plan's help text, or else of the first help text.
 fn title(text: &str) -> String {
     let (mut first, mut help) = (String::new(), String::new());
     for line in text.lines().map(str::trim) {
@@ -42,11 +40,11 @@ fn title(text: &str) -> String {
     help.split_once(". ").map_or(help.clone(), |(first, _)| format!("{first}."))
 }
 
-/// Copies an example into a folder, to a file that is not there yet. What is there already of the others stays as it
-/// is. The world lies where a run looks for it: in the folder `worlds` beside that of the plan.
+/// Copies an example into a folder, to a new file. Existing files of the example stay unchanged.
+/// The world goes where a run looks for it: into the folder `worlds` next to the plan.
 ///
 /// # Errors
-/// There is no such example, a file lies outside of the folder or cannot be written: a sentence.
+/// A sentence: the example does not exist, or a file is outside the folder or cannot be written.
 pub(crate) fn copy(
     examples: &[Example],
     name: &str,
@@ -59,7 +57,7 @@ pub(crate) fn copy(
     let world = example.world.as_ref().zip(world_of(plan)).map(|(text, path)| (path, text));
     let uses = example.uses.iter().map(|(path, text)| (place.join(path), text));
     let others: Vec<_> = world.into_iter().chain(uses).filter(|(path, _)| !path.exists()).collect();
-    // All or nothing: half an example would be in the way of the next try.
+    // All or nothing: a partial copy would block the next attempt.
     check_place(folder, plan)?;
     if let Some((path, _)) = others.iter().find(|(path, _)| !leads_into(folder, path)) {
         return Err(format!(
@@ -75,20 +73,19 @@ pub(crate) fn copy(
     Ok(())
 }
 
-/// Where a run looks for the world of a plan.
+/// The path where a run looks for the world of a plan.
 fn world_of(plan: &Path) -> Option<PathBuf> {
     let file = Path::new(plan.file_stem()?).with_extension("toml");
     Some(plan.parent()?.parent()?.join("worlds").join(file))
 }
 
-/// Whether the nearest folder above a path that is there lies inside.
+/// Whether the nearest existing folder above a path is inside.
 fn leads_into(folder: &Folder, path: &Path) -> bool {
     let above = path.ancestors().skip(1).find_map(|above| above.canonicalize().ok());
     above.is_some_and(|above| above.starts_with(folder.root()))
 }
 
-/// Whether a file may be written, in a folder of its own where that is not there yet; nothing is made outside, not even
-/// a folder.
+/// Checks that a file may be written, creating its folder if needed, but nothing outside.
 fn check_place(folder: &Folder, path: &Path) -> Result<(), String> {
     let Some(parent) = path.parent().filter(|parent| !parent.exists()) else {
         return folder.inside(&path.to_string_lossy()).map(|_| ());
@@ -100,7 +97,7 @@ fn check_place(folder: &Folder, path: &Path) -> Result<(), String> {
     }
 }
 
-/// Writes a file, in a folder of its own where that is not there yet.
+/// Writes a file, creating its folder if needed.
 fn write(folder: &Folder, path: &Path, text: &str) -> Result<(), String> {
     let wrong = |why: io::Error| format!("cannot write '{}': {why}", path.display());
     check_place(folder, path)?;
@@ -116,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_an_example_says_of_itself_is_the_help_of_its_plan() {
+    fn the_title_of_an_example_is_the_help_of_its_plan() {
         let text = "use std\n\n/// Places.\ntable t(x: length) {}\n\n/// Drive to a room,\n/// round what stands there. And back.\nplan P {\n";
         assert_eq!(title(text), "Drive to a room, round what stands there.");
         assert_eq!(title("/// All of it.\nuse std\n\nplan P {"), "All of it.");
@@ -124,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn an_example_comes_with_its_world_and_what_it_uses_and_nothing_is_overwritten() {
+    fn an_example_is_copied_with_its_files_and_overwrites_none() {
         let place = tempfile::tempdir().unwrap();
         let folder = Folder::new(place.path()).unwrap();
         let example = |name: &str, uses: &[&str]| Example {
@@ -148,7 +145,7 @@ mod tests {
         let outside = at("../elsewhere/my.afp");
         assert!(copy(&examples, "one.afp", &folder, &outside).is_err());
         assert!(!outside.parent().unwrap().exists());
-        // The world would lie outside: no plan without it.
+        // The world would be outside, so the plan is not copied.
         let refused = copy(&examples, "two.afp", &folder, &at("my.afp")).unwrap_err();
         assert!(refused.contains("such as 'plans'"), "{refused}");
         assert!(!at("my.afp").exists());

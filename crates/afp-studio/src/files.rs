@@ -1,4 +1,4 @@
-//! The files of a folder: what may be read and written, and how texts lie in them.
+//! The files of a folder: permissions and formats.
 
 mod line_ends;
 
@@ -13,49 +13,47 @@ use afp_project::Listing;
 use line_ends::LineEnds;
 pub(crate) use line_ends::with_newlines;
 
-/// What is opened: plans, toolboxes and scenarios, the places of their drawings, projects.
+/// Editable files: plans, toolboxes and scenarios, positions, projects.
 const ENDINGS: [&str; 3] = ["afp", "layout", "toml"];
 
-/// Texts longer than this, in bytes, are neither opened nor written.
+/// The longest text that is opened or written, in bytes.
 pub(crate) const LONGEST: usize = 4 << 20;
 
-/// As many entries of the folder are looked at.
+/// The most entries of the folder that are listed.
 const MOST_ENTRIES: usize = 50_000;
 
-/// When a file was last written, and its length: another one is another file.
+/// Modification time and length of a file; a different stamp means a different content.
 pub(crate) type Stamp = (Option<SystemTime>, u64);
 
-/// How coarse times of files may be: FAT keeps every second one.
+/// The coarsest file times: FAT stores even seconds.
 const COARSE: Duration = Duration::from_secs(2);
 
-/// A folder that nothing leads out of.
+/// A folder without links to the outside.
 #[derive(Clone, Debug)]
 pub struct Folder {
     root: PathBuf,
 }
 
-/// What was found in a folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Listed {
-    /// The files that are opened, and the logs of runs, by path, with their stamps.
+    /// Editable files and logs by path, with their stamps.
     pub files: BTreeMap<String, Stamp>,
-    /// How many entries were looked at.
     pub entries: usize,
-    /// Whether there are more.
+    /// Whether there are more entries.
     pub is_cut: bool,
 }
 
-/// A text as it lies on the disk.
+/// A text in its file's format.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Kept {
-    /// With `\n` between lines, however those of the file end.
+    /// With `\n` line ends, independent of the file's.
     pub text: String,
-    /// What tells these bytes from others; none where there is no file.
+    /// A hash of the bytes; `None` without a file.
     pub etag: Option<String>,
     style: Style,
 }
 
-/// What of a file is not its text, and stays.
+/// The parts of the format that are not text, and stay.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Style {
     marked: bool,
@@ -63,10 +61,10 @@ struct Style {
 }
 
 impl Folder {
-    /// A folder that is there.
+    /// An existing folder.
     ///
     /// # Errors
-    /// There is none.
+    /// It does not exist.
     pub fn new(path: &Path) -> io::Result<Folder> {
         let root = fs::canonicalize(path)?;
         match root.is_dir() {
@@ -75,15 +73,15 @@ impl Folder {
         }
     }
 
-    /// Its path, without links.
+    /// Its path without links.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// The file that a path means, links followed.
+    /// Resolves a path, following links.
     ///
     /// # Errors
-    /// It lies outside, or is none of those that are opened: a sentence.
+    /// A sentence: it is outside, or not editable.
     pub(crate) fn inside(&self, path: &str) -> Result<PathBuf, String> {
         let path = Path::new(path);
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
@@ -96,7 +94,7 @@ impl Folder {
         let outside = || format!("'{}' lies outside of '{}'", path.display(), self.root.display());
         let real = match fs::canonicalize(path) {
             Ok(real) => real,
-            // A file that is to be: its folder decides. A link that leads nowhere is not followed.
+            // For a new file its folder decides. A dangling link is not followed.
             Err(_) if fs::symlink_metadata(path).is_ok() => return Err(outside()),
             Err(_) => {
                 let folder = path.parent().and_then(|folder| fs::canonicalize(folder).ok());
@@ -109,25 +107,24 @@ impl Folder {
         if real.starts_with(&self.root) { Ok(real) } else { Err(outside()) }
     }
 
-    /// What lies in the folder now.
     pub(crate) fn list(&self) -> Listed {
         let Listing { files, logs, entries, is_cut } = afp_project::list(&self.root, MOST_ENTRIES);
         let files = files.into_iter();
         let files = files.filter_map(|path| Some((path.to_str()?.to_owned(), stamp(&path)?)));
-        // That a log grows concerns nobody.
+        // The growth of a log is not a change.
         let logs = logs.into_iter();
         let logs = logs.filter_map(|path| Some((path.to_str()?.to_owned(), (None, 0))));
         Listed { files: files.chain(logs).collect(), entries, is_cut }
     }
 
-    /// A path as people read it: from the root.
+    /// The display form of a path, relative to the root.
     pub(crate) fn name(&self, path: &str) -> String {
         let short = Path::new(path).strip_prefix(&self.root).unwrap_or(Path::new(path));
         short.to_string_lossy().replace('\\', "/")
     }
 }
 
-/// When a file was last written, and its length.
+/// Modification time and length of a file.
 pub(crate) fn stamp(path: &Path) -> Option<Stamp> {
     fs::metadata(path).ok().map(|data| stamp_of(&data))
 }
@@ -136,7 +133,7 @@ fn stamp_of(data: &fs::Metadata) -> Stamp {
     (data.modified().ok(), data.len())
 }
 
-/// Whether a file was written so short ago that one written since could have the same stamp.
+/// Whether a file is so new that a later write could have the same stamp.
 pub(crate) fn is_fresh((written, _): Stamp) -> bool {
     let Some(written) = written else { return true };
     let now = SystemTime::now();
@@ -144,10 +141,10 @@ pub(crate) fn is_fresh((written, _): Stamp) -> bool {
     apart.is_ok_and(|apart| apart < COARSE)
 }
 
-/// Reads a file; one that is not there is empty.
+/// Reads a file; a missing one is empty.
 ///
 /// # Errors
-/// It cannot be read, is no text or is too long: a sentence.
+/// A sentence: it is unreadable, not a text or too long.
 pub(crate) fn read(path: &Path) -> Result<Kept, String> {
     let wrong = |why: String| format!("cannot read '{}': {why}", path.display());
     let bytes = match afp_output::read_file(path, LONGEST as u64) {
@@ -164,11 +161,11 @@ pub(crate) fn read(path: &Path) -> Result<Kept, String> {
 }
 
 impl Kept {
-    /// Writes another text the way that this one lies there, whole or not at all; gives what was written, and its stamp. None
-    /// where another text lies there by now.
+    /// Writes a new text in this one's format, atomically; returns it and its stamp. Returns `None`
+    /// if the file has changed.
     ///
     /// # Errors
-    /// It cannot be written, or could not be read again.
+    /// It cannot be written, or could not be read back.
     pub(crate) fn write(&self, path: &Path, text: &str) -> Result<Option<(Kept, Stamp)>, String> {
         let mark = if self.style.marked { "\u{feff}" } else { "" };
         let ends = self.style.ends.follow(&self.text, text);
@@ -183,7 +180,7 @@ impl Kept {
     }
 }
 
-/// Refuses bytes of which there are more than are read.
+/// Rejects a length above the limit.
 pub(crate) fn check_length(bytes: usize) -> Result<(), String> {
     let most = LONGEST >> 20;
     match bytes > LONGEST {
@@ -203,7 +200,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_leads_out_of_the_folder() {
+    fn links_and_paths_cannot_leave_the_folder() {
         let place = tempfile::tempdir().unwrap();
         let root = place.path().join("in");
         fs::create_dir_all(root.join("sub")).unwrap();
@@ -233,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn line_ends_and_marks_stay() {
+    fn line_ends_and_byte_order_marks_stay() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("a.afp");
         for (bytes, text, after) in [
@@ -257,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn what_another_program_wrote_in_the_last_moment_stays() {
+    fn a_save_keeps_the_latest_change_of_another_program() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("a.afp");
         fs::write(&path, "a\n").unwrap();
@@ -269,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_written_that_could_not_be_read_again() {
+    fn a_text_that_cannot_be_read_back_is_not_written() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("a.afp");
         fs::write(&path, "a\r\nb\r\n").unwrap();

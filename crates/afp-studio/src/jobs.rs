@@ -1,4 +1,5 @@
-//! Runs jobs: this program again, in another process, so that what it does there can be ended and can end nothing here.
+//! Runs jobs as separate processes of this program, so that they can be ended and cannot crash the
+//! studio.
 
 mod group;
 
@@ -13,7 +14,7 @@ use crate::event::Event;
 use crate::room::{JobId, Order};
 use group::Group;
 
-/// Processes that go on.
+/// Running processes.
 pub(crate) struct Runner {
     program: PathBuf,
     folder: PathBuf,
@@ -22,7 +23,7 @@ pub(crate) struct Runner {
 }
 
 impl Runner {
-    /// Runs a program in a folder; what it says are events.
+    /// Runs a program in a folder, with its output as events.
     pub fn new(program: PathBuf, folder: PathBuf, events: Sender<Event>) -> Runner {
         Runner { program, folder, events, running: BTreeMap::new() }
     }
@@ -56,7 +57,7 @@ impl Runner {
         }
     }
 
-    /// Carries what a process prints to the room, and that it has ended.
+    /// Sends the output of a process, and its end, to the room.
     fn listen(
         &self,
         id: JobId,
@@ -67,7 +68,7 @@ impl Runner {
         thread::spawn(move || {
             let told = err.map(|err| thread::spawn(move || carry(err, id, &errors)));
             out.into_iter().for_each(|out| carry(out, id, &events));
-            // Whoever reads the other stream ends with it.
+            // The reader of the other stream ends with it.
             let _ = told.map(thread::JoinHandle::join);
             let _ = events.send(Event::JobEnded(id));
         });
@@ -88,18 +89,18 @@ impl Drop for Runner {
     }
 }
 
-/// The longest line that is carried, in bytes: what a result may take. The rest of a longer one is left out.
+/// The longest forwarded line, in bytes, enough for a result. The rest of a longer line is dropped.
 const LONGEST: u64 = 1 << 20;
 
-/// Carries lines until the stream ends. What is no text is carried as far as it is: a job whose stream nobody reads any
-/// more cannot say its results.
+/// Forwards lines until the stream ends. Invalid text is forwarded lossily, because a job with an
+/// unread stream cannot report its results.
 fn carry(from: impl Read, id: JobId, to: &Sender<Event>) {
     let mut from = BufReader::new(from);
     let mut line = Vec::new();
     loop {
         line.clear();
         let read = from.by_ref().take(LONGEST).read_until(b'\n', &mut line);
-        // A stream that cannot be read has ended.
+        // An unreadable stream has ended.
         if read.unwrap_or(0) == 0 {
             return;
         }
@@ -113,7 +114,7 @@ fn carry(from: impl Read, id: JobId, to: &Sender<Event>) {
     }
 }
 
-/// Reads the rest of a line; whether there was any.
+/// Skips the rest of a line; returns whether there was any.
 fn skip_line(from: &mut impl BufRead) -> bool {
     let mut skipped = false;
     loop {
@@ -137,7 +138,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_are_carried_whatever_stands_in_them() {
+    fn lines_of_any_content_are_forwarded() {
         let long = "x".repeat(LONGEST as usize);
         for (stream, expected) in [
             (b"one\ntwo\r\nthree".to_vec(), vec!["one".to_owned(), "two".into(), "three".into()]),

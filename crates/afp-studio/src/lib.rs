@@ -1,12 +1,13 @@
-//! The studio's server: the plans of one folder, edited and drawn in a browser.
+//! The studio's server: the plans of a folder, edited and drawn in a browser.
 //!
-//! Everything about texts and drawings is said in the Language Server Protocol over a socket, to a server of
-//! `afp-lsp` for each client; a *room* keeps what is the folder's: which texts are open, who changes them, what is
-//! saved. The room alone writes files, whole or not at all, and never over what somebody else has written meanwhile.
+//! Texts and drawings use the Language Server Protocol over a socket, with an `afp-lsp` server for
+//! each client. A *room* holds the shared state of the folder: open texts, the editing client and
+//! unsaved changes. Only the room writes files. It writes atomically, and never over another
+//! program's change.
 //!
-//! It listens on the machine itself alone. Other users of the machine reach that as well, and so does any web page:
-//! what lets a browser in is a code that works once, on Linux for this program's user alone, and what it asks is looked
-//! at (`Host`, `Origin`) before anything is answered.
+//! The server listens only on the local machine. Other users of the machine and any web page can
+//! reach that, too. A browser therefore needs a one-time code, which on Linux works only for the
+//! same user. `Host` and `Origin` of each request are checked before the response.
 
 mod access;
 mod debugging;
@@ -37,31 +38,28 @@ use lock::Lock;
 pub use room::{ClientId, Room};
 pub use trust::Trusted;
 
-/// Where the language server of a client finds texts that nobody has open.
+/// Makes the file access of a client's language server.
 pub type MakeHost = fn() -> Box<dyn Host>;
 
-/// What is served, and where.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The folder whose files may be read and written.
     pub folder: PathBuf,
     /// The file that is shown first.
     pub open: Option<PathBuf>,
-    /// The port on the machine itself; 0 is a free one.
+    /// The local port; 0 selects a free one.
     pub port: u16,
-    /// Addresses of pages beside our own that may talk with it, such as `http://localhost:8080` at the near end of
-    /// a tunnel.
+    /// Additional allowed origins, such as `http://localhost:8080` at the near end of a tunnel.
     pub origins: Vec<String>,
-    /// The command line that does jobs: this program.
+    /// The command-line program that runs jobs: this program.
     pub program: PathBuf,
-    /// Plans that people can begin with.
     pub examples: Vec<Example>,
-    /// The folder of the user's own files, outside of what is served, which says who serves what; [`own_folder`],
-    /// and nowhere where there is no home.
+    /// The folder with the user's lock files, outside the served folder; [`own_folder`], or `None`
+    /// without a home directory.
     pub own: Option<PathBuf>,
 }
 
-/// Where files of this user are kept that are of no project.
+/// The user's folder for files without a project.
 pub fn own_folder() -> Option<PathBuf> {
     let folder = |name: &str| env::var_os(name).map(PathBuf::from).filter(|it| it.is_absolute());
     let own = folder("XDG_CONFIG_HOME").or_else(|| folder("APPDATA"));
@@ -69,25 +67,26 @@ pub fn own_folder() -> Option<PathBuf> {
     Some(own?.join("afp"))
 }
 
-/// A client that wants to run and debug plans: it speaks the Debug Adapter Protocol, a message at a time.
+/// A client that runs and debugs plans: it uses the Debug Adapter Protocol, a message at a time.
 #[derive(Debug)]
 pub struct Debugging {
-    /// What it says; disconnected when it is gone.
+    /// Its messages; disconnected when it leaves.
     pub said: std::sync::mpsc::Receiver<String>,
-    /// What it is told; whoever tells more than it reads waits. Closed when it is gone, or reads nothing for a while.
+    /// Messages to it; the sender waits if the client reads slowly. Closed when it leaves, or reads
+    /// nothing for a while.
     pub told: tokio::sync::mpsc::Sender<String>,
 }
 
-/// Who serves a folder.
+/// The server of a folder.
 #[derive(Debug)]
 pub enum Opened {
-    /// This program does.
+    /// This program.
     Here(Box<Studio>),
-    /// Another one does already: what a browser opens to be there, once, within a minute.
+    /// Another program; a browser opens this one-time address within a minute.
     Elsewhere(String),
 }
 
-/// A server that has its port.
+/// A server with an open port.
 #[derive(Debug)]
 pub struct Studio {
     listener: TcpListener,
@@ -97,14 +96,14 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Takes the port and reads the folder, unless it is served already.
+    /// Opens the port and reads the folder, unless it is already served.
     ///
     /// # Errors
-    /// The port is taken, there is no such folder.
+    /// The port is in use, or the folder does not exist.
     pub fn open(options: &Options, host: MakeHost) -> io::Result<Opened> {
         let folder = Folder::new(&options.folder)?;
         let among = options.own.as_ref().map(|own| own.join("open"));
-        // Where nothing can be locked, what two of them write is merged.
+        // If locking is not possible, the changes of two studios are merged.
         let lock = among.and_then(|among| Lock::take(folder.root(), &among).ok()).transpose();
         let lock = match lock {
             Ok(lock) => lock,
@@ -124,25 +123,26 @@ impl Studio {
         Ok(Opened::Here(Box::new(Studio { listener, secret, room, program })))
     }
 
-    /// What a browser opens: works once, for a minute.
+    /// The one-time address for a browser, valid for a minute.
     pub fn address(&self) -> String {
         self.secret.address()
     }
 
-    /// The folder, without links.
+    /// The folder without links.
     pub fn folder(&self) -> PathBuf {
         self.room.folder().root().to_owned()
     }
 
-    /// Whether what lies in the folder may be run, now and later.
+    /// Whether the folder is trusted to run, now and later.
     pub fn trusted(&self) -> Trusted {
         self.room.trusted()
     }
 
-    /// Serves until the program is asked to end; then everything is saved. Whoever wants to debug is handed over.
+    /// Serves until the program is asked to end, and then saves everything. Debugging clients go to
+    /// `debuggers`.
     ///
     /// # Errors
-    /// The socket breaks.
+    /// The socket fails.
     pub fn serve(self, debuggers: Sender<Debugging>) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         runtime.block_on(server::serve(

@@ -1,8 +1,9 @@
-//! One studio for a folder: who starts a second one is shown the page of the first.
+//! One studio per folder: a second one shows the page of the first.
 //!
-//! Two would write the same files, each merging what the other has written. Who serves a folder holds a locked file
-//! that its user alone can read, and says its port beside it. Who comes later puts a code there that lets a browser
-//! in, as the one of the printed address does: once, within a minute.
+//! Two studios would write the same files and merge each other's changes. The serving studio holds
+//! a lock on a file that only its user can read, and writes its port next to it. A later studio
+//! leaves a one-time code there. Like the code of the printed address, it admits a browser within a
+//! minute.
 
 use std::fs::{self, DirBuilder, File, TryLockError};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -12,12 +13,12 @@ use std::time::{Duration, SystemTime};
 
 use afp_token::Token;
 
-/// How long the code of an address works.
+/// The validity of an address's code.
 pub(crate) const CODE_LASTS: Duration = Duration::from_secs(60);
-/// How long the first one has to say its port.
+/// The time within which the first studio must write its port.
 const SAYS_WITHIN: Duration = Duration::from_secs(3);
 
-/// What says that this program serves a folder, for as long as it is kept.
+/// The lock of a served folder, held as long as the value exists.
 #[derive(Debug)]
 pub(crate) struct Lock {
     _held: File,
@@ -32,10 +33,10 @@ pub(crate) struct Other {
 }
 
 impl Lock {
-    /// Takes the lock of a folder, among those that lie in another one; or finds who has it.
+    /// Takes the lock of a folder in the folder `among`, or finds its holder.
     ///
     /// # Errors
-    /// Nothing can be locked there.
+    /// Locking is not possible there.
     pub fn take(root: &Path, among: &Path) -> io::Result<Result<Lock, Other>> {
         let place = among.join(name(root));
         private(&place)?;
@@ -61,13 +62,13 @@ impl Lock {
                 Err(_) if SystemTime::now() > end => {
                     return Err(io::Error::new(io::ErrorKind::TimedOut, "its port is not known"));
                 }
-                // It has just begun.
+                // It has just started.
                 Err(_) => std::thread::sleep(Duration::from_millis(20)),
             }
         }
     }
 
-    /// Says the port to who comes later.
+    /// Writes the port for later studios.
     ///
     /// # Errors
     /// It cannot be written.
@@ -75,18 +76,18 @@ impl Lock {
         afp_output::write_whole(&self.place.join("port"), port.to_string().as_bytes())
     }
 
-    /// Whether a code is the one that somebody has put there within a minute; it does not work again.
+    /// Whether a code was left here within the last minute; it then expires.
     pub fn redeem(&self, code: &str) -> bool {
         let path = self.place.join("code");
         let Ok(word) = fs::read_to_string(&path) else { return false };
         let made = fs::metadata(&path).and_then(|data| data.modified());
         let age = made.ok().and_then(|made| SystemTime::now().duration_since(made).ok());
         let good = !word.is_empty() && Token::from_word(&word).is(code);
-        // A code that cannot be removed would work for ever.
+        // A code that cannot be removed would stay valid.
         good && fs::remove_file(&path).is_ok() && age.is_some_and(|age| age <= CODE_LASTS)
     }
 
-    /// What an earlier one has left is of no use.
+    /// Codes of an earlier studio are useless.
     fn forget(&self) -> io::Result<()> {
         for name in ["port", "code"] {
             match fs::remove_file(self.place.join(name)) {
@@ -99,10 +100,10 @@ impl Lock {
 }
 
 impl Other {
-    /// An address that lets a browser in once and shows a file.
+    /// Returns a one-time address that shows a file.
     ///
     /// # Errors
-    /// No randomness, or the code cannot be left there.
+    /// No randomness, or the code cannot be written.
     pub fn address(&self, file: Option<&str>) -> io::Result<String> {
         let code = Token::new()?;
         afp_output::write_whole(&self.place.join("code"), code.word().as_bytes())?;
@@ -116,14 +117,14 @@ impl Other {
     }
 }
 
-/// A name for a folder, the same each time.
+/// A stable file name for a folder.
 fn name(root: &Path) -> String {
     let mut hasher = DefaultHasher::new();
     root.hash(&mut hasher);
     format!("{:016x}", hasher.finish())
 }
 
-/// A folder that nobody else can look into.
+/// Creates a folder that only the user can read.
 fn private(path: &Path) -> io::Result<()> {
     let mut builder = DirBuilder::new();
     builder.recursive(true);
@@ -136,13 +137,13 @@ fn private(path: &Path) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    /// Somebody who comes while the lock is held.
+    /// A second studio while the lock is held.
     fn other(root: &Path, among: &Path) -> Other {
         Lock::take(root, among).unwrap().unwrap_err()
     }
 
     #[test]
-    fn one_has_the_lock_until_it_is_gone_and_others_learn_the_port() {
+    fn a_studio_holds_the_lock_and_others_learn_its_port() {
         let place = tempfile::tempdir().unwrap();
         let (root, among) = (Path::new("/plans"), place.path().join("open"));
         let lock = Lock::take(root, &among).unwrap().unwrap();
@@ -155,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_code_of_another_works_once_and_the_newest_alone() {
+    fn only_the_newest_code_of_another_studio_works_and_only_once() {
         let place = tempfile::tempdir().unwrap();
         let root = Path::new("/plans");
         let lock = Lock::take(root, place.path()).unwrap().unwrap();
@@ -173,7 +174,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn nobody_else_can_look_there() {
+    fn the_folder_is_private() {
         use std::os::unix::fs::PermissionsExt;
         let place = tempfile::tempdir().unwrap();
         let _lock = Lock::take(Path::new("/plans"), &place.path().join("open")).unwrap();

@@ -1,6 +1,6 @@
-//! What is under way to a client. Messages come in bursts, so their number says nothing: the connection ends where the
-//! client reads nothing for a while, leaves more unread than there should be memory for, or does not answer when it is asked
-//! whether it is there.
+//! The queue of messages to a client. Messages come in bursts, so their number is not limited. The
+//! connection ends if the client reads nothing for a while, leaves too many bytes unread, or does
+//! not answer a ping.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,30 +10,30 @@ use axum::extract::ws::{Message, WebSocket};
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender, unbounded_channel};
 use tokio::time::{Instant, Interval, MissedTickBehavior, interval_at, timeout};
 
-/// How long a client may read nothing.
+/// The longest time in which a client may read nothing.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// How often a client is asked whether it is there. Behind a tunnel nobody else tells when it is gone.
+/// The interval of pings. Behind a tunnel there is no other sign of a lost client.
 const PULSE: Duration = Duration::from_secs(20);
 
-/// So many bytes may wait for a client.
+/// The most bytes waiting for a client.
 const MOST: usize = 64 << 20;
 
-/// The end at which messages are put in; nobody waits there.
+/// The sending end, which never blocks.
 #[derive(Debug)]
 pub(crate) struct Outbox {
     to: UnboundedSender<String>,
     bytes: Arc<AtomicUsize>,
 }
 
-/// The end at which they are taken out.
+/// The receiving end.
 #[derive(Debug)]
 pub(crate) struct Outgoing {
     from: UnboundedReceiver<String>,
     bytes: Arc<AtomicUsize>,
 }
 
-/// The two ends for one client.
+/// Makes the two ends for a client.
 pub(crate) fn outbox() -> (Outbox, Outgoing) {
     let (to, from) = unbounded_channel();
     let bytes = Arc::new(AtomicUsize::new(0));
@@ -41,7 +41,7 @@ pub(crate) fn outbox() -> (Outbox, Outgoing) {
 }
 
 impl Outbox {
-    /// Puts a message in; whether the client is there, and has read enough.
+    /// Queues a message; returns false if the client is gone or reads too slowly.
     pub fn put(&self, message: String) -> bool {
         let waiting = self.bytes.fetch_add(message.len(), Ordering::Relaxed) + message.len();
         waiting <= MOST && self.to.send(message).is_ok()
@@ -49,7 +49,7 @@ impl Outbox {
 }
 
 impl Outgoing {
-    /// The next message; none once nobody puts any in.
+    /// Returns the next message; `None` after the sender is dropped.
     pub async fn next(&mut self) -> Option<String> {
         let message = self.from.recv().await?;
         self.bytes.fetch_sub(message.len(), Ordering::Relaxed);
@@ -57,7 +57,7 @@ impl Outgoing {
     }
 }
 
-/// Sends a message; whether the client reads it.
+/// Sends a message; returns whether the client reads it.
 pub(crate) async fn is_sent(socket: &mut WebSocket, message: String) -> bool {
     is_taken(socket, Message::Text(message.into())).await
 }
@@ -66,11 +66,11 @@ async fn is_taken(socket: &mut WebSocket, message: Message) -> bool {
     matches!(timeout(PATIENCE, socket.send(message)).await, Ok(Ok(())))
 }
 
-/// Asks a client now and then whether it is still there. Browsers answer by themselves.
+/// Pings a client. Browsers answer automatically.
 #[derive(Debug)]
 pub(crate) struct Pulse {
     every: Interval,
-    /// Whether nothing was heard since it was asked last.
+    /// Whether nothing has arrived since the last ping.
     is_silent: bool,
 }
 
@@ -81,22 +81,22 @@ impl Pulse {
         Pulse { every, is_silent: false }
     }
 
-    /// Waits until it is time to ask.
+    /// Waits for the next ping.
     pub async fn due(&mut self) {
         self.every.tick().await;
     }
 
-    /// Whether the client has answered since last time and can be asked again.
+    /// Pings the client; returns false if the last ping has no answer.
     pub async fn is_felt(&mut self, socket: &mut WebSocket) -> bool {
         self.may_ask() && is_taken(socket, Message::Ping(Vec::new().into())).await
     }
 
-    /// Who was silent since it was asked last is not asked again.
+    /// A client without an answer is not pinged again.
     fn may_ask(&mut self) -> bool {
         !std::mem::replace(&mut self.is_silent, true)
     }
 
-    /// The client has said something.
+    /// Notes that the client has sent something.
     pub fn heard(&mut self) {
         self.is_silent = false;
     }
@@ -107,7 +107,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_burst_of_messages_waits_and_too_much_of_them_does_not() {
+    fn a_burst_of_messages_is_queued_up_to_a_limit() {
         let (to, mut from) = outbox();
         assert!((0..100_000).all(|number| to.put(number.to_string())));
         let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
@@ -116,14 +116,14 @@ mod tests {
                 assert_eq!(from.next().await, Some(number.to_string()));
             }
         });
-        // What was read makes room.
+        // Reading frees space.
         let large = "x".repeat(MOST / 4);
         assert!((0..4).all(|_| to.put(large.clone())));
         assert!(!to.put("x".to_owned()));
     }
 
     #[test]
-    fn who_does_not_answer_is_asked_once() {
+    fn a_silent_client_is_pinged_once() {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
         let mut pulse = runtime.block_on(async { Pulse::new() });
         for _ in 0..3 {
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_client_that_is_gone_takes_nothing() {
+    fn a_lost_client_receives_no_messages() {
         let (to, from) = outbox();
         drop(from);
         assert!(!to.put(String::new()));

@@ -1,8 +1,8 @@
-//! The files of the page: inside of the program, or read from the checkout by one that is built for debugging.
+//! The files of the page: embedded in the program, or in a debug build read from the checkout.
 
 use std::borrow::Cow;
 
-/// A file of the page by its name, with its type.
+/// Returns a file of the page by name, with its content type.
 pub(crate) fn file(name: &str) -> Option<(Cow<'static, [u8]>, &'static str)> {
     let kind = match name.rsplit_once('.')?.1 {
         "html" => "text/html; charset=utf-8",
@@ -13,7 +13,7 @@ pub(crate) fn file(name: &str) -> Option<(Cow<'static, [u8]>, &'static str)> {
         "map" | "json" => "application/json",
         _ => return None,
     };
-    // No folders, so no way out of one.
+    // Names without folders cannot leave the folder.
     let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_'));
     plain.then(|| bytes(name)).flatten().map(|bytes| (bytes, kind))
 }

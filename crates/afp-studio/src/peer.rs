@@ -1,14 +1,14 @@
-//! Who is at the other end of a connection: the code of an address stands in the command line of the browser that opens it,
-//! where every user of the machine can read it.
+//! The user at the other end of a connection. The code of an address appears in the browser's
+//! command line, which every user of the machine can read.
 
 use std::net::SocketAddr;
 
-/// Whether who connects from an address is this program's user, the administrator, or somebody that the system does not tell.
+/// Whether a peer is this program's user, the administrator, or unknown to the system.
 pub(crate) fn is_own(peer: SocketAddr, port: u16) -> bool {
     user_of(peer, port).is_none_or(|user| user == 0 || Some(user) == own())
 }
 
-/// The user who holds the other end of a connection with a port of ours.
+/// The user at the other end of a connection to a local port.
 #[cfg(target_os = "linux")]
 fn user_of(peer: SocketAddr, port: u16) -> Option<u32> {
     let tables = ["/proc/net/tcp", "/proc/net/tcp6"].into_iter();
@@ -34,16 +34,16 @@ fn own() -> Option<u32> {
     None
 }
 
-/// Nobody: who has closed the connection already.
+/// A user id for connections that the client has closed.
 #[cfg(target_os = "linux")]
 const NOBODY: u32 = u32::MAX;
 
-/// The user of a connection in a table of Linux: its addresses are numbers as they lie in memory.
+/// The user of a connection in a Linux table, whose addresses are numbers in memory order.
 #[cfg(target_os = "linux")]
 fn find(table: &str, peer: SocketAddr, port: u16) -> Option<u32> {
     let SocketAddr::V4(peer) = peer else { return None };
     let address = u32::from_ne_bytes(peer.ip().octets());
-    // In the table of version 6 more stands before it.
+    // The IPv6 table has a prefix before it.
     let (local, remote) = (format!("{address:08X}:{:04X}", peer.port()), format!(":{port:04X}"));
     let own = |line: &str| {
         let mut words = line.split_whitespace().skip(1);
@@ -51,7 +51,7 @@ fn find(table: &str, peer: SocketAddr, port: u16) -> Option<u32> {
             return None;
         }
         let (user, file) = (words.nth(4)?, words.nth(1)?);
-        // What no process holds any more is shown as the administrator's.
+        // Linux shows a socket without a process as the administrator's.
         if file == "0" { Some(NOBODY) } else { user.parse().ok() }
     };
     table.lines().find_map(own)

@@ -1,6 +1,7 @@
-//! What all clients of a folder share: the texts that are open, who changes them, what is saved.
+//! The shared state of a folder's clients: open texts, the editing client and unsaved changes.
 //!
-//! A value without thread and clock: messages of clients go in, with the time, and messages to clients come out.
+//! It is a value without threads and clocks: client messages come in with the time, and messages to
+//! clients go out.
 
 mod document;
 mod following;
@@ -25,39 +26,36 @@ use following::Following;
 use jobs::Jobs;
 pub(crate) use jobs::{JobId, Order};
 
-/// Tells clients apart.
 pub type ClientId = u32;
 
-/// Messages with those that they are for.
+/// Messages with their receivers.
 pub type Out = Vec<(ClientId, Message)>;
 
-/// How long the pen waits for a holder that is gone: a connection that was lost is back sooner, and so is a page that is
-/// loaded anew.
+/// The time for which the edit lock waits for a lost client, long enough for a reconnection or a
+/// reload.
 const PEN_WAITS: Duration = Duration::from_secs(5);
 
-/// How often the folder is looked at for what others have written.
+/// The interval of checks for changes by other programs.
 const LOOKS_EVERY: Duration = Duration::from_millis(500);
 
-/// The room of a folder.
 pub struct Room {
     folder: Folder,
     open: Option<String>,
     examples: Vec<Example>,
     host: MakeHost,
     clients: BTreeMap<ClientId, Client>,
-    /// What their servers have drawn; it outlives them.
+    /// The drawings of all servers, which outlive them.
     drawings: Drawings,
-    /// The texts that are open, by path.
+    /// The open texts, by path.
     documents: BTreeMap<String, Document>,
-    /// Who changes them.
+    /// The client with the edit lock.
     pen: Option<ClientId>,
-    /// When the pen falls to another one, since its holder is gone.
+    /// The time when the edit lock moves on, if its holder is gone.
     falls: Option<Duration>,
     listed: Listed,
     looked: Duration,
-    /// When the folder was last walked.
+    /// The time of the last scan of the folder.
     walked: Duration,
-    /// How long that took.
     walking: Duration,
     trust: Trust,
     jobs: Jobs,
@@ -72,7 +70,7 @@ impl std::fmt::Debug for Room {
 /// A client and its language server.
 struct Client {
     server: Server,
-    /// Whether something came in since its server was last idle.
+    /// Whether messages arrived since its server was last idle.
     busy: bool,
     following: Following,
 }
@@ -112,17 +110,17 @@ impl Room {
         &self.folder
     }
 
-    /// Whether what lies in the folder may be run, now and later.
+    /// Whether the folder is trusted to run, now and later.
     pub fn trusted(&self) -> Trusted {
         self.trust.shared()
     }
 
-    /// The folder as clients write it.
+    /// The folder's address for clients.
     fn root(&self) -> String {
         uri_of(&self.folder.root().to_string_lossy())
     }
 
-    /// Draws the plan that the room was opened for: a large one takes as long as a browser takes to start.
+    /// Draws the plan to open in advance, while the browser starts.
     pub fn draw_ahead(&self) {
         let Some(uri) = &self.open else { return };
         let mut server = self.server();
@@ -139,7 +137,7 @@ impl Room {
         self.clients.insert(client, Client { server, busy: false, following });
     }
 
-    /// A client is gone. The pen and its jobs wait for it a while.
+    /// Removes a client. The edit lock and its jobs wait for a while.
     pub fn leave(&mut self, client: ClientId, now: Duration) {
         self.clients.remove(&client);
         if self.pen == Some(client) {
@@ -149,8 +147,8 @@ impl Room {
         self.forget();
     }
 
-    /// A client says who it was before its connection was lost, if it was anybody. A pen that waits is its own if it was
-    /// before; one who comes new waits for nobody who is alone here. Its jobs are its own again.
+    /// Handles a client's previous id after a reconnection. It regains its edit lock and its jobs.
+    /// A new client that is the only one gets a waiting lock at once.
     fn greeted(&mut self, client: ClientId, before: Option<ClientId>) {
         let is_alone = before.is_none() && self.clients.len() == 1;
         if self.falls.is_some() && (before == self.pen || is_alone) {
@@ -163,7 +161,6 @@ impl Room {
         Server::among((self.host)(), self.drawings.clone())
     }
 
-    /// A message of a client.
     pub fn handle(&mut self, client: ClientId, message: Message, now: Duration) -> Out {
         if !self.clients.contains_key(&client) {
             return Vec::new();
@@ -184,7 +181,7 @@ impl Room {
         }
     }
 
-    /// What the language servers have to say once no message is waiting.
+    /// Returns the idle messages of the language servers, when no message is waiting.
     pub fn idle(&mut self) -> Out {
         let mut out = Vec::new();
         for (&id, client) in &mut self.clients {
@@ -216,7 +213,7 @@ impl Room {
         out
     }
 
-    /// A client has opened a text: it is told where the room has another one.
+    /// A client has opened a text, and receives the room's text if it differs.
     fn opened(&mut self, id: ClientId, uri: &str) -> Out {
         let path = path_of(uri);
         let Some((version, own)) = self.text_of(id, uri) else { return Vec::new() };
@@ -230,16 +227,16 @@ impl Room {
                 if own != text {
                     out.extend(self.tell(id, uri, &text));
                 }
-                // Who comes while there is something to choose chooses, too.
+                // A client that arrives during a conflict can also choose.
                 out.extend(theirs.map(|theirs| (id, disputed(uri, &theirs))));
                 out
             }
-            // Texts that lie elsewhere are looked at and never written.
+            // Texts outside the folder are shown and never written.
             Err(_) => Vec::new(),
         }
     }
 
-    /// A client has changed a text: the others are told, or the client that may not.
+    /// A client has changed a text: the others receive it, or the client receives a rejection.
     fn changed(&mut self, id: ClientId, uri: &str, taken: Option<u32>, now: Duration) -> Out {
         let path = path_of(uri);
         let Some((version, own)) = self.text_of(id, uri) else { return Vec::new() };
@@ -266,14 +263,13 @@ impl Room {
         out
     }
 
-    /// A client has closed a text.
     fn closed(&mut self, id: ClientId, uri: &str) {
         let following = self.clients.get_mut(&id).map(|client| &mut client.following);
         following.into_iter().for_each(|following| following.closed(uri));
         self.forget();
     }
 
-    /// Forgets the texts that no client has open any more and that lie in their files.
+    /// Forgets saved texts that no client has open.
     fn forget(&mut self) {
         let clients = &self.clients;
         self.documents.retain(|path, document| {
@@ -283,7 +279,7 @@ impl Room {
         });
     }
 
-    /// A text of the folder, read where nobody has it open yet.
+    /// Returns a text of the folder, and reads it if it is not open.
     fn document(&mut self, path: &str) -> Result<&mut Document, String> {
         if !self.documents.contains_key(path) {
             let file = self.folder.inside(path)?;
@@ -297,18 +293,17 @@ impl Room {
         self.clients.get(&id)?.server.text(uri)
     }
 
-    /// The clients that have a text open.
+    /// The clients with that text open.
     fn having(&self, uri: &str) -> Vec<ClientId> {
         let clients = self.clients.keys().copied();
         clients.filter(|&id| self.text_of(id, uri).is_some()).collect()
     }
 
-    /// Tells a client the text of the room.
     fn tell(&mut self, id: ClientId, uri: &str, text: &str) -> Option<(ClientId, Message)> {
         Some((id, self.clients.get_mut(&id)?.following.tell(uri, text)))
     }
 
-    /// Tells clients that have another one open, or are about to, the text of the room.
+    /// Sends the room's text to clients that have, or are about to have, a different one.
     fn tell_all(&mut self, uri: &str, text: &str) -> Out {
         let has_other = |(_, client): &(&ClientId, &Client)| {
             let own = client.server.text(uri);
@@ -326,21 +321,21 @@ impl Room {
         self.clients.keys().map(say).collect()
     }
 
-    /// The files as clients list them.
+    /// The file list for clients.
     fn files(&self) -> Value {
         let file = |path: &String| json!({ "uri": uri_of(path), "name": self.folder.name(path) });
         self.listed.files.keys().map(file).collect()
     }
 }
 
-/// The code of an answer that says why something is not done, for people.
+/// The error code of a request that the room rejects with a readable reason.
 const REFUSED: i32 = -32803;
 
 fn notification(method: &str, params: Value) -> Message {
     Notification { method: method.to_owned(), params }.into()
 }
 
-/// What a client is told where somebody has to choose between its text and theirs.
+/// The message for a conflict between the room's text and the file's.
 fn disputed(uri: &str, theirs: &str) -> Message {
     notification("afp/changed", json!({ "uri": uri, "text": theirs, "clean": false }))
 }

@@ -1,4 +1,4 @@
-//! Requests over HTTP: access is checked first, then come the page, its files and its socket.
+//! HTTP requests: access is checked first, then the page, its files and its socket are served.
 
 use std::collections::HashMap;
 use std::net::{SocketAddr, TcpListener};
@@ -23,7 +23,7 @@ use crate::room::Room;
 use crate::sockets::{self, Sockets};
 use crate::{Debugging, page, peer};
 
-/// Frames that are longer end the connection: the longest text, all of whose letters are escaped, fits into one.
+/// The longest frame; it fits the longest text with all letters escaped.
 const LONGEST_FRAME: usize = 6 * LONGEST + (1 << 20);
 
 #[derive(Clone)]
@@ -55,7 +55,7 @@ pub(crate) async fn serve(
         .with_state(shared);
     let routes = routes.into_make_service_with_connect_info::<SocketAddr>();
     listener.set_nonblocking(true)?;
-    // One message after the other goes out at once: else each second one waits 40 ms for the browser to say that it has the first.
+    // Nagle's algorithm would delay each second message by 40 ms.
     let listener = tokio::net::TcpListener::from_std(listener)?.tap_io(|stream| {
         let _ = stream.set_nodelay(true);
     });
@@ -68,7 +68,7 @@ pub(crate) async fn serve(
     served
 }
 
-/// Waits for Ctrl-C, for the end of the terminal, or for whoever ends programs.
+/// Waits for Ctrl-C, the end of the terminal, or a termination signal.
 #[cfg(unix)]
 async fn asked_to_end() -> io::Result<()> {
     use tokio::signal::unix::{SignalKind, signal};
@@ -86,7 +86,7 @@ async fn asked_to_end() -> io::Result<()> {
     tokio::signal::ctrl_c().await
 }
 
-/// Turns away what is not ours and what brings no cookie, and says to the browser what the page may do.
+/// Rejects foreign requests and requests without a cookie, and sets the page's security policy.
 async fn guard(State(shared): State<Shared>, request: Request, next: Next) -> Response {
     let headers = request.headers();
     if !shared.secret.is_ours(headers) {
@@ -109,7 +109,7 @@ async fn guard(State(shared): State<Shared>, request: Request, next: Next) -> Re
     response
 }
 
-/// The page; the code in its address is changed into a cookie first.
+/// Serves the page, after changing a code in its address into a cookie.
 async fn index(
     State(shared): State<Shared>,
     ConnectInfo(peer): ConnectInfo<SocketAddr>,
@@ -155,7 +155,7 @@ async fn index(
     (headers, text).into_response()
 }
 
-/// To the page without the code, which would stay in the history otherwise, and to a file.
+/// Redirects to the page without the code, which must not stay in the history, and to a file.
 fn away(file: Option<&String>) -> Response {
     let page = file.map_or("/".to_owned(), |path| format!("/#{}", afp_lsp::uri_of(path)));
     (StatusCode::SEE_OTHER, [(header::LOCATION, page)]).into_response()
@@ -170,7 +170,7 @@ async fn file(Path(name): Path<String>) -> Response {
     }
 }
 
-/// The colours of drawings: one table is for the page, the book and print.
+/// The colours of drawings, shared by the page, the book and print.
 async fn colours() -> Response {
     let sheet = afp_draw::sheet(afp_draw::Theme::Auto, false) + &afp_draw::properties();
     ([(header::CONTENT_TYPE, "text/css; charset=utf-8")], sheet).into_response()

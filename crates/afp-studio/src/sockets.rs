@@ -1,4 +1,4 @@
-//! Clients over sockets, and the thread that the room lives on.
+//! Clients over sockets, and the thread of the room.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -15,10 +15,9 @@ use crate::jobs::Runner;
 use crate::outbox::{Outbox, Pulse, is_sent, outbox};
 use crate::room::{ClientId, Out, Room};
 
-/// More clients than this are turned away.
 pub(crate) const MOST_CLIENTS: usize = 8;
 
-/// The way to the room.
+/// The channel to the room.
 #[derive(Clone)]
 pub(crate) struct Sockets {
     events: Sender<Event>,
@@ -31,18 +30,17 @@ impl Sockets {
         (Sockets { events, next: Arc::new(AtomicU32::new(1)) }, arrived)
     }
 
-    /// Who runs the jobs of the room.
     pub fn jobs(&self, program: PathBuf, folder: PathBuf) -> Runner {
         Runner::new(program, folder, self.events.clone())
     }
 
-    /// Lets the room save everything and end.
+    /// Makes the room save everything and end.
     pub fn end(&self) {
         let _ = self.events.send(Event::End);
     }
 }
 
-/// Carries messages between a client and the room until one of them is gone.
+/// Carries messages between a client and the room until one of them closes.
 pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
     let id = sockets.next.fetch_add(1, Ordering::Relaxed);
     let (out, mut answers) = outbox();
@@ -58,7 +56,7 @@ pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
                 }
             }
             answer = answers.next() => {
-                // No more answers: it has read too little, or there are too many clients.
+                // The room has dropped the client: it reads too slowly, or there are too many.
                 let Some(answer) = answer else { break };
                 if !is_sent(&mut socket, answer).await {
                     break;
@@ -72,7 +70,7 @@ pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
                     ws::Message::Close(_) | ws::Message::Binary(_) => break,
                     ws::Message::Ping(_) | ws::Message::Pong(_) => continue,
                 };
-                // What is no message comes from no client of ours.
+                // Only foreign clients send invalid messages.
                 let Ok(message) = serde_json::from_str(text) else { break };
                 if sockets.events.send(Event::Said(id, message)).is_err() {
                     break;
@@ -83,7 +81,7 @@ pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
     let _ = sockets.events.send(Event::Left(id));
 }
 
-/// The thread of the room: one message after the other, and what is due between.
+/// The thread of the room: handles messages in order, and due work in between.
 pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
     let begin = Instant::now();
     room.draw_ahead();
@@ -127,7 +125,7 @@ pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
         send(&mut clients, out);
         let orders = room.orders();
         if !orders.is_empty() {
-            // Jobs read what lies on the disk.
+            // Jobs read the files on disk.
             let out = room.save_all(begin.elapsed());
             send(&mut clients, out);
         }
@@ -139,7 +137,7 @@ pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
     send(&mut clients, out);
 }
 
-/// Who reads too little loses the connection.
+/// A client that reads too slowly is disconnected.
 fn send(clients: &mut BTreeMap<ClientId, Outbox>, out: Out) {
     for (id, message) in out {
         let Some(to) = clients.get(&id) else { continue };

@@ -1,4 +1,5 @@
-//! Whether what lies in a folder may be run: asked once for a folder, and kept outside of it.
+//! Trust: whether code of a folder may run. The user is asked once per folder, and the answer is
+//! stored outside it.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -10,28 +11,27 @@ use afp_project::ProjectFile;
 
 use crate::own_folder;
 
-/// The trust of one folder.
 #[derive(Clone, Debug)]
 pub(crate) struct Trust {
     root: PathBuf,
-    /// Where trusted folders are kept, a line each; nowhere where there is no home.
+    /// The file with trusted folders, a line each; `None` without a home directory.
     list: Option<PathBuf>,
     given: Trusted,
 }
 
-/// Whether a folder is trusted by now.
+/// Whether a folder is trusted at this time.
 #[derive(Clone, Debug, Default)]
 pub struct Trusted(Arc<AtomicBool>);
 
 impl Trusted {
-    /// Whether what lies in the folder may be run.
+    /// Whether code of the folder may run.
     pub fn is_given(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
 impl Trust {
-    /// The trust that a folder was given before.
+    /// The stored trust of a folder.
     pub fn of(root: &Path) -> Trust {
         Trust::kept(root, own_folder().map(|own| own.join("trusted")))
     }
@@ -47,15 +47,15 @@ impl Trust {
         self.given.is_given()
     }
 
-    /// What tells it to others, now and later.
+    /// A shared view of it, now and later.
     pub fn shared(&self) -> Trusted {
         self.given.clone()
     }
 
-    /// Gives it, for good where that can be kept.
+    /// Grants the trust, permanently if it can be stored.
     ///
     /// # Errors
-    /// It cannot be kept: a sentence. It is given all the same until the studio ends.
+    /// A sentence: it cannot be stored. It still holds until the studio ends.
     pub fn give(&self) -> Result<(), String> {
         if self.given.0.swap(true, Ordering::Relaxed) {
             return Ok(());
@@ -78,13 +78,13 @@ impl Trust {
         afp_output::write_whole(list, text.as_bytes())
     }
 
-    /// What would be built and run, in words: robot and toolboxes of the project of a file; without one those of all
-    /// projects whose scenarios 'afpc test' may run in the folder.
+    /// Describes the code to build and run: robot and toolboxes of a file's project, or by default
+    /// of all projects whose scenarios 'afpc test' may run in the folder.
     pub fn code(&self, file: Option<&Path>) -> Vec<String> {
         if let Some(home) = file.and_then(Path::parent) {
             return code_of(home);
         }
-        // The folder may lie within a project, whose scenarios these are then.
+        // The folder may be inside a project, which then owns the scenarios.
         let home = ProjectFile::find(&self.root).map_or(self.root.clone(), |file| file.folder);
         let files = afp_project::all_files(&home).unwrap_or_else(|_| afp_project::files(&home));
         let inside = files.iter().filter_map(|path| Some(path.parent()?.to_owned()));
@@ -94,7 +94,7 @@ impl Trust {
     }
 }
 
-/// The crates of the project that a folder belongs to; of one that cannot be read everything may be expected.
+/// The crates of a folder's project; an unreadable project may contain any code.
 fn code_of(folder: &Path) -> Vec<String> {
     let Ok(file) = ProjectFile::find(folder) else {
         return vec![format!("what the project file of '{}' names", folder.display())];
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn trust_is_given_to_one_folder_and_kept_outside_of_it() {
+    fn trust_is_per_folder_and_stored_outside_it() {
         let place = tempfile::tempdir().unwrap();
         let list = Some(place.path().join("config/afp/trusted"));
         let (one, other) = (place.path().join("one"), place.path().join("other"));
@@ -131,9 +131,9 @@ mod tests {
         assert!(Trust::kept(place.path(), None).code(None).is_empty());
     }
 
-    /// Where the files of a folder are not looked for there may be some all the same.
+    /// Skipped folders may still contain projects.
     #[test]
-    fn the_code_of_a_file_is_that_of_its_project_wherever_it_lies() {
+    fn the_code_of_a_file_is_that_of_its_project() {
         let place = tempfile::tempdir().unwrap();
         let deep = "a/".repeat(20);
         for folder in [".parts", "target/x", "node_modules", deep.trim_end_matches('/')] {
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_within_a_project_has_the_code_of_that() {
+    fn a_folder_within_a_project_has_the_code_of_the_project() {
         let place = tempfile::tempdir().unwrap();
         let (inner, other) = (place.path().join("plans"), place.path().join("tests/x"));
         for folder in [&inner, &other] {

@@ -1,4 +1,4 @@
-//! Access to the server, from outside: what a browser, another user and a foreign page get.
+//! Access to the server from outside, for a browser, another user and another page.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -15,7 +15,7 @@ fn options(folder: &Path, own: Option<&Path>) -> Options {
     Options { folder, open: None, port, origins, program, examples, own }
 }
 
-/// A server on a port of its own that ends with the test.
+/// Serves on a free port until the end of the test.
 fn serve(options: &Options) -> (u16, String) {
     let Opened::Here(studio) = Studio::open(options, || Box::new(NoFiles)).unwrap() else {
         panic!("somebody else serves it");
@@ -28,7 +28,7 @@ fn serve(options: &Options) -> (u16, String) {
     (port, code)
 }
 
-/// What is answered to a request with these lines of its head.
+/// The response to a request with these header lines.
 fn get(port: u16, path: &str, lines: &[&str]) -> String {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
     stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
@@ -47,7 +47,7 @@ fn status(answer: &str) -> &str {
 }
 
 #[test]
-fn a_code_opens_once_and_foreign_pages_never() {
+fn a_code_opens_once_and_other_pages_never() {
     let (port, code) = serve(&options(&std::env::temp_dir(), None));
     assert_eq!(status(&get(port, "/", &[])), "403");
     assert_eq!(status(&get(port, "/main.js", &[])), "403");
@@ -76,7 +76,7 @@ fn a_code_opens_once_and_foreign_pages_never() {
 }
 
 #[test]
-fn who_starts_a_second_one_is_let_in_by_the_first() {
+fn a_second_studio_opens_the_page_of_the_first() {
     let (folder, own) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut options = options(folder.path(), Some(own.path()));
     let (port, first) = serve(&options);

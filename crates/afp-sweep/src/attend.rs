@@ -1,4 +1,4 @@
-//! One run of a sweep, judged.
+//! A single run of a sweep, with its verdict.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,7 +7,7 @@ use afp_session::{AnySession, Counts, Go, Observer, Track};
 
 use crate::outcome::{CONTACTS, Ending, Outcome, numbers, touched};
 
-/// Runs a plan as `afpc run` does; `None` when it was called off.
+/// Runs a plan like `afpc run`; returns `None` after a cancellation.
 pub(crate) fn drive(
     run: u64,
     session: &mut dyn AnySession,
@@ -38,7 +38,7 @@ pub(crate) fn drive(
         None => {
             session.stop(&mut observers);
             match session.ending() {
-                // Stopping may fail as well.
+                // Stopping the robot can also fail.
                 Some(afp_core::Ending::Error(_)) => Ending::Error,
                 _ => Ending::TimeLimit,
             }

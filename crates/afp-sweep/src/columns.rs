@@ -1,4 +1,4 @@
-//! Outcomes as columns, the same for every kind of table.
+//! Outcomes as columns, shared by all table formats.
 
 use std::collections::HashSet;
 
@@ -7,22 +7,20 @@ use crate::grid::{Axis, Row, Sweep};
 use crate::outcome::{FIXED, Outcome, of_robot};
 
 pub struct Column {
-    /// Its name, with its unit.
     pub name: String,
     pub cells: Cells,
 }
 
-/// The cells of a column.
 pub enum Cells {
-    /// Counts, where there is one.
+    /// Counts, with gaps.
     Counts(Vec<Option<u64>>),
-    /// Numbers, where there is one.
+    /// Numbers, with gaps.
     Numbers(Vec<Option<f64>>),
     Texts(Vec<String>),
 }
 
 impl Column {
-    /// A cell as text; empty where there is nothing.
+    /// Returns a cell as text; a missing value is empty.
     pub(crate) fn text(&self, row: usize) -> String {
         match &self.cells {
             Cells::Counts(all) => all.get(row).copied().flatten().map(|count| count.to_string()),
@@ -33,8 +31,8 @@ impl Column {
     }
 }
 
-/// The names of the columns of what is varied, of values as written and in SI units; with `in.` before it where a column
-/// has that name already.
+/// Returns the column names of each axis, for the written value and the SI value. If a fixed column
+/// has the name, it gets the prefix `in.`.
 fn names_of_axes(sweep: &Sweep) -> Vec<[String; 2]> {
     let mut known: HashSet<String> = FIXED.map(str::to_owned).into();
     let names = |name: String| [format!("{name}_si"), name];
@@ -50,11 +48,11 @@ fn names_of_axes(sweep: &Sweep) -> Vec<[String; 2]> {
     sweep.axes.iter().map(free).collect()
 }
 
-/// The columns of outcomes: numbers, world, seed, values, what came of it, the command, what it took. Each has a name of its
-/// own.
+/// Returns the columns of outcomes: number, world, seed, values, results, command and duration. All
+/// names differ.
 pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
     let rows: Vec<Row<'_>> = outcomes.iter().map(|outcome| sweep.row(outcome.run)).collect();
-    // What never started has come to nothing.
+    // A run that never started has no results.
     let counts = |name: &str, count: fn(&Outcome) -> u64| {
         let count = |it: &Outcome| it.has_started().then(|| count(it));
         column(name, Cells::Counts(outcomes.iter().map(count).collect()))
@@ -125,7 +123,7 @@ mod tests {
     use crate::seeds::Seeds;
 
     #[test]
-    fn each_column_has_a_name_of_its_own() {
+    fn each_column_has_a_different_name() {
         let axis = |name: &str| Axis {
             name: name.to_owned(),
             points: vec![Point { text: "1".to_owned(), si: Some(1.0) }],

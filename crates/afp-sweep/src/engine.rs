@@ -1,4 +1,4 @@
-//! Runs on all cores, outcomes as they come.
+//! Runs on all cores, with outcomes in order of completion.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
@@ -14,40 +14,42 @@ use crate::attend;
 use crate::grid::{Row, Sweep};
 use crate::outcome::{Ending, Outcome};
 
-/// Outcomes that may wait until somebody takes them.
+/// The most outcomes in the queue.
 const WAITING: usize = 64;
 
-/// Makes the session of a run, its inputs set; the same for the same row. An error ends the run, not the sweep.
+/// Makes the session of a row, with its inputs set, and always the same one. An error ends only
+/// this run.
 pub type Maker<'a> = &'a (dyn Fn(&Row<'_>) -> Result<Box<dyn AnySession>, RunError> + Sync);
 
-/// Drives a session to the end of its run, with more observers; none when the run was called off.
+/// Drives a session to the end of its run with additional observers; returns `None` after a
+/// cancellation.
 pub type Drive<'a> =
     &'a mut dyn FnMut(&mut dyn AnySession, &mut [&mut dyn Observer]) -> Option<Outcome>;
 
-/// Hears of runs what their outcomes do not tell.
+/// An observer of runs, for data beyond their outcomes.
 pub trait Watch: Sync {
-    /// Lets a run be driven with observers of its own, and keeps of it and of its session what it wants. It is called in the threads
-    /// of the engine.
+    /// Drives a run with additional observers, and keeps data of the run and its session. The
+    /// engine calls it on its worker threads.
     fn run(&self, row: &Row<'_>, session: Box<dyn AnySession>, drive: Drive<'_>)
     -> Option<Outcome>;
 }
 
-/// Does runs of a sweep.
+/// Executes runs of a sweep.
 #[derive(Clone, Copy)]
 pub struct Engine<'a> {
     pub sweep: &'a Sweep,
     pub maker: Maker<'a>,
-    /// How many threads there are; at least one.
+    /// The number of threads, at least one.
     pub jobs: usize,
-    /// Calls everything off once it is true: runs that have not ended leave no outcome.
+    /// Cancels all runs when true; a cancelled run has no outcome.
     pub stop: &'a AtomicBool,
-    /// Hears of each run, where somebody wants to.
+    /// The observer of all runs, if any.
     pub watch: Option<&'a dyn Watch>,
 }
 
 impl Engine<'_> {
-    /// Does the runs of those numbers, about in that order, and hands each outcome to `each` on the
-    /// calling thread. What `each` returns says whether to go on.
+    /// Executes the numbered runs in roughly that order, and passes each outcome to `each` on the
+    /// calling thread. The engine stops if `each` breaks.
     pub fn run(&self, runs: &[u64], mut each: impl FnMut(Outcome) -> bool) {
         let next = AtomicUsize::new(0);
         let enough = AtomicBool::new(false);
@@ -66,7 +68,7 @@ impl Engine<'_> {
         });
     }
 
-    /// Takes one run after the other.
+    /// Executes runs until none is left.
     fn work(
         &self,
         runs: &[u64],
@@ -83,7 +85,7 @@ impl Engine<'_> {
         }
     }
 
-    /// Does one run on this thread; `None` when it was called off. A panic is an outcome.
+    /// Executes one run on this thread; `None` after a cancellation. A panic becomes an outcome.
     pub fn one(&self, run: u64) -> Option<Outcome> {
         let begun = Wall::now();
         let row = self.sweep.row(run);
@@ -116,7 +118,7 @@ impl Engine<'_> {
     }
 }
 
-/// What is wrong, without where and what to do.
+/// The error without its place and help.
 fn first_line(error: &RunError) -> String {
     let text = error.to_string();
     let line = text.lines().next().unwrap_or_default();

@@ -1,76 +1,69 @@
-//! What a sweep came to: endings counted, measures, failures by where and why.
+//! The summary of a sweep: numbers of endings, measures, and failures by place and reason.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::outcome::{Ending, Outcome};
 
-/// What a sweep came to.
+/// The summary of a sweep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// How many runs ended in each way; ways in which none ended are left out.
+    /// The number of runs for each ending that occurs.
     pub endings: Vec<(Ending, u64)>,
-    /// Runs that ended in the same way at the same place for the same reason: failures last, the most
-    /// frequent first.
+    /// Runs with equal ending, place and reason: failures last, the most frequent first.
     pub groups: Vec<Group>,
-    /// What was touched, the longest first.
+    /// Touched things, the longest contact first.
     pub touched: Vec<Touched>,
-    /// The measures of the runs that started.
+    /// Measures of all started runs.
     pub measures: Vec<(Measure, Spread)>,
 }
 
-/// Something that robots touched.
+/// A thing that robots touched.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Touched {
     pub name: String,
-    /// In how many runs.
+    /// The number of runs with a contact.
     pub runs: u64,
-    /// For how long altogether, seconds.
+    /// The total duration, in seconds.
     pub lasted_s: f64,
-    /// The run in which it was touched longest.
+    /// The run with the longest contact.
     pub longest: u64,
 }
 
-/// Runs that ended alike.
+/// Runs with equal ending, place and reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
     pub ending: Ending,
     pub place: String,
     pub why: String,
-    /// How many.
+    /// The number of runs.
     pub count: u64,
     pub run: u64,
 }
 
-/// Something that is measured in each run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Simulated time, seconds.
     Time,
-    /// The way, metres.
+    /// The distance driven, in metres.
     Distance,
-    /// How often the robot ran into something.
     Collisions,
-    /// How often an actor was interrupted.
+    /// The number of interrupted actors.
     Interruptions,
-    /// Missed deadlines.
     Misses,
-    /// A figure of the robot or of one of its measures, by the name of its column.
+    /// A figure of the robot or of one of its measures, by its column name.
     Figure(String),
 }
 
-/// The middle and the ends of what was measured.
+/// Minimum, median and maximum of a measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// The least.
     pub min: f64,
-    /// The middle one; of an even number the mean of the two in the middle.
+    /// For an even number of values, the mean of the two in the middle.
     pub median: f64,
-    /// The greatest.
     pub max: f64,
 }
 
 impl Measure {
-    /// What is measured in every run, whatever the robot.
     pub const ALL: [Measure; 5] = [
         Measure::Time,
         Measure::Distance,
@@ -79,13 +72,12 @@ impl Measure {
         Measure::Misses,
     ];
 
-    /// The figures that some of the outcomes have, by their names.
     pub fn of_figures(outcomes: &[Outcome]) -> Vec<Measure> {
         let names: BTreeSet<&String> = outcomes.iter().flat_map(|it| it.figures.keys()).collect();
         names.into_iter().cloned().map(Measure::Figure).collect()
     }
 
-    /// Its name in tables, with its unit.
+    /// The name in tables, with its unit.
     pub fn name(&self) -> &str {
         match self {
             Measure::Time => "time_s",
@@ -97,7 +89,7 @@ impl Measure {
         }
     }
 
-    /// What it was in a run; `None` of one that never started.
+    /// The value of a run; `None` if the run never started.
     pub fn of(&self, outcome: &Outcome) -> Option<f64> {
         outcome.has_started().then_some(())?;
         Some(match self {
@@ -122,7 +114,7 @@ impl Spread {
 }
 
 impl Findings {
-    /// Sums up; the order of the outcomes does not matter.
+    /// Summarizes outcomes; their order does not matter.
     pub fn new(outcomes: &[Outcome]) -> Findings {
         let count = |ending| outcomes.iter().filter(|it| it.ending == ending).count() as u64;
         let endings = Ending::ALL.into_iter().map(|ending| (ending, count(ending)));
@@ -145,8 +137,7 @@ impl Findings {
     }
 }
 
-/// Runs that ended in the same way at the same place for the same reason, of their ending, place, reason and number:
-/// failures last, the most frequent first.
+/// Groups runs, given as ending, place, reason and number: failures last, the most frequent first.
 pub fn groups<'a>(runs: impl Iterator<Item = (Ending, &'a str, &'a str, u64)>) -> Vec<Group> {
     let mut alike: BTreeMap<(Ending, &str, &str), (u64, u64)> = BTreeMap::new();
     for (ending, place, why, run) in runs {
@@ -221,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_touched_is_summed_up_over_the_runs() {
+    fn contacts_are_added_up_over_the_runs() {
         let run = |run, touched: &[(&str, f64)]| Outcome {
             touched: touched.iter().map(|(name, s)| ((*name).to_owned(), *s)).collect(),
             ..outcome(run, Ending::TimeLimit, "", 60.0)
@@ -238,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn what_never_started_is_not_measured() {
+    fn runs_that_never_started_have_no_measures() {
         let none = Findings::new(&[Outcome::failed(0, Ending::NotStarted, "why".to_owned())]);
         assert!(none.measures.is_empty() && none.has_failures());
         assert_eq!(Findings::new(&[]), Findings::default());

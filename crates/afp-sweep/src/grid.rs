@@ -10,54 +10,51 @@ use afp_run::world::LoadedWorld;
 
 use crate::seeds::Seeds;
 
-/// Whole numbers below this are exact as floats.
+/// Integers below this are exact as floats.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
-/// A grid of runs. Seeds change fastest, then the values of the last axis, worlds slowest.
+/// A grid of runs. The seed changes fastest, then the last axis, and the world changes slowest.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// The plan as it is named on the command line.
+    /// The plan as named on the command line.
     pub plan: String,
-    /// The worlds. Never empty.
+    /// The worlds, at least one.
     pub worlds: Vec<WorldChoice>,
-    /// What is varied.
+    /// The varied values.
     pub axes: Vec<Axis>,
     pub seeds: Seeds,
-    /// What is pressed in each run.
     pub presses: Vec<Press>,
-    /// What fails in each run.
+    /// Faults in each run.
     pub failures: Vec<Failure>,
-    /// When each run is stopped.
+    /// The time limit of each run.
     pub until: Duration,
-    /// Why the command of a run does something else than the run did; none where it does the same.
+    /// The reason why a run's command gives a different result; `None` if it repeats the run.
     pub caveat: Option<&'static str>,
 }
 
-/// A world of a sweep.
 #[derive(Clone, Debug)]
 pub enum WorldChoice {
-    /// The one that a run of the plan takes without a word.
+    /// The plan's default world.
     OfPlan,
-    /// As `--world` names it.
+    /// A world named as in `--world`.
     Named(String),
-    /// One that no file has, and what tables call it.
+    /// A world without a file, and its name in tables.
     Made(String, LoadedWorld),
 }
 
-/// Something that is varied.
+/// A varied value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// An entry of the plan, or `world.` and the way to a value of the world's file.
+    /// An entry of the plan, or `world.` and the path of a value in the world's file.
     pub name: String,
     pub points: Vec<Point>,
 }
 
-/// A value of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// As it is written, with its unit.
+    /// As written, with its unit.
     pub text: String,
-    /// In SI units; `None` for what is no number, or not known yet.
+    /// In SI units; `None` for other types, or before the plan is known.
     pub si: Option<f64>,
 }
 
@@ -66,16 +63,14 @@ pub struct Point {
 pub struct Row<'a> {
     /// Its number, from 0.
     pub run: u64,
-    /// The place of its world among those of the sweep.
     pub world_number: usize,
     pub world: &'a WorldChoice,
     pub seed: u64,
-    /// The value of each axis.
     pub values: Vec<(&'a str, &'a Point)>,
 }
 
 impl WorldChoice {
-    /// What tables call it; none for that of the plan.
+    /// The name in tables; `None` for the plan's world.
     pub fn name(&self) -> Option<&str> {
         match self {
             WorldChoice::OfPlan => None,
@@ -83,26 +78,26 @@ impl WorldChoice {
         }
     }
 
-    /// Why no command takes it; none where one does.
+    /// The reason why no command accepts it, if none does.
     fn caveat(&self) -> Option<&'static str> {
         matches!(self, WorldChoice::Made(..)).then_some("the world has no file")
     }
 }
 
 impl Sweep {
-    /// How many runs there are.
+    /// The number of runs.
     pub fn len(&self) -> u64 {
         let points = self.axes.iter().map(|axis| axis.points.len() as u64);
         let combinations = points.fold(self.worlds.len() as u64, u64::saturating_mul);
         combinations.saturating_mul(self.seeds.len())
     }
 
-    /// Whether there is nothing to run.
+    /// Whether there are no runs.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// A run by its number, which is less than [`Sweep::len`].
+    /// Returns a run by its number, which is below [`Sweep::len`].
     pub fn row(&self, run: u64) -> Row<'_> {
         let (mut rest, seeds) = (run, self.seeds.len().max(1));
         let seed = self.seeds.nth(rest % seeds);
@@ -121,7 +116,7 @@ impl Sweep {
         Row { run, world_number, world, seed, values }
     }
 
-    /// The command that does a run again.
+    /// Returns the command that repeats a run.
     pub fn command(&self, row: &Row<'_>) -> String {
         let mut command = format!("afpc run {}", shell_file(&self.plan));
         // Writing to a string cannot fail.
@@ -148,7 +143,7 @@ impl Sweep {
         command
     }
 
-    /// The grid as text: two sweeps with the same text have the same runs, however their numbers are written.
+    /// The grid as text, equal for sweeps with the same runs, independent of number formats.
     pub fn signature(&self) -> String {
         let mut text = format!("seeds {}, until {}", self.seeds, spelled(self.until));
         for world in &self.worlds {
@@ -157,7 +152,7 @@ impl Sweep {
         }
         for axis in &self.axes {
             let points = axis.points.iter().map(|point| match point.si {
-                // Both zeros are one value; beyond this an int is not known exactly.
+                // Both zeros are one value; an integer beyond the limit is not exact.
                 Some(si) if si.abs() < EXACT => (si + 0.0).to_string(),
                 _ => shell_word(&point.text),
             });
@@ -173,7 +168,7 @@ impl Sweep {
     }
 }
 
-/// A time as the command line takes it, exact.
+/// An exact time in command-line format.
 fn spelled(time: Duration) -> String {
     duration(time.as_nanos()).replace(' ', "")
 }
@@ -212,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn commands_name_files_and_texts_as_run_takes_them() {
+    fn commands_have_the_syntax_of_run() {
         let worlds = vec![WorldChoice::Named("-w.toml".to_owned())];
         let axes = vec![axis(r#"mode="x,y","",""q"""#).unwrap()];
         let sweep = Sweep { worlds, axes, plan: "-p.afp".to_owned(), ..sweep() };
@@ -223,7 +218,7 @@ mod tests {
         assert!(command(8).contains(r#" --set 'mode=""q""' "#), "{}", command(8));
     }
 
-    /// What a real shell makes of the words of a command.
+    /// The words of a command after a real shell has split them.
     #[cfg(unix)]
     fn in_shell(command: &str) -> Vec<String> {
         let mut shell = std::process::Command::new("sh")
@@ -232,7 +227,7 @@ mod tests {
             .spawn()
             .unwrap();
         let script = format!("printf '%s\\0' {command}");
-        // The words are read from a pipe, since a program takes only so many arguments.
+        // The words come from a pipe, since a program's arguments are limited.
         let mut input = shell.stdin.take().unwrap();
         let writer =
             std::thread::spawn(move || std::io::Write::write_all(&mut input, script.as_bytes()));
@@ -277,11 +272,11 @@ mod tests {
     }
 
     #[test]
-    fn other_points_are_another_sweep() {
+    fn other_points_make_a_different_sweep() {
         let signature =
             |points: &str| Sweep { axes: vec![axis(points).unwrap()], ..sweep() }.signature();
         assert_ne!(signature("name=a b"), signature("name=a,b"));
-        // Once it is known what they are, numbers are the same however they are written.
+        // Known numbers are equal in every format.
         let known = |points: &str, si: f64| {
             let mut axis = axis(points).unwrap();
             axis.points.iter_mut().for_each(|point| point.si = Some(si));

@@ -1,4 +1,4 @@
-//! What a journal is of: a sweep goes on only with the same program, plan, worlds and grid.
+//! The identity of a journal: a sweep resumes only with the same program, plan, worlds and grid.
 
 use std::collections::BTreeMap;
 
@@ -10,29 +10,29 @@ use serde::{Deserialize, Serialize};
 use crate::grid::Sweep;
 use crate::setting::Setting;
 
-/// What a journal is of. A sweep goes on only with the same.
+/// The identity of a journal. A sweep resumes only with an equal header.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// The version of the format, 2.
     pub sweep_journal: u32,
-    /// The program: its version and commit, and for one with toolboxes of one's own what it was built from.
+    /// The program: its version and commit, and the sources of its own toolboxes.
     pub program: String,
     /// The hash of the plan's texts.
     pub plan: String,
     /// The hash of the worlds' texts.
     pub worlds: String,
-    /// The grid, as [`crate::Sweep::signature`] has it.
+    /// The grid, from [`crate::Sweep::signature`].
     pub grid: String,
-    /// What else outcomes come from, by what messages call it: `the metric 'q'`.
+    /// Other inputs of the outcomes, by their names in messages: `the metric 'q'`.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
     pub parts: Parts,
 }
 
-/// What else outcomes come from: the hash of what each does, and of each thing that it reads, by name.
+/// Other inputs of the outcomes, by name: the hash of each, and of everything that it reads.
 pub type Parts = BTreeMap<String, (String, BTreeMap<String, String>)>;
 
 impl Header {
-    /// For a sweep of a plan by a program.
+    /// Makes the header of a plan and a program.
     pub fn new(
         program: String,
         (compiled, graph): (&Compiled, &Graph),
@@ -51,13 +51,13 @@ impl Header {
         }
     }
 
-    /// With what else outcomes come from.
+    /// Adds other inputs of the outcomes.
     #[must_use]
     pub fn with(self, parts: Parts) -> Header {
         Header { parts, ..self }
     }
 
-    /// What differs from another header, in words; `None` for the same sweep.
+    /// The difference from another header in words; `None` if they are equal.
     pub(crate) fn differs(&self, other: &Header) -> Option<String> {
         let changes = [
             (self.program != other.program, "the program"),
@@ -85,7 +85,7 @@ impl Header {
     }
 }
 
-/// What has changed about something, in words: itself, or else something that it reads.
+/// The change of an input in words: the input itself, or something that it reads.
 fn change(
     name: &str,
     ours: &(String, BTreeMap<String, String>),

@@ -1,8 +1,8 @@
-//! Outcomes kept as they come, so that a sweep that was killed goes on where it was.
+//! A log of outcomes, so that a killed sweep resumes.
 //!
-//! A journal is a text file: a line that says what sweep it is of, then a line of JSON for each outcome, each
-//! written in one piece. A process that dies leaves at most the last line torn, which is cut off; its run is
-//! done again. A lock keeps a second process out.
+//! A journal is a text file: a header line, then a line of JSON for each outcome. Each line is
+//! written in one piece. A process that dies leaves at most the last line incomplete. That line is
+//! cut off, and its run is repeated. A lock keeps a second process out.
 
 use std::fmt;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -17,21 +17,20 @@ use serde::de::DeserializeOwned;
 use crate::header::Header;
 use crate::outcome::Outcome;
 
-/// Should the machine fail and not the process, what has reached the disk counts: a line that comes so long after the last that
-/// did takes along all before it, and [`Journal::close`] the rest.
+/// The interval of syncs, against a crash of the machine. The first line after it syncs all lines
+/// before, and [`Journal::close`] syncs the rest.
 const SYNC: Duration = Duration::from_secs(1);
 
-/// Why a journal cannot be used.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum JournalError {
-    /// It cannot be read or written.
+    /// An I/O error.
     File(RunError),
-    /// Another process is writing it.
+    /// Another process has the lock.
     InUse(PathBuf),
-    /// It is of another sweep; how that differs.
+    /// It belongs to a different sweep; the text has the difference.
     Other(PathBuf, String),
-    /// A line of it is no line of a journal.
+    /// A line of it is invalid.
     Broken(PathBuf, usize),
 }
 
@@ -51,7 +50,7 @@ impl fmt::Display for JournalError {
 }
 
 impl From<JournalError> for RunError {
-    /// With the remedy of the command line.
+    /// Adds the command line's help.
     fn from(why: JournalError) -> RunError {
         let message = why.to_string();
         match why {
@@ -66,7 +65,7 @@ impl From<JournalError> for RunError {
     }
 }
 
-/// A journal open for more.
+/// A journal open for writing.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -75,11 +74,11 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens a journal, or begins it; gives the outcomes that it has, in the order in which they came. With
-    /// `restart` it begins anew.
+    /// Opens or creates a journal and returns its outcomes in order of completion. `restart`
+    /// discards the old ones.
     ///
     /// # Errors
-    /// The file cannot be read or written, is of another sweep, is broken, or is in use.
+    /// The file cannot be read or written, belongs to a different sweep, is broken, or is in use.
     pub fn open(
         path: &Path,
         header: &Header,
@@ -110,7 +109,7 @@ impl Journal {
         Ok((journal, outcomes))
     }
 
-    /// Keeps an outcome: it is there when this returns, whatever becomes of the process.
+    /// Appends an outcome. When it returns, the outcome survives the process.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -119,7 +118,7 @@ impl Journal {
         self.line(outcome).map_err(RunError::file("cannot write the journal", &path))
     }
 
-    /// Lets go of it, once all of it has reached the disk.
+    /// Syncs and closes the file.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -127,7 +126,7 @@ impl Journal {
         self.file.sync_data().map_err(RunError::file("cannot write the journal", &self.path))
     }
 
-    /// Drops what is behind the last whole line.
+    /// Cuts off everything after the last complete line.
     fn cut(&mut self, whole: usize) -> io::Result<()> {
         self.file.set_len(whole as u64)?;
         self.file.seek(SeekFrom::End(0))?;
@@ -136,7 +135,7 @@ impl Journal {
 
     fn line(&mut self, what: &impl Serialize) -> io::Result<()> {
         let json = serde_json::to_string(what)?;
-        // What a disk gets wrong inside of a number is a number too.
+        // A disk error inside a number may give another number, so each line has a hash.
         let line = format!("{json}\t{}\n", hash(&json));
         self.file.write_all(line.as_bytes())?;
         if self.synced.elapsed() >= SYNC {
@@ -147,7 +146,7 @@ impl Journal {
     }
 }
 
-/// The outcomes of a journal and how many bytes of it are whole lines.
+/// Parses a journal and returns its outcomes and the length of its complete lines.
 fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usize), JournalError> {
     let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
     let mut lines = bytes.get(..end).unwrap_or_default().split_inclusive(|byte| *byte == b'\n');
@@ -162,7 +161,7 @@ fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usi
     while let Some((number, line)) = lines.next() {
         match parse::<Outcome>(line) {
             Some(outcome) => outcomes.push(outcome),
-            // The disk may have kept the length of the last line and not its bytes.
+            // The disk may have stored the length of the last line without its bytes.
             None if lines.peek().is_none() => break,
             None => return Err(broken(number)),
         }
@@ -171,7 +170,7 @@ fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usi
     Ok((outcomes, whole))
 }
 
-/// What a line says, if it is as it was written.
+/// Parses a line if its hash matches.
 fn parse<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     let (json, sum) = str::from_utf8(line).ok()?.trim_end().rsplit_once('\t')?;
     let valid = hash(json) == sum;
@@ -196,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn a_torn_line_is_cut_off_and_nothing_else() {
+    fn only_an_incomplete_line_is_cut_off() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.journal");
         let (mut journal, none) = Journal::open(&path, &header(), false).unwrap();
@@ -214,7 +213,7 @@ mod tests {
         }
         fs::write(&path, [&whole[..], &[0, 0, b'\n']].concat()).unwrap();
         assert_eq!(Journal::open(&path, &header(), false).unwrap().1, kept);
-        // A torn header is no journal yet.
+        // An incomplete header is not a journal yet.
         fs::write(&path, &whole[..20]).unwrap();
         assert!(Journal::open(&path, &header(), false).unwrap().1.is_empty());
     }
@@ -238,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_changed_beside_the_program_is_named() {
+    fn changes_outside_the_program_are_named() {
         let part = |name: &str, does: &str, k: &str| {
             (name.to_owned(), (does.to_owned(), [("k".to_owned(), k.to_owned())].into()))
         };

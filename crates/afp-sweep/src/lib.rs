@@ -1,12 +1,12 @@
 //! Many runs of a plan in the simulator: over seeds, worlds and values, on all cores.
 //!
-//! A [`Sweep`] is a numbered grid of runs. Each is a pure function of its [`Row`], so that any of them can
-//! be done again, anywhere, in any order. [`Engine::run`] does them and hands out [`Outcome`]s as they come; a
-//! [`Journal`] keeps them, so that a sweep that was killed goes on where it was; [`Findings`] sums them up,
-//! [`to_csv`] makes a table of them, and one for programs with the feature `parquet`. `afpc sweep` is thin over this.
+//! A [`Sweep`] is a numbered grid of runs. Each run is a pure function of its [`Row`], so any run
+//! can be repeated anywhere and in any order. [`Engine::run`] executes runs and passes on
+//! [`Outcome`]s. A [`Journal`] keeps them, so that a killed sweep resumes. [`Findings`] is the
+//! summary. [`to_csv`] makes a table; the feature `parquet` adds a binary one. `afpc sweep` is a
+//! thin layer over this crate.
 //!
-//! The plan need not come from a file: whoever has plans and simulations of his own gives the engine a
-//! function that makes them.
+//! A plan without a file is possible: pass the engine a function that makes your sessions.
 #![forbid(unsafe_code)]
 
 mod attend;

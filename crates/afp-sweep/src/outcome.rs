@@ -1,11 +1,11 @@
-//! What a run came to.
+//! The outcome of a run.
 
 use std::collections::BTreeMap;
 
 use afp_session::{FigureValue, Figures};
 use serde::{Deserialize, Serialize};
 
-/// The columns that each table has.
+/// The columns of every table.
 pub(crate) const FIXED: [&str; 15] = [
     "run",
     "world",
@@ -27,21 +27,22 @@ pub(crate) const FIXED: [&str; 15] = [
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
-    /// By a state or a computation of the plan.
+    /// The plan ended by a state or a computation.
     Ok,
     Interrupted,
-    /// By the end of its time.
+    /// The time limit was reached.
     TimeLimit,
-    /// The plan ended in `Error`; a component that panics ends it so.
+    /// The plan ended in `Error`, for example after a panic of a component.
     Error,
-    /// The run could not begin: a robot that would stand in something, a value that makes no sense.
+    /// The run could not start, for example because of an obstacle at the robot's start or an
+    /// invalid value.
     NotStarted,
     /// The simulator or the engine panicked.
     Panicked,
 }
 
 impl Ending {
-    /// Every ending, the good ones first.
+    /// Every ending, from good to bad.
     pub const ALL: [Ending; 6] = [
         Ending::Ok,
         Ending::Interrupted,
@@ -62,50 +63,47 @@ impl Ending {
         }
     }
 
-    /// Whether nothing good can be said of such a run.
+    /// Whether such a run failed.
     pub fn is_failure(self) -> bool {
         matches!(self, Ending::Error | Ending::NotStarted | Ending::Panicked)
     }
 }
 
-/// What a run came to. All but `took_s` is the same on every machine.
+/// The outcome of a run. All fields except `took_s` are the same on every machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// The run's number in its sweep.
     pub run: u64,
     pub ending: Ending,
-    /// Where: the path of the component that was active or failed last.
+    /// The path of the component that was active or failed last.
     #[serde(rename = "where")]
     pub place: String,
-    /// Why: the state or event, the fault, or what was refused.
+    /// The state or event, the fault, or the start error.
     pub why: String,
     pub time_s: f64,
-    /// The way that the robot went, metres.
+    /// The distance driven, in metres.
     pub distance_m: f64,
-    /// How often it ran into something.
     pub collisions: u64,
-    /// What it touched, and for how long altogether, seconds.
+    /// Touched things, with the total duration in seconds.
     #[serde(default)]
     pub touched: BTreeMap<String, f64>,
-    /// How often an actor was interrupted.
+    /// The number of interrupted actors.
     pub interruptions: u64,
-    /// Deadlines that were missed.
     pub deadline_misses: u64,
-    /// What else the robot and its measures say the run came to, by the names of columns: `contacts_s`,
-    /// `wall_error_mean_m`. One without a value is still a column.
+    /// Other figures of the robot and its measures, by column name: `contacts_s`,
+    /// `wall_error_mean_m`. A figure without a value keeps its column.
     #[serde(flatten)]
     pub figures: BTreeMap<String, Option<f64>>,
-    /// The hash of the trace, 16 hexadecimal digits; empty for a run without one.
+    /// The hash of the trace, 16 hexadecimal digits; empty without a trace.
     pub trace: String,
-    /// How long it took by the wall clock, seconds.
+    /// The real time in seconds.
     pub took_s: f64,
 }
 
-/// The figure of what was touched.
 pub(crate) const CONTACTS: &str = "contacts";
 
-/// Figures as numbers with names: a count by the figure's own, each of its numbers with that before it, stretches of time
-/// by their sum in seconds. What is called as a column that each table has is called the robot's.
+/// Figures as named numbers: a count under the figure's name, several numbers with that name as a
+/// prefix, and time spans as their sum in seconds. If a fixed column has the name, the number
+/// counts as the robot's.
 pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
     let mut all = BTreeMap::new();
     for figure in &figures.0 {
@@ -120,7 +118,7 @@ pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
             ),
             FigureValue::Spans { spans, .. } => {
                 let lasted = spans.iter().map(|span| span.end.since(span.begin).as_secs_f64());
-                // A sum of nothing is a negative zero.
+                // The sum of an empty list is negative zero.
                 let sum = lasted.fold(0.0, |all, each| all + each);
                 all.insert(format!("{}_s", figure.name), Some(sum));
             }
@@ -130,12 +128,12 @@ pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
     all.into_iter().map(|(name, number)| (own(name), number)).collect()
 }
 
-/// What a figure is called whose name is that of another column.
+/// The column name of a figure whose own name is taken.
 pub(crate) fn of_robot(figure: &str) -> String {
     format!("robot.{figure}")
 }
 
-/// What the robot touched, and for how long altogether, seconds.
+/// Touched things, with the total duration in seconds.
 pub(crate) fn touched(figures: &Figures) -> BTreeMap<String, f64> {
     let mut all = BTreeMap::new();
     for span in figures.spans(CONTACTS) {
@@ -146,18 +144,18 @@ pub(crate) fn touched(figures: &Figures) -> BTreeMap<String, f64> {
 }
 
 impl Outcome {
-    /// Whether there is anything to measure: what did not start, or panicked, has no trace.
+    /// Whether the run has measures; a run that did not start, or panicked, has no trace.
     pub fn has_started(&self) -> bool {
         !self.trace.is_empty()
     }
 
-    /// What it touched, in words: `crate 1.3 s, wall 0.2 s`.
+    /// Touched things in words: `crate 1.3 s, wall 0.2 s`.
     pub(crate) fn touched_text(&self) -> String {
         let each = self.touched.iter().map(|(name, lasted)| format!("{name} {lasted:.1} s"));
         each.collect::<Vec<_>>().join(", ")
     }
 
-    /// A run that has no more to tell than why it failed.
+    /// An outcome without data other than its failure.
     pub(crate) fn failed(run: u64, ending: Ending, why: String) -> Self {
         Outcome {
             run,

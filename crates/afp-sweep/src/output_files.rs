@@ -1,4 +1,4 @@
-//! Where a sweep keeps its outcomes.
+//! The output files of a sweep.
 
 use std::fs;
 use std::io;
@@ -10,34 +10,33 @@ use crate::outcome::Outcome;
 use crate::table::to_csv;
 use afp_run::{RunError, check_writable, hash, write_whole};
 
-/// What does not go well where a table cannot be written.
+/// The title of an error about a table.
 const WHAT: &str = "cannot write the table";
 
-/// Where tables go unless told otherwise.
+/// The default folder of tables.
 const SWEEPS: &str = "target/afp/sweeps";
 
 pub type Make = fn(&Sweep, &[Outcome]) -> io::Result<Vec<u8>>;
 
-/// The formats of tables by their endings.
+/// The formats of tables by file extension.
 const FORMATS: &[(&str, Make)] = &[
     ("csv", to_csv),
     #[cfg(feature = "parquet")]
     ("parquet", crate::table::to_parquet),
 ];
 
-/// The files of a sweep.
 pub struct OutputFiles {
     pub journal: PathBuf,
-    /// Tables, written whole.
+    /// Tables, written at the end.
     pub tables: Vec<(PathBuf, Make)>,
 }
 
 impl OutputFiles {
-    /// The files that were asked for, or the default for this plan and grid; makes the folder.
+    /// Returns the requested files, or the default for this plan and grid, and creates the folder.
     ///
     /// # Errors
-    /// A name whose ending is not supported, a folder that cannot be made, a table that may not be written: after hours of
-    /// runs it would be too late to say so.
+    /// An unsupported extension, or a folder or table that cannot be written. This is checked
+    /// before the runs, which can take hours.
     pub fn new(
         asked: Option<&Path>,
         plan: &Path,
@@ -65,7 +64,7 @@ impl OutputFiles {
     /// Writes the tables.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// A file cannot be written.
     pub fn write(&self, sweep: &Sweep, outcomes: &[Outcome]) -> Result<(), RunError> {
         for (path, make) in &self.tables {
             let bytes = make(sweep, outcomes).map_err(RunError::file(WHAT, path))?;
@@ -109,7 +108,7 @@ fn unsupported(path: &Path) -> String {
     }
 }
 
-/// One table, the journal beside it.
+/// A single table, with the journal next to it.
 fn single(path: &Path, make: Make) -> OutputFiles {
     let mut journal = path.as_os_str().to_owned();
     journal.push(".journal");

@@ -1,19 +1,20 @@
-//! Seeds, worlds and values as people write them: `0..1000`, `random:7..99`, `distance=20cm..60cm:5cm`.
+//! Seeds, worlds and values in command-line syntax: `0..1000`, `random:7..99`,
+//! `distance=20cm..60cm:5cm`.
 
 use afp_excerpt::words::unquoted;
 
 use crate::grid::{Axis, Point};
 use crate::seeds::Seeds;
 
-/// A range whose step nobody gave has so many values.
+/// The number of values in a range without a step.
 const POINTS: u64 = 5;
-/// More values than this are a mistake.
+/// The most values of a range.
 const MOST: f64 = 1e6;
 
-/// `0..1000` (the last is 999), `0..=999`, one seed, or several of these with commas between them.
+/// Parses `0..1000` (the last is 999), `0..=999`, a single seed, or several of these with commas.
 ///
 /// # Errors
-/// Says what was expected.
+/// The expected syntax.
 pub fn seeds(text: &str) -> Result<Seeds, String> {
     if !text.contains(',') {
         return one_after_the_other(text);
@@ -45,10 +46,10 @@ fn one_after_the_other(text: &str) -> Result<Seeds, String> {
     Ok(Seeds::new(range))
 }
 
-/// A world as `--world` takes it, or several: `random:7..99` stands for `random:7` to `random:98`.
+/// Parses one or several worlds as in `--world`: `random:7..99` means `random:7` to `random:98`.
 ///
 /// # Errors
-/// A range that is none.
+/// An invalid range.
 pub fn worlds(text: &str) -> Result<Vec<String>, String> {
     match text.strip_prefix("random:") {
         Some(range) if range.contains("..") => {
@@ -62,13 +63,13 @@ pub fn worlds(text: &str) -> Result<Vec<String>, String> {
     }
 }
 
-/// What is varied and how: `distance=20cm..60cm`, `distance=20cm..60cm:5cm`, `distance=20cm,30cm`.
+/// Parses an axis: `distance=20cm..60cm`, `distance=20cm..60cm:5cm`, `distance=20cm,30cm`.
 ///
-/// Both ends belong to a range. Without a step, whole numbers without a unit go one by one, and everything
-/// else in four equal steps.
+/// A range includes both ends. The default step is 1 for integers without a unit, and otherwise a
+/// quarter of the range.
 ///
 /// # Errors
-/// Says what was expected.
+/// The expected syntax.
 pub fn axis(text: &str) -> Result<Axis, String> {
     let (name, values) = match text.split_once('=') {
         Some((name, values)) if !name.trim().is_empty() => (name.trim().to_owned(), values.trim()),
@@ -82,9 +83,9 @@ pub fn axis(text: &str) -> Result<Axis, String> {
     Ok(Axis { name, points })
 }
 
-/// Values with commas between them; what stands in quotes is one, without them.
+/// Splits values at commas; a quoted value loses its quotes.
 fn list(values: &str) -> Result<Vec<String>, String> {
-    // Whether a value has not begun, and whether it stands in quotes that are open.
+    // Whether a value is still empty, and whether a quote is open.
     let (mut before, mut open) = (true, false);
     let between = |c: char| {
         open = if open { c != '"' } else { c == '"' && before };
@@ -112,7 +113,7 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
     }
     let (first, unit) = number(from)?;
     let (last, other) = number(to)?;
-    // `20..60cm` says it once for both.
+    // In `20..60cm` the unit applies to both.
     let unit = if unit.is_empty() { other } else { unit };
     if unit != other {
         return Err(format!("write both ends of '{from}..{to}' in the same unit"));
@@ -135,19 +136,19 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
     if !(step > 0.0 && steps >= 0.0) {
         return Err(format!("no values lie in '{from}..{to}' in steps of {}", written(step, unit)));
     }
-    // A step that should end at the last value does, whatever the division lost.
+    // A step that ends at the last value includes it despite rounding.
     let count = (steps + 1e-9).floor() as u64 + 1;
     Ok((0..count).map(|n| written(first + n as f64 * step, unit)).collect())
 }
 
-/// A range of whole numbers without a unit, which are counted exactly; none of others.
+/// Parses a range of integers without a unit, which is counted exactly; `None` for other ranges.
 fn whole_range(from: &str, to: &str, step: Option<&str>) -> Result<Option<Vec<String>>, String> {
     let whole = |text: &str| text.trim().parse::<i64>().ok();
     let (Some(first), Some(last)) = (whole(from), whole(to)) else { return Ok(None) };
     let Some(step) = step.map_or(Some(1), whole) else { return Ok(None) };
     let steps = match last.checked_sub(first) {
         Some(distance) if step > 0 && distance >= 0 => distance / step,
-        // Too far apart for what counts, or none: as those say it that are not whole.
+        // Such a range is too long or invalid, so the general case reports it.
         _ => return Ok(None),
     };
     if steps as f64 >= MOST {
@@ -160,7 +161,7 @@ fn too_many(from: &str, to: &str) -> String {
     format!("'{from}..{to}' has more than {MOST} values; write a wider step")
 }
 
-/// A number and its unit.
+/// Splits a number and its unit.
 fn number(text: &str) -> Result<(f64, &str), String> {
     let text = text.trim();
     let ends = text.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
@@ -171,8 +172,8 @@ fn number(text: &str) -> Result<(f64, &str), String> {
     }
 }
 
-/// A number of at most twelve digits, with its unit: what arithmetic loses is not shown, and what is shown
-/// is what counts.
+/// Writes a number with its unit, rounded to twelve digits; the written value is the one that
+/// counts.
 fn written(number: f64, unit: &str) -> String {
     let rounded = format!("{number:.11e}").parse::<f64>().unwrap_or(number);
     format!("{rounded}{unit}")
@@ -205,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_range_says_why() {
+    fn invalid_ranges_are_explained() {
         for (text, why) in [
             ("d", "such as distance=20cm..60cm"),
             ("d=20cm..1m", "same unit"),

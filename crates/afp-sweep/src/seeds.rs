@@ -4,28 +4,28 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
-/// The seeds of a sweep, each once.
+/// The seeds of a sweep, all different.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Seeds(Kind);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Kind {
-    /// One after the other.
+    /// Consecutive seeds.
     Range(Range<u64>),
-    /// Any others, in their order.
+    /// Other seeds, in order.
     List(Vec<u64>),
 }
 
 impl Seeds {
-    /// Seeds from the first up to, and without, the second.
+    /// Seeds of a range without its end.
     pub fn new(range: Range<u64>) -> Self {
         Seeds(Kind::Range(range))
     }
 
-    /// Seeds in that order; those that follow one another are the same as their range.
+    /// Seeds in that order; consecutive seeds equal their range.
     ///
     /// # Errors
-    /// A seed that stands there twice: its run would be there twice.
+    /// A repeated seed, which would repeat its run.
     pub fn list(seeds: Vec<u64>) -> Result<Self, String> {
         let mut known = BTreeSet::new();
         if let Some(twice) = seeds.iter().find(|seed| !known.insert(**seed)) {
@@ -39,7 +39,6 @@ impl Seeds {
         })
     }
 
-    /// How many there are.
     pub fn len(&self) -> u64 {
         match &self.0 {
             Kind::Range(range) => range.end.saturating_sub(range.start),
@@ -47,12 +46,10 @@ impl Seeds {
         }
     }
 
-    /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// One of them, from 0.
     pub fn nth(&self, number: u64) -> u64 {
         match &self.0 {
             Kind::Range(range) => range.start.saturating_add(number),

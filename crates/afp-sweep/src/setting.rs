@@ -1,4 +1,4 @@
-//! Sweeps of a checked plan: its worlds are read once, its values are checked before anything runs.
+//! Sweeps of a checked plan: worlds are read once, and values are checked before the first run.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -12,12 +12,12 @@ use afp_session::{AnySession, Loader};
 
 use crate::grid::{Axis, Point, Row, Sweep, WorldChoice};
 
-/// More runs than this are a mistake: a sweep keeps its outcomes in memory, too, some hundred bytes each.
+/// The most runs: a sweep also keeps its outcomes in memory, some hundred bytes each.
 const MOST: u64 = 10_000_000;
-/// So many combinations of values of a world are tried before anything runs.
+/// The most combinations of world values tried before the first run.
 const TRIED: usize = 1000;
 
-/// A plan and the worlds that it runs in.
+/// A plan and its worlds.
 pub struct Setting<'a> {
     graph: &'a Graph,
     robot: &'a dyn Loader,
@@ -27,12 +27,12 @@ pub struct Setting<'a> {
 }
 
 impl<'a> Setting<'a> {
-    /// Reads the worlds, seen from the plan's `file`, tries every value, and fills in what the values of the
-    /// sweep are in SI units.
+    /// Reads the worlds, relative to the plan's `file`, checks every value, and converts the values
+    /// of the sweep to SI units.
     ///
     /// # Errors
-    /// Too many runs, a world that does not work, a template without Rust, something to vary that is not there, a value
-    /// that does not fit.
+    /// Too many runs, an invalid world, a template without Rust, an unknown axis, or an invalid
+    /// value.
     pub fn new(
         sweep: &mut Sweep,
         graph: &'a Graph,
@@ -94,7 +94,7 @@ impl<'a> Setting<'a> {
         self.check_together(&sweep.axes)
     }
 
-    /// Values of a world's file, each for itself.
+    /// Checks the values of a world's file one by one.
     fn check_worlds(&self, key: &str, points: &mut [Point]) -> Result<(), RunError> {
         for world in &self.worlds {
             for point in &mut *points {
@@ -104,7 +104,8 @@ impl<'a> Setting<'a> {
         Ok(())
     }
 
-    /// Values of a world's file, together: a world may make no sense with some of them, but not with all.
+    /// Checks combinations of values of a world's file: a world may be valid with some of them
+    /// only.
     fn check_together(&self, axes: &[Axis]) -> Result<(), RunError> {
         let of_world = axes.iter().filter_map(|axis| Some((change::key(&axis.name)?, axis)));
         let of_world: Vec<_> = of_world.collect();
@@ -120,7 +121,7 @@ impl<'a> Setting<'a> {
                 });
                 world.with(&changes.collect::<Vec<_>>(), self.robot.kind())
             });
-            // The first one that works is enough.
+            // A single valid combination is enough.
             let mut first = None;
             for tried in tried {
                 match tried {
@@ -136,10 +137,10 @@ impl<'a> Setting<'a> {
         Ok(())
     }
 
-    /// The world of a run, with the values of its row.
+    /// Returns the world of a run, with the values of its row.
     ///
     /// # Errors
-    /// The world makes no sense with them.
+    /// The values make the world invalid.
     pub fn world(&self, row: &Row<'_>) -> Result<LoadedWorld, RunError> {
         let world = self.worlds.get(row.world_number);
         let world = world.ok_or_else(|| RunError::usage("there is no such world", "name one"))?;
@@ -154,10 +155,10 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The session of a run, judged by all measures of the robot.
+    /// Makes the session of a run, with all measures of the robot.
     ///
     /// # Errors
-    /// The world makes no sense with the values of the row.
+    /// The values make the world invalid.
     pub fn make(&self, row: &Row<'_>) -> Result<Box<dyn AnySession>, RunError> {
         let world = self.world(row)?;
         let measures = self.robot.kind().measures();
@@ -170,7 +171,7 @@ impl<'a> Setting<'a> {
         Ok(session)
     }
 
-    /// The hash of the texts of all worlds, and of where the robot starts instead of where they say.
+    /// The hash of all worlds' texts, and of the start pose that overrides theirs.
     pub fn hash(&self) -> String {
         let world = |world: &LoadedWorld| {
             let start = world.start.map(|start| format!("{start:?}")).unwrap_or_default();
@@ -180,7 +181,7 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// Refuses a world that is there twice: its runs would be.
+/// Rejects a repeated world, which would repeat its runs.
 fn different_worlds(worlds: &[WorldChoice]) -> Result<(), RunError> {
     let mut known = HashSet::new();
     let names = worlds.iter().filter(|world| matches!(world, WorldChoice::Named(_)));
@@ -193,7 +194,7 @@ fn different_worlds(worlds: &[WorldChoice]) -> Result<(), RunError> {
     })
 }
 
-/// Refuses a value that is there twice, in another unit, too; `whole` are the values where they are whole numbers.
+/// Rejects a repeated value, also in a different unit; `whole` has the values of an integer axis.
 fn different_values(axis: &Axis, whole: &[i64]) -> Result<(), RunError> {
     let mut known = HashSet::new();
     let value = |(number, point): &(usize, &Point)| match (whole.get(*number), point.si) {

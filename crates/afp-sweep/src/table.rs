@@ -1,7 +1,7 @@
 //! Tables of outcomes as files: CSV for people and spreadsheets, Parquet for programs.
 //!
-//! The writer of Parquet takes longer to build than the simulator's physics, and few sweeps need it: it is behind
-//! the feature `parquet`.
+//! The Parquet writer takes longer to build than the simulator's physics, and few sweeps need it.
+//! The feature `parquet` enables it.
 
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -15,10 +15,10 @@ use crate::outcome::Outcome;
 #[cfg(feature = "parquet")]
 pub use parquet::to_parquet;
 
-/// The outcomes as CSV, with a line of names first, in the order of the runs.
+/// Writes the outcomes as CSV in run order, with a header line.
 ///
 /// # Errors
-/// There is no memory.
+/// The memory is exhausted.
 pub fn to_csv(sweep: &Sweep, outcomes: &[Outcome]) -> io::Result<Vec<u8>> {
     let columns = columns(sweep, outcomes);
     let mut table = csv::Writer::from_writer(Vec::new());

@@ -1,4 +1,4 @@
-//! Runs on several threads: the same outcomes, panics that hurt nobody else, sweeps that are called off.
+//! Runs on several threads: equal outcomes, isolated panics, cancelled sweeps.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -77,7 +77,7 @@ fn register(registry: &mut Registry<Simulation>) {
     templates::register(registry);
 }
 
-/// All runs, with what a test does to them; the outcomes by their numbers.
+/// Runs everything with a test's function and returns the outcomes by number.
 fn run(
     jobs: usize,
     stop: &AtomicBool,
@@ -105,7 +105,7 @@ fn run(
 }
 
 #[test]
-fn a_component_that_panics_ends_its_run_alone() {
+fn a_panicking_component_ends_only_its_run() {
     let stop = AtomicBool::new(false);
     let outcomes = run(2, &stop, |_| {}, |_| true);
     assert_eq!(outcomes.len(), 12);
@@ -131,7 +131,7 @@ fn a_panic_outside_of_the_plan_is_an_outcome_too() {
 }
 
 #[test]
-fn a_sweep_is_called_off_from_both_ends() {
+fn a_sweep_is_cancelled_from_both_ends() {
     let stop = AtomicBool::new(false);
     let some = run(1, &stop, |_| {}, |outcome| outcome.run < 2);
     assert_eq!(some.iter().map(|outcome| outcome.run).collect::<Vec<_>>(), [0, 1, 2]);

@@ -1,4 +1,4 @@
-//! Which parts of a plan its scenarios made use of.
+//! Coverage of a plan by its scenarios.
 
 use std::fmt::Write;
 
@@ -12,47 +12,39 @@ use afp_log::LogData;
 use crate::parts::Parts;
 use crate::watch::hits::{Hits, Touched};
 
-/// How often the parts of a plan were used.
+/// The use counts of a plan's parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coverage {
-    /// The plan's name.
     pub plan: String,
-    /// Its parts: elements, then what can come of each component, then entries.
+    /// Elements, then outcomes of each component, then entries.
     pub parts: Vec<Part>,
-    /// The same for drawings, plan by plan: parts of a plan that is used twice are added up.
+    /// The counts for drawings, plan by plan; several uses of a plan are added up.
     pub usage: Usage,
 }
 
-/// A part of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// What it is.
     pub kind: PartKind,
     /// Its name: `go`, `go.touch.TouchSensorPressed`, `walldist`.
     pub name: String,
-    /// How often it was used.
+    /// The number of uses.
     pub count: u64,
 }
 
-/// What a part of a plan is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartKind {
-    /// An actor, a computation or a sub-plan that started.
+    /// A started actor, computation or sub-plan.
     Element,
-    /// A state that was reached.
     State,
-    /// An event that was taken.
     Event,
-    /// A `DeadlineMissed` that leads somewhere.
+    /// A connected `DeadlineMissed`.
     Deadline,
-    /// An `Error` that leads somewhere.
+    /// A connected `Error`.
     Error,
-    /// An entry that was written.
     Entry,
 }
 
 impl PartKind {
-    /// Every kind.
     pub const ALL: [PartKind; 6] = [
         PartKind::Element,
         PartKind::State,
@@ -62,7 +54,6 @@ impl PartKind {
         PartKind::Entry,
     ];
 
-    /// What several of them are called.
     pub fn plural(self) -> &'static str {
         match self {
             PartKind::Element => "elements",
@@ -76,7 +67,7 @@ impl PartKind {
 }
 
 impl Coverage {
-    /// What was used of a plan, over all runs whose `hits` were added up.
+    /// Makes the coverage of a plan from the `hits` of all runs.
     pub fn new(graph: &Graph, hits: &Hits) -> Coverage {
         let all = unfold(graph);
         let mut parts = Vec::new();
@@ -95,24 +86,23 @@ impl Coverage {
         Coverage { plan: graph.main().name.clone(), parts, usage: Parts::new(graph).usage(hits) }
     }
 
-    /// What a logged run used of its plan; `None` when the log is of another plan.
+    /// Makes the coverage of a logged run; `None` for a log of a different plan.
     pub fn of_log(graph: &Graph, log: &LogData) -> Option<Coverage> {
         let mut hits = Hits::new(graph);
         hits.add_log(log).then(|| Coverage::new(graph, &hits))
     }
 
-    /// How many parts of a kind there are and how many of them were used.
+    /// The number of a kind's parts, and the number of used ones.
     pub fn of(&self, kind: PartKind) -> (usize, usize) {
         let parts = || self.parts.iter().filter(|part| part.kind == kind);
         (parts().count(), parts().filter(|part| part.count > 0).count())
     }
 
-    /// The parts that were never used.
     pub fn unused(&self) -> impl Iterator<Item = &Part> {
         self.parts.iter().filter(|part| part.count == 0)
     }
 
-    /// A table with what was never used below it.
+    /// A table, followed by the unused parts.
     pub fn text(&self) -> String {
         let mut text = format!("coverage of {}\n", self.plan);
         for kind in PartKind::ALL {
@@ -153,7 +143,7 @@ fn add(names: &ComponentNames, place: &Place, touched: &Touched, parts: &mut Vec
     }
 }
 
-/// An edge of the element at `path` for an event of a supervisor of its plan: `wait.on keys.Start`.
+/// The part for an element's reaction to an event of its plan's supervisor: `wait.on keys.Start`.
 fn own_edge(path: &str, reaction: &Reaction, components: &[ComponentNames]) -> Option<Part> {
     let watcher = components.get(usize::try_from(reaction.supervisor).ok()?)?;
     let name = watcher.path.rsplit('.').next()?;
@@ -164,7 +154,7 @@ fn own_edge(path: &str, reaction: &Reaction, components: &[ComponentNames]) -> O
     Some(Part { kind, name: format!("{path}.on {name}.{event}"), count: 0 })
 }
 
-/// An entry that can be written while the plan runs.
+/// The part for an entry, if a run can write it.
 fn of_entry(entry: &EntryNames, count: u64) -> Option<Part> {
     let written = matches!(entry.kind, EntryKind::Var | EntryKind::Out);
     written.then(|| Part { kind: PartKind::Entry, name: entry.path.clone(), count })

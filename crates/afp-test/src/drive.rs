@@ -23,26 +23,25 @@ use crate::verdict::Verdict;
 use crate::watch::signals::Signals;
 use crate::watch::{Broken, Watch};
 
-/// How long a run goes on when the plan has ended: the robot comes to rest.
+/// The time after the end of the plan, in which the robot comes to rest.
 const REST: Duration = Duration::from_millis(1000);
-/// How often the robot is looked at where a claim is about it, and after each step.
+/// The interval between checks of claims about the robot, in addition to each step.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// Sees whether a scenario comes out as it says.
+/// Decides whether a scenario passes.
 struct Judge<'a> {
     scenario: &'a Scenario,
     watch: Watch<'a>,
-    /// Whether moments have come that nothing follows from yet.
+    /// Whether new moments have occurred since the last check.
     unreported: &'a Cell<bool>,
-    /// The line of the scenario that each request stands for.
     lines: BTreeMap<RequestId, usize>,
     broken: Vec<Broken>,
-    /// Whether entries have always held what was committed.
+    /// Whether entries have always held the committed values.
     is_consistent: bool,
     timeline: Vec<(Instant, String)>,
 }
 
-/// Runs a scenario to its end; `None` when `go_on` called it off.
+/// Runs a scenario to its end; `None` if `go_on` cancels it.
 pub(crate) fn run(
     scenario: &Scenario,
     setting: &Setting,
@@ -84,7 +83,7 @@ pub(crate) fn run(
     };
     let (end, trace) = (session.now(), session.trace().get());
     if let Some(mut log) = log {
-        // As a run that is over: the log says when, and repeats it.
+        // The log gets the time of the stop, and can repeat the run.
         session.stop(&mut [&mut log]);
         log.finish(&*session)?;
     }
@@ -109,7 +108,7 @@ pub(crate) fn run(
     }))
 }
 
-/// The plan of a scenario on a robot in its world.
+/// The session of a scenario's plan on a robot in its world.
 fn session(
     scenario: &Scenario,
     setting: &Setting,
@@ -194,7 +193,7 @@ impl Judge<'_> {
         self.unreported.set(self.watch.moments.has_unreported());
     }
 
-    /// Asks for what is to be done from the moments on that have come; gives when the run ends at the latest.
+    /// Requests the actions that follow new moments, and returns the time limit.
     fn go_on_from_moments(&mut self, session: &mut dyn AnySession) -> Result<Instant, RunError> {
         let mut until = Instant::MAX;
         for (id, moment, at) in self.watch.moments.take() {
@@ -208,7 +207,7 @@ impl Judge<'_> {
         Ok(until)
     }
 
-    /// What was to happen and did not: the run was over before.
+    /// Notes actions that the run did not reach.
     fn note_not_reached(&mut self, session: &dyn AnySession) {
         let end = session.now();
         for (_, id, _) in session.pending() {
@@ -225,7 +224,7 @@ impl Judge<'_> {
         self.broken.push(Broken { text, span, at: end, why });
     }
 
-    /// Whatever the plan holds has been committed: half a commit would be seen here.
+    /// Compares the plan's entries with the commits, which finds an incomplete commit.
     fn compare(&mut self, view: &View<'_>) {
         let entries = &self.scenario.graph.main().entries;
         let held = (0..entries.len() as u16).map(|entry| view.entry(EntryId(entry)));
@@ -254,8 +253,7 @@ fn cannot_start(scenario: &Scenario, error: StartError) -> RunError {
     refused(scenario, &error.to_string())
 }
 
-/// What the log says of the run.
-/// What the log says of the run: as much as that of any other run.
+/// The description of the run in the log, as complete as for other runs.
 fn about(
     scenario: &Scenario,
     setting: &Setting,

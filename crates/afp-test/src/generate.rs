@@ -1,8 +1,9 @@
-//! Scenarios made from a plan: every event of every supervisor, at five points of each element's run.
+//! Scenarios generated from a plan: every event of every supervisor, at five points of each
+//! element's run.
 //!
-//! Runs of the plan say when each element is active: first one without stimuli, then others with
-//! another seed, then others in which somebody fires an event or finishes an actor on the way. What none
-//! of them reaches has no scenario, and the text says so.
+//! Sample runs of the plan give the activation times of elements. The first run has no stimuli.
+//! Others have a different seed. Further ones fire an event or finish an actor at some time. An
+//! element that no run reaches has no scenario, and the generated file lists it.
 
 mod draft;
 mod pair;
@@ -23,26 +24,26 @@ use draft::Draft;
 use pair::Pair;
 use reach::Reach;
 
-/// By what a file of scenarios is known that was made here.
+/// The mark of a generated file.
 const MADE_BY: &str = "// Made by 'afpc test --generate'.";
 
-/// Whether a file of scenarios was made here: one that may be made again.
+/// Whether a file of scenarios is generated, so that it may be overwritten.
 pub fn is_generated(text: &str) -> bool {
     text.lines().any(|line| line == MADE_BY)
 }
 
-/// Scenarios that were made for a plan.
+/// Scenarios generated for a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Generated {
     drafts: Vec<Draft>,
-    /// What has none, and why.
+    /// Omitted scenarios, with their reasons.
     pub left_out: Vec<String>,
 }
 
-/// What a robot signals when it is to stand and does; where it declares such signals, scenarios expect them.
+/// The robot's signals for stopping; if it has such signals, scenarios check them.
 #[derive(Clone, Copy, Debug)]
 struct Rest {
-    /// `robot.halted`: whether the last command was to stand.
+    /// `robot.halted`: whether the last command was to stop.
     halted: bool,
     /// `robot.standing`: whether it does not move.
     standing: bool,
@@ -55,13 +56,13 @@ impl Rest {
     }
 }
 
-/// Scenarios for a graph's plan and all its sub-plans. `quiet` is a run of the plan in which nothing happens;
-/// `robot` has the devices of the robot that it runs on; `run` runs it, and others like it.
+/// Generates scenarios for a graph's plan and all its sub-plans. `quiet` is a run of the plan
+/// without stimuli, `robot` has the robot's devices, and `run` executes runs.
 ///
-/// They say what an event does; whether that is all that happens is known once they have run: see [`Generated::prove`].
+/// The scenarios expect the direct effect of each event. [`Generated::prove`] adds later effects.
 ///
 /// # Errors
-/// What `run` says.
+/// Those of `run`.
 pub fn generate(
     quiet: &Scenario,
     robot: &[DeviceRow],
@@ -93,13 +94,13 @@ pub fn generate(
 }
 
 impl Generated {
-    /// How many scenarios there are.
+    /// The number of scenarios.
     pub fn count(&self) -> usize {
         self.drafts.len()
     }
 
-    /// The text of a file with them, as the formatter would have it but for alignment. `from` is the plan's file, seen
-    /// from that one.
+    /// The text of their file in canonical form, except for alignment. `from` is the plan's file
+    /// relative to that one.
     pub fn text(&self, from: &str) -> String {
         let mut text = format!("use \"{from}\"\n\n{MADE_BY}\n");
         for why in &self.left_out {
@@ -110,12 +111,12 @@ impl Generated {
         text
     }
 
-    /// Runs the scenarios, so that all that are left pass on the plan as it is: those whose plan goes on to end in `Error`
-    /// expect that, what does not pass then is left out. `read` gives what stands in the text of a file with them,
-    /// `run_all` what each scenario came to.
+    /// Runs the scenarios, so that all remaining ones pass on the current plan. If the plan later
+    /// ends in `Error`, the scenario expects that; other failing scenarios are omitted. `read`
+    /// parses the text of a file, and `run_all` returns the verdict of each scenario.
     ///
     /// # Errors
-    /// What `read` and `run_all` say.
+    /// Those of `read` and `run_all`.
     pub fn prove<E>(
         &mut self,
         read: impl Fn(&Generated) -> Result<Vec<Scenario>, E>,

@@ -1,8 +1,8 @@
-//! Scenarios: runs one in the simulator, in virtual time, and says what it came to.
+//! Scenarios: runs one in the simulator, in virtual time, and returns its verdict.
 //!
-//! `afp_dsl` reads and checks a scenario; [`run`] plays it: it starts the plan on a simulated robot,
-//! asks for what the scenario says, and looks at the trace and at the robot's signals for what is expected.
-//! `afpc test` and the tests that `afp::scenarios!` makes are thin over it.
+//! `afp_dsl` parses and checks a scenario. [`run`] starts the plan on a simulated robot and
+//! requests the scenario's actions. It compares the trace and the robot's signals with the
+//! expectations. `afpc test` and the tests of `afp::scenarios!` are thin layers over this crate.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
@@ -34,20 +34,19 @@ pub use verdict::Verdict;
 pub use watch::hits::{Hits, Touched};
 pub use watch::{Activation, Broken};
 
-/// Where a run is recorded, with what it takes to repeat it.
+/// The recording of a run, with the inputs that repeat it.
 #[derive(Clone, Copy)]
 pub struct Recording<'a> {
-    /// The file of the log.
     pub path: &'a Path,
-    /// What the scenario was read from.
     pub compiled: &'a Compiled,
 }
 
-/// Runs a scenario on a robot; with `log` the run is recorded there.
+/// Runs a scenario on a robot; with `log`, records the run.
 ///
 /// # Errors
-/// No world, or one that does not work; a template without Rust; a log that cannot be written; a robot that panics. What
-/// the plan does wrong is no error but a [`Verdict`], and that a component panics, too.
+/// A missing or invalid world, a template without Rust, an unwritable log, or a panicking robot.
+/// Failures of the plan are not errors but part of the [`Verdict`], including panics of a
+/// component.
 pub fn run(
     scenario: &Scenario,
     setting: &Setting,
@@ -58,8 +57,8 @@ pub fn run(
     came.ok_or_else(|| RunError::usage("the scenario was called off", "run it again"))
 }
 
-/// Runs a scenario as [`run`] does, as long as `go_on` says so: it is asked whenever time is about to pass.
-/// `None` when it was called off.
+/// Runs a scenario like [`run`], while `go_on` returns true. It is called whenever time is about to
+/// advance. Returns `None` after a cancellation.
 ///
 /// # Errors
 /// As [`run`].

@@ -1,4 +1,4 @@
-//! What the tests that `afp::scenarios!` makes call.
+//! The function called by tests of `afp::scenarios!`.
 
 use std::path::Path;
 
@@ -9,10 +9,11 @@ use afp_toolboxes::project::OwnToolboxes;
 
 use crate::{Setting, run};
 
-/// Runs the scenario of that name in `file` on a robot; panics with what broke, and the timeline around it.
+/// Runs the named scenario of `file` on a robot; panics with the broken lines and a part of the
+/// timeline.
 ///
 /// # Panics
-/// The scenario failed, or could not be run.
+/// The scenario failed, or could not run.
 pub fn check(file: &Path, name: &str, robot: &dyn Loader) {
     let failed = |text: String| -> ! {
         panic!("scenario \"{name}\" of {}\n{}", file.display(), anstream::adapter::strip_str(&text))

@@ -1,7 +1,7 @@
-//! How much scenarios notice: the plan is changed a little, and they should break.
+//! Mutation tests for scenarios: small changes of the plan should break them.
 //!
-//! [`mutants`] makes the changed texts, [`Bench`] knows the scenarios of a plan and says of each mutant who
-//! notices it. Nothing here prints or starts a thread; whoever calls it does several mutants at once.
+//! [`mutants`] makes the changed texts. A [`Bench`] holds the scenarios of a plan and judges each
+//! mutant. Nothing here prints or starts a thread; callers can judge several mutants at once.
 
 mod bench;
 mod edits;
@@ -15,24 +15,22 @@ pub use site::MutantKind;
 /// A plan's text with one small change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mutant {
-    /// What kind of change it is.
     pub kind: MutantKind,
     /// The line of the change, from 1.
     pub line: usize,
-    /// Where in it the change begins, in characters from 1: what tells two alike in one line apart.
+    /// The first changed character, from 1; it distinguishes equal changes in a line.
     pub column: usize,
-    /// What stood there.
+    /// The original text.
     pub was: String,
-    /// What stands there now.
+    /// The new text.
     pub is: String,
-    /// The whole text.
     pub text: String,
 }
 
-/// The mutants of all plans in a text, in order of their places: signs, targets, constants, swapped branches. Where
-/// there are several ways to change something, the seed chooses.
+/// The mutants of all plans in a text, in source order: signs, targets, constants, swapped edges.
+/// The seed chooses among several possible changes.
 ///
-/// They need not compile; [`Bench::judge`] tells those apart.
+/// Some may not compile; [`Bench::judge`] detects that.
 pub fn mutants(text: &str, seed: u64) -> Vec<Mutant> {
     let source = Source::new("", text);
     let mut found = Vec::new();
@@ -114,7 +112,7 @@ scenario \"x\" for P { expect end within 3 s }
     }
 
     #[test]
-    fn two_alike_in_one_line_are_told_apart_by_their_columns() {
+    fn equal_mutants_in_a_line_have_different_columns() {
         let text = PLAN.replace("-way + 20 cm", "20 cm + 20 cm");
         let all = mutants(&text, 0);
         let signs = all.iter().filter(|each| each.was == "20 cm" && each.is == "-20 cm");

@@ -1,4 +1,4 @@
-//! The components of a plan by their numbers, each with what the graph says of it.
+//! The components of a plan by number, each with its facts from the graph.
 
 mod usage;
 
@@ -22,7 +22,7 @@ pub(crate) struct Parts<'a> {
     homes: Vec<Part>,
 }
 
-/// Where a component stands in the graph.
+/// The place of a component in the graph.
 #[derive(Clone, Copy)]
 struct Part {
     plan: PlanId,
@@ -49,7 +49,7 @@ impl<'a> Parts<'a> {
         Parts { graph, names: unfold(graph), places: places(graph), parts, homes }
     }
 
-    /// The number of the plan that each entry belongs to.
+    /// The number of each entry's plan.
     pub(crate) fn entry_homes(&self) -> Vec<u32> {
         let mut all = Vec::new();
         for home in &self.homes {
@@ -84,12 +84,13 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// What an element is made from.
+    /// The graph's component of an element.
     pub(crate) fn component(&self, number: u32) -> Option<Component> {
         self.element(number).map(|element| element.component)
     }
 
-    /// The time from the interruption of an actor to standstill, where its template says so.
+    /// The time from the interruption of an actor until it has stopped, if its template declares
+    /// one.
     pub(crate) fn stop(&self, number: u32) -> Option<u64> {
         match self.component(number)? {
             Component::Actor(id) => self.graph.template(id).stop,
@@ -102,7 +103,7 @@ impl<'a> Parts<'a> {
         self.names.components.get(number as usize).map_or("", |names| &names.path)
     }
 
-    /// The name behind the last dot.
+    /// The name after the last dot.
     pub(crate) fn name(&self, number: u32) -> &str {
         self.path(number).rsplit('.').next().unwrap_or("")
     }
@@ -119,28 +120,28 @@ impl<'a> Parts<'a> {
         self.names.entries.get(number as usize).map_or("", |entry| &entry.path)
     }
 
-    /// How a component hangs together with the others.
+    /// The place of a component in the plan.
     pub(crate) fn place(&self, number: u32) -> Option<&Place> {
         self.places.get(number as usize)
     }
 
-    /// Where an outcome leads.
+    /// The target of an outcome.
     pub(crate) fn goal(&self, number: u32, outcome: u16) -> Option<Goal> {
         *self.place(number)?.outcomes.get(usize::from(outcome))?
     }
 
-    /// Where the `Error` of an element leads.
+    /// The target of an element's `Error`.
     pub(crate) fn goal_of_error(&self, element: u32) -> Option<Goal> {
         self.place(element)?.special
     }
 
-    /// Where an event of a supervisor leads while an element of the same plan is active.
+    /// The target of a supervisor's event during an element of the same plan.
     pub(crate) fn goal_at(&self, element: u32, supervisor: u32, event: u16) -> Option<Goal> {
         let here = self.place(element)?.reaction(supervisor, Some(event));
         here.or_else(|| self.goal(supervisor, event))
     }
 
-    /// The supervisors that can end an element, those of its own plan and its own.
+    /// The supervisors that can end an element: its own and those of its plan.
     pub(crate) fn supervisors_over(&self, element: u32) -> Vec<u32> {
         let Some(home) = self.place(element).map(|place| place.plan) else { return Vec::new() };
         let over = |(number, place): (u32, &Place)| {
@@ -170,14 +171,14 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// The entries that a component writes at all, by number.
+    /// All entries that a component writes, by number.
     pub(crate) fn written(&self, number: u32) -> Vec<u32> {
         let first = self.part(number).map_or(0, |(_, part)| part.entries);
         self.outputs(number).iter().map(|out| first + u32::from(out.entry.0)).collect()
     }
 
-    /// The outputs of an actor or supervisor that an outcome brings and that are connected: the entry
-    /// and the port with the type of its value.
+    /// The connected outputs that an actor or supervisor writes with an outcome: the entry, and the
+    /// port with the type of its value.
     pub(crate) fn brought(&self, number: u32, outcome: u16) -> Vec<(u32, u16, &OutPort, Type)> {
         let Some((template, generic)) = self.template(number) else { return Vec::new() };
         let ports = &self.graph.template(template).outputs;
@@ -205,8 +206,8 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// An outcome to be put there, with zeros for all that it brings, and how a scenario writes it;
-    /// `None` when it brings an object.
+    /// An outcome to inject, with zeros for its values, and its text in a scenario; `None` if a
+    /// value is an object.
     pub(crate) fn injection(&self, number: u32, outcome: u16) -> Option<(Injection, String)> {
         let (mut outputs, mut texts) = (Vec::new(), Vec::new());
         for (_, place, port, ty) in self.brought(number, outcome) {
@@ -223,7 +224,7 @@ impl<'a> Parts<'a> {
         Some((Injection { component: number, outcome, outputs }, text))
     }
 
-    /// The `Error` of an element to be put there, and how a scenario writes it.
+    /// The `Error` of an element to inject, and its text in a scenario.
     pub(crate) fn failure(&self, number: u32) -> (Injection, String) {
         let text = format!("fire {}.Error", self.path(number));
         (Injection { component: number, outcome: Outcome::Special, outputs: Vec::new() }, text)
@@ -249,7 +250,7 @@ fn add(graph: &Graph, home: Part, parts: &mut Vec<Part>, homes: &mut Vec<Part>) 
     }
 }
 
-/// A value of a type, and how it is written; there is none of an object.
+/// A value of a type, and its text; `None` for an object.
 fn zero(ty: &Type) -> Option<(Constant, String)> {
     Some(match ty {
         Type::Bool => (Constant::Bool(false), "false".to_owned()),

@@ -1,4 +1,4 @@
-//! Where a scenario takes place.
+//! The world of a scenario.
 
 use std::path::{Path, PathBuf};
 
@@ -11,16 +11,15 @@ use afp_session::{AnyRobot, Pose2};
 /// The world of a scenario, with the robot at its start.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The world and its text.
     pub world: LoadedWorld,
 }
 
 impl Setting {
-    /// Finds the world of a scenario that stands in `file`: the one that it names, seen from the file's
-    /// folder or else from the folder of `afp.toml`; without a name that of its plan.
+    /// Finds the world of a scenario in `file`: its named world, relative to the file's folder or
+    /// to the folder of `afp.toml`, or by default the world of its plan.
     ///
     /// # Errors
-    /// There is no such world, it says something wrong, or the robot would stand in something.
+    /// The world is missing or invalid, or the robot would start in an obstacle.
     pub fn find(
         scenario: &Scenario,
         file: &Path,
@@ -41,7 +40,7 @@ impl Setting {
     }
 }
 
-/// The file of a world that is written in a scenario.
+/// Finds the file of a world named in a scenario.
 fn place(written: &str, file: &Path) -> Result<PathBuf, RunError> {
     if written.starts_with(world::RANDOM) {
         return Ok(PathBuf::from(written));

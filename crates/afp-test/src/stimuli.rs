@@ -1,4 +1,4 @@
-//! What a scenario does to the robot and the plan, as requests of a session.
+//! The actions of a scenario as requests to a session.
 
 use std::collections::BTreeMap;
 
@@ -8,11 +8,11 @@ use afp_core::{Duration, EntryId, Instant};
 use afp_dsl::scenario::{Action, Failure, MomentId, Outcome, Part, Scenario};
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
 
-/// Asks for all that happens in a scenario from one of its moments on, or from the start: `begin`; gives the line that each
-/// request stands for.
+/// Requests all actions after the moment `begin`, or after the start, and returns the line of each
+/// request.
 ///
 /// # Errors
-/// A line that can never be done, and why.
+/// A line with an impossible action, and the reason.
 pub(crate) fn request(
     session: &mut dyn AnySession,
     scenario: &Scenario,
@@ -30,7 +30,6 @@ pub(crate) fn request(
     Ok(lines)
 }
 
-/// What an action asks for.
 fn requested(session: &dyn AnySession, action: &Action) -> Result<Request, RequestError> {
     let control = |control: &Part| {
         let id = find_control(session.devices(), &control.to_string());

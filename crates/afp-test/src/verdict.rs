@@ -1,4 +1,4 @@
-//! What a scenario came to.
+//! The verdict of a scenario.
 
 use std::fmt::Write;
 
@@ -7,38 +7,37 @@ use afp_core::{Duration, Ending, Instant};
 use crate::watch::hits::Hits;
 use crate::watch::{Activation, Broken};
 
-/// How much of the timeline is told before and behind what broke.
+/// The lines of the timeline shown before and after a broken line.
 const BEFORE: usize = 8;
 const BEHIND: usize = 3;
 
-/// What a scenario came to.
 #[derive(Clone, Debug)]
 pub struct Verdict {
-    /// What was not as expected, in order of time; nothing when the scenario passed.
+    /// Unmet expectations by time; empty if the scenario passed.
     pub broken: Vec<Broken>,
-    /// When the run was over.
     pub end: Instant,
-    /// How the plan ended, if it did.
+    /// The ending of the plan, if it ended.
     pub ending: Option<Ending>,
-    /// What a component said whose panic ended the plan, and where.
+    /// The message and place of a component's panic that ended the plan.
     pub panic: Option<String>,
-    /// What the run made use of.
+    /// The use counts of the plan's parts.
     pub hits: Hits,
-    /// When each element was active, in the order in which they were left.
+    /// The activations of all elements, ordered by their ends.
     pub activations: Vec<Activation>,
-    /// The timeline, line by line; with colours.
+    /// The timeline with colours, line by line.
     pub timeline: Vec<(Instant, String)>,
-    /// The hash of the trace: the same for the same scenario, on every machine. That of its log has the stop at the end in it.
+    /// The hash of the trace, equal for equal scenarios on every machine. The hash of its log also
+    /// includes the stop at the end.
     pub trace: u64,
 }
 
 impl Verdict {
-    /// Whether everything was as expected.
+    /// Whether all expectations were met.
     pub fn passed(&self) -> bool {
         self.broken.is_empty()
     }
 
-    /// What broke, and the timeline around the first of it; nothing for a scenario that passed.
+    /// The broken lines and the timeline around the first of them; empty if the scenario passed.
     pub fn report(&self) -> String {
         let mut text = String::new();
         for broken in &self.broken {
@@ -67,13 +66,12 @@ impl Verdict {
         text
     }
 
-    /// The length of the run.
     pub fn length(&self) -> Duration {
         self.end.since(Instant::ZERO)
     }
 }
 
-/// Where something broke.
+/// The mark of a broken line in the timeline.
 fn mark(at: Instant) -> String {
     format!("{:>10.3}  ─── broken here", at.as_secs_f64())
 }

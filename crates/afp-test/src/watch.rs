@@ -1,4 +1,4 @@
-//! Follows the records of a run: which edges are taken, what is active, what entries hold, what was expected.
+//! Follows the records of a run: edges, activations, values of entries and expectations.
 
 mod broken;
 mod claims;
@@ -32,63 +32,60 @@ pub(crate) struct Watch<'a> {
     scenario: &'a Scenario,
     places: Vec<Place>,
     state: State,
-    /// An event that was taken, until it is known which element it ends.
+    /// A taken event whose element is not known yet.
     event: Option<Cause>,
-    /// The commit whose records are coming in: who writes, and which entries so far.
+    /// The current commit: its author, and its entries so far.
     commit: Option<(Author, Vec<TraceEntryId>)>,
-    /// Since when each active component is.
+    /// The start of each active component.
     since: Vec<Option<Instant>>,
     pub(crate) activations: Vec<Activation>,
-    /// What the edge out of the outermost plan belongs to.
+    /// The outcome whose edge left the outermost plan.
     last: Option<Cause>,
     expected: Vec<Expected<'a>>,
-    /// Whether a line expects that the plan ends in `Error`.
+    /// Whether a line expects an end in `Error`.
     expects_error: bool,
     pub(crate) moments: Moments<'a>,
     pub(crate) hits: Hits,
 }
 
-/// A stretch of time in which an element was active.
+/// A time span in which an element was active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Activation {
-    /// The element, by its number.
     pub element: u32,
-    /// When it started.
+    /// The start.
     pub from: Instant,
-    /// When it was left, or the run was over.
+    /// The end, or the end of the run.
     pub to: Instant,
 }
 
-/// A value as it is compared: one that a robot signals may have a text that no entry holds.
+/// A value for comparisons; a robot's signal can have strings that no entry has.
 type Held = ValueOf<String>;
 
-/// How things stand.
 pub(crate) struct State {
     /// Whether each component is active, by number.
     active: Vec<bool>,
-    /// What each entry holds, by number.
     entries: Vec<Value>,
-    /// The same with the names in it, for people.
+    /// The same values with names, for messages.
     named: Vec<Datum>,
     /// The SI unit of each entry.
     units: Vec<String>,
     pub(crate) ending: Option<Ending>,
-    /// What people are told of the last fault.
+    /// The message of the last fault.
     why: String,
     pub(crate) signals: Signals,
 }
 
-/// Something that happened at an instant.
+/// An event at an instant.
 pub(crate) enum Occurrence {
     /// An edge was taken.
     Edge { from: u32, to: Option<Goal>, by: Cause },
-    /// A state was reached or an event taken.
+    /// A reached state, or a taken event.
     Outcome(Cause),
     /// The plan ended.
     End(Ending, Option<Cause>),
     /// An element was interrupted.
     Interrupt(u32),
-    /// An entry was written, as the first one of its commit or behind others.
+    /// A written entry, as the first or a later one of its commit.
     Commit { entry: u32, author: Author, first: bool },
 }
 
@@ -121,12 +118,11 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// How the plan ended, once it has.
+    /// The ending of the plan, if it has ended.
     pub(crate) fn ending(&self) -> Option<Ending> {
         self.state.ending
     }
 
-    /// Takes a record into account.
     pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
         self.hits.on_record(at, record);
         if !matches!(record, Record::Committed { .. }) {
@@ -165,13 +161,13 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Whether the robot has to be looked at between steps.
+    /// Whether the robot must be checked between steps.
     pub(crate) fn looks_at_robot(&self) -> bool {
         !self.state.signals.is_empty()
     }
 
-    /// The first entry that holds something else than its commits say: its number, what it holds, and
-    /// what was committed. `held` are the entries of the outermost plan.
+    /// The first entry that differs from its commits: its number, its value, and the committed one.
+    /// `held` are the entries of the outermost plan.
     pub(crate) fn differs<'v>(
         &'v self,
         held: impl Iterator<Item = ValueRef<'v>>,
@@ -186,17 +182,16 @@ impl<'a> Watch<'a> {
         &self.state.signals
     }
 
-    /// A signal of the robot says something.
     pub(crate) fn on_signal(&mut self, signal: SignalId, value: SampleRef<'_>) {
         self.state.signals.set(signal, value);
     }
 
-    /// All signals of an instant have been heard.
+    /// Ends the signals of an instant.
     pub(crate) fn after_samples(&mut self) {
         self.state.signals.after_samples();
     }
 
-    /// The step at this instant is over: what holds now holds until the next one.
+    /// Ends the step of an instant: its state holds until the next step.
     pub(crate) fn after_step(&mut self, at: Instant) {
         self.moments.after_step(at.as_nanos(), &self.state);
         for each in &mut self.expected {
@@ -204,7 +199,6 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The run is over.
     pub(crate) fn finish(&mut self, end: Instant) -> Vec<Broken> {
         for id in 0..self.since.len() as u32 {
             self.set_active(end, ComponentId(id), false);
@@ -220,7 +214,7 @@ impl<'a> Watch<'a> {
         broken
     }
 
-    /// A plan that ends in `Error` although no expectation names that.
+    /// An end in `Error` without an expectation for it.
     fn unexpected_error(&self, end: u64) -> Option<Broken> {
         let Some(ending @ Ending::Error(_)) = self.state.ending else { return None };
         (!self.expects_error).then(|| Broken {
@@ -239,7 +233,7 @@ impl<'a> Watch<'a> {
         if let Some(value) = self.state.entries.get_mut(entry as usize) {
             *value = new.to_value().unwrap_or_default();
         }
-        // A commit writes an entry once.
+        // A commit writes each entry at most once.
         let first = match &mut self.commit {
             Some((known, entries)) if *known == author && !entries.contains(&id) => {
                 entries.push(id);
@@ -269,7 +263,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// An event ends an element of its own plan; those inside of it end along with it.
+    /// An event ends an element of its own plan and everything inside it.
     fn ended_by_event(&mut self, at: Instant, element: ComponentId) {
         let Some(event) = self.event else { return };
         let home = |id: u32| self.places.get(id as usize).map(|place| place.plan);
@@ -279,7 +273,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// An element goes on: the edge that the event took leaves nothing.
+    /// An element continues: the event's edge does not leave it.
     fn resumed(&mut self, at: Instant, element: ComponentId) {
         if let Some(by) = self.event.take() {
             let to = self.goal(by, element);
@@ -287,7 +281,6 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// An element is left.
     fn leave(&mut self, at: Instant, element: ComponentId, by: Cause) {
         let to = self.goal(by, element);
         let outermost = self.place(element).is_some_and(|place| place.plan == 0);
@@ -300,7 +293,7 @@ impl<'a> Watch<'a> {
         self.on_occurrence(at, &Occurrence::Edge { from: element.0, to, by });
     }
 
-    /// Where an outcome leads while an element is active.
+    /// The target of an outcome during an element.
     fn goal(&self, by: Cause, element: ComponentId) -> Option<Goal> {
         let place = self.places.get(by.component as usize)?;
         let here = |event| self.place(element)?.reaction(by.component, event);
@@ -313,7 +306,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// A component failed: the element that it is, or that it watches over, takes its `Error` edge.
+    /// A component fails: its element, or the element that it watches, takes its `Error` edge.
     fn failed(&mut self, at: Instant, component: ComponentId) {
         let Some(place) = self.place(component) else { return };
         let element = place.owner.unwrap_or(component.0);
@@ -350,8 +343,8 @@ impl<'a> Watch<'a> {
 }
 
 impl State {
-    /// What an entry holds or a signal says; nothing inside for an unset entry, an object, or a signal that measured
-    /// nothing or fell silent; none at all for a signal that said nothing yet.
+    /// The value of an entry or signal. The inner `None` means unset, an object, or a signal
+    /// without a measurement; the outer one means that the signal has not sent anything yet.
     fn held(&self, subject: &Subject) -> Option<Option<Held>> {
         match subject {
             Subject::Entry(entry) => Some(self.entries.get(*entry as usize).and_then(held)),
@@ -359,7 +352,7 @@ impl State {
         }
     }
 
-    /// The same for what something is compared with.
+    /// The value of the other side of a comparison, likewise.
     fn operand(&self, operand: &Operand) -> Option<Option<Held>> {
         match operand {
             Operand::Value(value) => Some(held(value)),
@@ -367,7 +360,7 @@ impl State {
         }
     }
 
-    /// The same for people, so that it does not read like another value; none where there is nothing to tell.
+    /// The value for a message, distinguishable from another value; `None` if there is none.
     fn shown(&self, subject: &Subject, other: Option<&Held>) -> Option<String> {
         match subject {
             Subject::Signal(signal, field) => self.signals.shown(signal, *field, other),
@@ -383,7 +376,7 @@ impl State {
     }
 }
 
-/// A number as people write it; to its last digit if it would read like the other value.
+/// A readable number, with all digits if it would otherwise look like the other value.
 fn apart(number: f64, unit: &str, other: Option<&Held>) -> String {
     let misleads = |other: f64| Measured::misleads(number, other, unit);
     let is_misleading = match other {
@@ -397,13 +390,12 @@ fn apart(number: f64, unit: &str, other: Option<&Held>) -> String {
     }
 }
 
-/// A value as it is compared; `None` for an unset entry or an object.
+/// A value for comparisons; `None` if it is unset or an object.
 fn held(value: &Value) -> Option<Held> {
     let is_compared = !matches!(value, Value::Unset | Value::Object(_));
     is_compared.then(|| value.as_deref().map(str::to_owned, |choice| choice, |object| object))
 }
 
-/// An outcome of the trace.
 fn cause(component: ComponentId, outcome: trace::Outcome) -> Cause {
     let outcome = match outcome {
         trace::Outcome::DeadlineMissed | trace::Outcome::Error => Outcome::Special,
@@ -412,13 +404,13 @@ fn cause(component: ComponentId, outcome: trace::Outcome) -> Cause {
     Cause { component: component.0, outcome: Some(outcome) }
 }
 
-/// Whether what happened is what a scenario names.
+/// Whether an outcome matches a scenario's.
 fn fits(wanted: &Cause, by: Cause) -> bool {
     wanted.component == by.component
         && wanted.outcome.is_none_or(|outcome| Some(outcome) == by.outcome)
 }
 
-/// Whether a line expects that the plan ends in `Error`, or by that of an element.
+/// Whether a line expects an end in `Error`, or by an element's `Error`.
 fn expects_error(line: &Expectation, names: &dyn Names) -> bool {
     let is_named = match line.claim {
         Claim::End(Some(EndCause::Error)) => true,
@@ -431,7 +423,7 @@ fn expects_error(line: &Expectation, names: &dyn Names) -> bool {
     is_named && line.wanted != Wanted::Never
 }
 
-/// Whether the plan ended as a scenario says.
+/// Whether the plan's ending matches a scenario's.
 fn ends(wanted: Option<EndCause>, ending: Ending, last: Option<Cause>) -> bool {
     match wanted {
         None => true,

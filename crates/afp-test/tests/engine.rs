@@ -1,4 +1,4 @@
-//! What scenarios come to: each kind of claim kept and broken, stimuli, faults, the same run twice.
+//! Verdicts of scenarios: each kind of claim kept and broken, stimuli, faults, repeated runs.
 
 #[path = "engine/edges.rs"]
 mod edges;
@@ -66,7 +66,7 @@ fn run(lines: &str) -> Verdict {
     run_of(PLAN, lines)
 }
 
-/// The verdict about a plan `Ahead`.
+/// The verdict on a plan `Ahead`.
 fn run_of(plan: &str, lines: &str) -> Verdict {
     let compiled = compiled(plan, lines);
     let [scenario] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
@@ -80,7 +80,7 @@ fn passes(lines: &str) {
     assert!(verdict.passed(), "{}", verdict.report());
 }
 
-/// One expectation breaks, for that reason and at that time.
+/// Expects one broken line with that reason and time.
 #[track_caller]
 fn breaks(lines: &str, why: &str, at: f64) {
     let verdict = run(lines);
@@ -89,13 +89,13 @@ fn breaks(lines: &str, why: &str, at: f64) {
     assert!((broken.at.as_secs_f64() - at).abs() < 1e-6, "{broken:?}");
 }
 
-/// East of the robot there is nothing for two metres.
+/// The robot has two metres of free space to the east.
 const FREE: &str = "robot at (3.5 m, 2.4 m) heading 0 deg\n";
 
 #[test]
-fn what_the_run_did_not_come_to_is_no_success() {
+fn an_unreached_expectation_fails() {
     let short = format!("{FREE} at 1 s: press escape\n expect end\n until 40 s\n");
-    // The robot rests for a second when its plan has ended.
+    // The robot rests for a second after the end of its plan.
     breaks(&format!("{short} at 30 s: press touch"), "not done: the run was over at 2.000 s", 2.0);
     breaks(&format!("{short} at 30 s: fail wheels.slip"), "not done: the run was over", 2.0);
     for claim in [
@@ -116,7 +116,7 @@ fn what_the_run_did_not_come_to_is_no_success() {
         ["go -> back", "go.ForwardSuccessful", "interrupt of go", "commit by go", "end by OK"]
     {
         for line in ["never C", "expect C", "expect C once", "expect C 2 times"] {
-            // A claim that came earlier says when.
+            // An earlier claim gives the time.
             if !(claim == "interrupt of go" && line == "expect C") {
                 let line = line.replace('C', claim);
                 breaks(&format!("{short} {line} after 15 s"), "that time never came", 2.0);
@@ -174,7 +174,7 @@ fn each_kind_of_claim_is_kept() {
 }
 
 #[test]
-fn a_signal_that_falls_silent_has_no_value_any_more() {
+fn a_silent_signal_has_no_value() {
     const PLAN: &str = r#"
 use carbot
 use std
@@ -218,7 +218,7 @@ fn each_kind_of_claim_breaks() {
 }
 
 #[test]
-fn what_is_otherwise_is_told_as_the_timeline_tells_it() {
+fn messages_show_values_like_the_timeline() {
     let plan = r#"
         use carbot
         enum Lamp { red, green }
@@ -293,7 +293,7 @@ fn outcomes_are_injected_at_the_next_poll_and_traced() {
     assert_eq!(traced, 2);
 }
 
-/// A plan that goes on where something fails or is late.
+/// A plan that continues after faults and missed deadlines.
 const CAREFUL: &str = r#"
 use carbot
 
@@ -362,7 +362,7 @@ fn one_scenario_runs_over_seeds_and_worlds() {
 }
 
 #[test]
-fn what_a_plan_cannot_meet_any_more_fails_alone() {
+fn a_stale_request_fails_only_its_line() {
     let gone = "expect go -> back by escape\n}\nscenario \"other\" for Ahead {\n expect end";
     let compiled = compiled(PLAN, gone);
     assert!(compiled.graph.is_none(), "the file has an error");
@@ -382,7 +382,7 @@ fn what_a_plan_cannot_meet_any_more_fails_alone() {
 }
 
 #[test]
-fn what_is_not_active_cannot_be_made_to_report() {
+fn an_inactive_component_cannot_report() {
     let idle = "expect go active\n until 2 s";
     breaks(&format!("at 1 s: finish back.ForwardSuccessful\n {idle}"), "'back' is not", 1.0);
     let nested = "at 1 s: fire nested.turn.touch.TouchSensorPressed\n";
@@ -417,7 +417,7 @@ fn idle_actors_are_active_and_do_nothing() {
 }
 
 #[test]
-fn an_error_that_nobody_expects_breaks_a_scenario() {
+fn an_unexpected_error_breaks_a_scenario() {
     let dead = "at 1 s: fail odometry.lost\n";
     let verdict = run(&format!("{FREE} {dead} expect go active"));
     let [broken] = verdict.broken.as_slice() else { panic!("{:?}", verdict.broken) };

@@ -1,5 +1,5 @@
-//! Every event at five points of each element's run, for the plans that are shipped; and that what these
-//! scenarios expect is not always so.
+//! Every event at five points of each element's run, for the shipped plans; and broken behaviour
+//! that these scenarios detect.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -44,14 +44,14 @@ fn compiled(name: &str, text: &str) -> Compiled {
     compiled
 }
 
-/// A plan with the scenarios that are made for it.
+/// A plan with its generated scenarios.
 struct Made {
     setting: Setting,
     generated: Generated,
     scenarios: Vec<Scenario>,
 }
 
-/// Plans that take longer than a run without a time of its own, and for how many seconds; they are for the night.
+/// Plans that need more than a default run, with their durations in seconds; they run at night.
 const LONG: &[(&str, u64)] = &[("patrol.afp", 180)];
 
 fn seconds(file: &Path) -> Option<u64> {
@@ -63,7 +63,7 @@ impl Made {
         Made::of(file, &fs::read_to_string(file).unwrap(), robot)
     }
 
-    /// For the text of a plan in the place of a file.
+    /// Generates for a changed text of a plan file.
     fn of(file: &Path, text: &str, robot: &dyn Loader) -> Made {
         let name = file.display().to_string();
         let graph = Arc::new(compiled(&name, text).graph.unwrap());
@@ -76,12 +76,11 @@ impl Made {
         Made { setting, generated, scenarios }
     }
 
-    /// The text of the scenarios.
     fn text(&self) -> String {
         self.generated.text("same file")
     }
 
-    /// With those that stay once all have run.
+    /// Keeps the scenarios that pass.
     fn proven(mut self, plan: &str, robot: &dyn Loader) -> Made {
         let read = |made: &Generated| Ok::<_, ()>(scenarios("plan.afp", plan, made));
         let run_all = |all: &[Scenario]| Ok(all.iter().map(|it| self.run(it, robot)).collect());
@@ -92,7 +91,7 @@ impl Made {
         self
     }
 
-    /// With those scenarios alone in which an event comes halfway through an element's run.
+    /// Keeps only the scenarios with an event halfway through an element's run.
     fn halfway(mut self) -> Made {
         self.scenarios.retain(|scenario| scenario.name.ends_with(" 50 %"));
         assert_ne!(self.scenarios.len(), 0);
@@ -118,9 +117,9 @@ impl Made {
     }
 }
 
-/// The scenarios that were made, for a plan that may be another one.
+/// The generated scenarios, for a possibly changed plan.
 fn scenarios(name: &str, plan: &str, generated: &Generated) -> Vec<Scenario> {
-    // They stand below the plan itself, so nothing is used.
+    // They are in the plan's own file, so it is not imported.
     let text = generated.text("same file");
     let (_, scenarios) = text.split_once('\n').unwrap();
     let all = compiled(name, &format!("{plan}\n{scenarios}"));
@@ -129,7 +128,7 @@ fn scenarios(name: &str, plan: &str, generated: &Generated) -> Vec<Scenario> {
 }
 
 #[test]
-fn another_distance_breaks_what_it_concerns_alone() {
+fn a_changed_distance_breaks_only_its_scenarios() {
     let plan = |first: u32| {
         format!(
             "use carbot\nplan Bend {{
@@ -150,10 +149,10 @@ fn another_distance_breaks_what_it_concerns_alone() {
     assert_eq!(names, ["go: escape.EscapeButtonPressed at 90 %"]);
 }
 
-/// Plans that go on to something else soon after an event, or at the very instant: what stays out, and whether some
-/// scenarios expect an end in `Error` of which the event knows nothing.
+/// Plans that continue soon after an event or at its instant: the omitted scenarios, and whether
+/// some expect a later end in `Error`.
 #[test]
-fn what_is_generated_passes_whatever_the_plan_does_behind_the_event() {
+fn generated_scenarios_pass_for_any_plan_after_the_event() {
     let global = |line: &str| format!("supervise own: CheckEscapeButton {{ {line} }}");
     let fails = "actor rest: Signal(times = 3) { Signalled -> fail \"battery\" }";
     let go = "actor go: Forward(distance = 50 cm) { ForwardSuccessful -> terminate }";
@@ -207,7 +206,7 @@ fn what_is_generated_passes_whatever_the_plan_does_behind_the_event() {
 }
 
 #[test]
-fn what_cannot_be_interrupted_has_no_scenarios_and_that_is_said() {
+fn scenarios_without_an_interruption_are_listed() {
     let plan = "use carbot plan Square { start go
         actor go: Forward(distance = 50 cm) { ForwardSuccessful -> terminate } }";
     let made = Made::of(Path::new("square.afp"), plan, &robot());
@@ -237,8 +236,9 @@ fn errors_and_supervisors_of_sub_plans_lead_on_too() {
     assert!(made.text().contains("go.back"), "{}", made.text());
 }
 
-/// What a second event leads to alone: `MakeRoom` and `Pass` do one thing and the other in turn. And what nothing leads to:
-/// `GoElsewhere` does not go on to a place before which something held it. The scenarios of these parts see to all of it.
+/// Elements that need a second event, since `MakeRoom` and `Pass` alternate between two behaviours,
+/// or that no run reaches, since `GoElsewhere` avoids a place where something stopped it.
+/// Handwritten scenarios of these parts cover all of them.
 const OUT_OF_REACH: [&str; 3] = ["'shift.aside", "'pass.avoid", "'elsewhere.go.free"];
 
 #[test]
@@ -253,7 +253,7 @@ fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
                 let made = testable(file);
                 match by_night || file.ends_with("wall_following.afp") {
                     true => made.all_pass(&robot()),
-                    // The others take minutes; 'cargo xtask nightly' has time for all.
+                    // The others take minutes; 'cargo xtask nightly' runs all.
                     false => made.halfway().all_pass(&robot()),
                 }
             });
@@ -261,7 +261,7 @@ fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
     });
 }
 
-/// What is made for a plan all of whose actors can be tested.
+/// Generates for a plan with only testable actors.
 fn testable(file: &Path) -> Made {
     let made = Made::new(file, &robot());
     let name = file.display();
@@ -283,7 +283,7 @@ fn every_event_in_the_sub_plans_of_the_example_does_too() {
     made.all_pass(&robot);
 }
 
-/// Interrupts `Forward` as `A` has it; what breaks.
+/// Interrupts `Forward` in the implementation `A` and returns the broken lines.
 fn interrupted<A: Actor<templates::Forward, Simulation> + Clone + Send + 'static>() -> Vec<String> {
     let sound = Made::new(&root().join("plans/wall_following.afp"), &robot());
     let mutant = afp_sim::carbot(|registry: &mut Registry<Simulation>| {
@@ -297,7 +297,7 @@ fn interrupted<A: Actor<templates::Forward, Simulation> + Clone + Send + 'static
 }
 
 #[test]
-fn an_actor_that_goes_on_when_it_is_interrupted_is_found() {
+fn an_actor_that_ignores_its_interruption_is_found() {
     let halted = |broken: &&String| broken.starts_with("expect halted always");
     assert_eq!(interrupted::<Mutant<false>>().iter().filter(halted).count(), 5);
     let slowly = interrupted::<Mutant<true>>();
@@ -305,7 +305,6 @@ fn an_actor_that_goes_on_when_it_is_interrupted_is_found() {
     assert_eq!(interrupted::<Forward>(), [""; 0]);
 }
 
-/// Announces nothing.
 #[derive(Clone)]
 struct Announce;
 
@@ -328,7 +327,7 @@ impl Actor<shop::Announce, Simulation> for Announce {
     }
 }
 
-/// `Forward` that goes on when it is interrupted: as it was told last, or slowly.
+/// A `Forward` that continues after its interruption, with its last command or slowly.
 #[derive(Clone)]
 struct Mutant<const SLOWLY: bool>(Forward);
 

@@ -1,5 +1,5 @@
-//! The scenarios of the plans that are shipped notice nearly every mutant of them: of every second one by day, of all of them
-//! where `AFP_BY_NIGHT` is set.
+//! The scenarios of the shipped plans notice nearly every mutant: every second one by day, all with
+//! `AFP_BY_NIGHT`.
 
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -9,9 +9,9 @@ use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 use afp_test::mutate::{Bench, Judged, MutantStatus, Suite, Tally, mutants};
 
-/// The share of mutants that change a run that shall be noticed.
+/// The required share of noticed mutants among those that change a run.
 const SHARE: f64 = 0.95;
-/// Of half of them, where one that is missed counts twice.
+/// The share for half of them, in which a missed one counts twice.
 const SHARE_OF_HALF: f64 = 0.9;
 
 fn by_night() -> bool {
@@ -22,11 +22,11 @@ fn read(path: &str) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| error.to_string())
 }
 
-/// Of the file of a plan, by the scenarios of those files.
+/// Judges the mutants of a plan file by the scenarios of these files.
 fn judged(plan: &str, tests: &[&str]) -> Vec<Judged> {
     let robot = afp_sim::carbot(|_| {});
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
-    // Tests run in their crate's folder.
+    // The working directory of tests is the crate's folder.
     let path = format!("../../plans/{plan}.afp");
     let suites = tests.iter().map(|name| {
         let tests = format!("../../plans/tests/{name}.afp");

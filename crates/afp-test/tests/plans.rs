@@ -1,6 +1,6 @@
-//! The scenarios of the plans that are shipped, and of templates that these do not use.
+//! The scenarios of the shipped plans, and of the templates that these do not use.
 
 afp::scenarios!("../../plans/tests");
 
-// Those of the camera's templates, with patterned halls of their own.
+// The camera's templates, in patterned halls.
 afp::scenarios!("tests/motion/scenarios.afp");

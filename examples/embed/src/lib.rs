@@ -1,7 +1,7 @@
-//! A foreign Rust program that embeds plans.
+//! A Rust program that embeds plans.
 //!
-//! It owns the platform ([`shop::Shop`]) and the time. It sets entries before a plan starts and
-//! while it runs, reads them, subscribes to what happens, and is called back from a template.
+//! It owns the platform ([`shop::Shop`]) and the time. It sets entries before and during a run,
+//! reads them, subscribes to events, and is called from a template.
 
 mod shop;
 
@@ -17,12 +17,12 @@ afp::plan!("plans/errands.afp");
 
 use errands::errand::Errand;
 
-/// An error of any part, for people.
+/// Any error, for display.
 pub type Error = Box<dyn std::error::Error>;
 
-/// What following the wall told.
+/// The results of wall following.
 pub struct Followed {
-    /// The last angle to a wall that the plan found.
+    /// The last wall angle that the plan found.
     pub wall_angle: Option<Angle>,
     /// Activations of actors, as `time path`.
     pub activations: Vec<String>,
@@ -31,16 +31,16 @@ pub struct Followed {
 /// Puts the robot into a room.
 ///
 /// # Errors
-/// A room that cannot be.
+/// The room is invalid.
 pub fn open(room: &str, seed: u64) -> Result<Shop, Error> {
     let robot = Simulation::new(&World::parse(room)?, seed)?;
     Ok(Shop { robot, announced: Vec::new() })
 }
 
-/// Follows the wall at a distance for some time, then farther away for as long again.
+/// Follows the wall at a distance for some time, and then at a larger one for the same time.
 ///
 /// # Errors
-/// A distance that is no number.
+/// The distance is not a number.
 pub fn follow(
     shop: &mut Shop,
     walldist: Length,
@@ -61,7 +61,7 @@ pub fn follow(
     plan.set(WallFollowing::WALLDIST, walldist)?;
     let middle = shop.now() + half;
     plan.run_until(shop, &mut subscriber, middle)?;
-    // A running plan is written to in the same way; the next step commits it.
+    // A running plan accepts writes, too; the next step commits them.
     plan.set(WallFollowing::WALLDIST, farther)?;
     plan.run_until(shop, &mut subscriber, middle + half)?;
     let wall_angle = plan.plan().wallangle();
@@ -73,24 +73,24 @@ pub fn follow(
 /// Fetches things: a plan with a sub-plan, whose last actor calls the shop.
 ///
 /// # Errors
-/// A number that does not fit.
+/// The number does not fit.
 pub fn fetch(shop: &mut Shop, things: i64) -> Result<Wake, Error> {
     let mut plan = Scheduler::new(Errands::new());
     plan.set(Errands::THINGS, things)?;
     drive(shop, plan)
 }
 
-/// One errand alone: the sub-plan started by itself.
+/// Runs one errand: the sub-plan without its outer plan.
 ///
 /// # Errors
-/// A way that is no number.
+/// The distance is not a number.
 pub fn errand(shop: &mut Shop, way: Length) -> Result<Wake, Error> {
     let mut plan = Scheduler::new(Errand::new());
     plan.set(Errand::WAY, way)?;
     drive(shop, plan)
 }
 
-/// Drives a plan to its end, at most two minutes from now on.
+/// Drives a plan to its end, for at most two minutes.
 fn drive<P: afp::Plan<Shop>>(shop: &mut Shop, mut plan: Scheduler<P>) -> Result<Wake, Error> {
     let until = shop.now() + Duration::from_secs(120);
     Ok(plan.run_until(shop, &mut NoTrace, until)?)

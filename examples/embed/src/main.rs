@@ -1,4 +1,4 @@
-//! Follows a wall, then runs some errands, and tells what the plans told.
+//! Follows a wall, then runs some errands, and prints the results.
 
 use afp::quantity::Length;
 use embed::{Error, errand, fetch, follow, open};

@@ -1,4 +1,4 @@
-//! The foreign program's side: a shop with a robot in it. A template calls it back.
+//! The program's side: a shop with a robot. A template calls it.
 
 use afp::quantity::{Angle, AngularSpeed, Speed};
 use afp::{Actor, Environment, Fault, Instant, Platform, Poll};
@@ -14,17 +14,17 @@ pub mod templates {
     afp::toolbox!("shop.afp", robot: super::Loudspeaker);
 }
 
-/// The platform: the robot, and the shop that it is in.
+/// The platform: the robot and its shop.
 pub struct Shop {
     /// The robot.
     pub robot: Simulation,
-    /// What was announced.
+    /// The announcements.
     pub announced: Vec<String>,
 }
 
-/// What the shop offers to templates beside the robot.
+/// The shop's offer to templates, in addition to the robot.
 pub trait Loudspeaker {
-    /// Tells everybody.
+    /// Announces a text.
     fn announce(&mut self, text: &str);
 }
 
@@ -34,7 +34,7 @@ impl Loudspeaker for Shop {
     }
 }
 
-/// Calls the foreign program.
+/// Calls the program.
 #[derive(Clone, Debug)]
 pub struct Announce;
 
@@ -92,7 +92,7 @@ impl Platform for Shop {
     }
 }
 
-// What the traits have defaults for is passed on, too: templates ask the robot for it.
+// Methods with defaults must be forwarded, too, since templates call them on the robot.
 impl Navigator for Shop {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant) {
         self.robot.drive(speed, turn, now);

@@ -1,4 +1,4 @@
-//! The embedding program, as its users would check it.
+//! Tests of the embedding program, from its users' point of view.
 
 use afp::quantity::{AngularSpeed, Length, Speed};
 use afp::trace::{Line, Observe, Record};
@@ -37,7 +37,7 @@ fn a_sub_plan_runs_by_itself_and_the_bumper_interrupts_it() {
     assert_eq!(far, Wake::Ended(Ending::Interrupted));
 }
 
-/// What the plan of the paper does on a platform in half a minute.
+/// The trace of the paper's plan on a platform in half a minute.
 fn trace<E: Platform>(on: &mut E) -> Vec<String>
 where
     WallFollowing: Plan<E>,

@@ -1,5 +1,6 @@
-//! A robot that plays every part: its actors last until a scenario finishes them, its supervisors report what a
-//! scenario fires. So a plan can be tried before anybody has written a component for it.
+//! A robot for plans without implementations: its actors last until a scenario finishes them, and
+//! its supervisors report events that a scenario fires. This tests a plan before its components
+//! exist.
 
 mod robot;
 
@@ -9,7 +10,7 @@ use afp_dsl::toolbox::{TemplateKind, Toolbox};
 use robot::Part;
 pub use robot::{Nothing, StandIn};
 
-/// Gives every actor and supervisor of a toolbox a part that does nothing by itself. What is computed nobody can play.
+/// Registers a stand-in for every actor and supervisor of a toolbox. Computations have none.
 pub fn register(toolbox: &Toolbox, registry: &mut Registry<StandIn>) {
     for template in &toolbox.templates {
         let (home, name) = (&toolbox.name, &template.name);

@@ -8,13 +8,13 @@ use afp::load::{ActorSlot, Args, BadValue, Outputs, See, SupervisorSlot};
 use afp::{Environment, Events, Fault, Instant, StillClock};
 use afp_session::{NoWorld, Robot, Samples, Simulated};
 
-/// The robot that plays every part.
+/// The robot of all stand-ins.
 #[derive(Clone, Debug, Default)]
 pub struct StandIn {
     now: Instant,
 }
 
-/// No devices at all.
+/// No devices.
 pub struct Nothing;
 
 impl Devices for Nothing {
@@ -68,7 +68,7 @@ impl Simulated for StandIn {
     }
 }
 
-/// A part that does nothing by itself.
+/// A stand-in for a component.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part;
 

@@ -1,4 +1,4 @@
-//! Every program is sound, stays as short as its page says, and does what its scenarios say.
+//! Every program is valid, has the length in its page, and passes its scenarios.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use afp_syntax::source::Source;
 use afp_test::{Setting, run};
 use peers::StandIn;
 
-/// The files of a folder of this example, by name.
+/// The files of a folder in this example, by name.
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let entries = std::fs::read_dir(&folder).unwrap();
@@ -26,7 +26,7 @@ fn source(path: &Path) -> Source {
     Source::new(path.display().to_string(), std::fs::read_to_string(path).unwrap())
 }
 
-/// The built-in toolboxes and those of the example, and which those are.
+/// All toolboxes, and those of the example.
 fn toolboxes() -> (Toolboxes, Vec<Arc<Toolbox>>) {
     let mut all: Toolboxes = afp_toolboxes::sources().collect();
     let paths = files("toolboxes");
@@ -46,7 +46,7 @@ fn compile(path: &Path, toolboxes: &Toolboxes) -> Compiled {
 }
 
 #[test]
-fn every_program_compiles_without_a_word() {
+fn every_program_compiles_without_diagnostics() {
     let (toolboxes, _) = toolboxes();
     let programs = files("plans");
     assert!(programs.len() >= 12, "{} programs", programs.len());

@@ -1,5 +1,5 @@
 //! A robot of a few lines: it rolls without inertia through an empty rectangular room, measures
-//! all but exactly and never slips. It has the devices of the Carbot, so it runs the Carbot's plans
+//! almost exactly and never slips. It has the devices of the Carbot, so it runs the Carbot's plans
 //! unchanged.
 
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
@@ -9,18 +9,19 @@ use afp_carbot::devices::{
     Rotator, TouchSensor, Ultrasonic,
 };
 
-/// Half the robot's length and width, metres.
+/// Half the robot's length and width, in metres.
 const HALF: (f64, f64) = (0.2, 0.175);
-/// The room reaches from the origin to here, metres.
+/// The corner of the room opposite the origin, in metres.
 pub const ROOM: (f64, f64) = (4.0, 3.0);
-/// A command is good for this long.
+/// The validity of a command.
 const DEAD_MAN: Duration = Duration::from_millis(200);
-/// Its ranges are off by as much at most, metres: one that repeats exactly is that of a frozen sensor.
+/// The largest error of its ranges, in metres; an exactly repeated value would look like a frozen
+/// sensor.
 const RIPPLE: f64 = 0.0001;
-/// Motion is computed in steps of at most this.
+/// The largest step of a motion.
 const TICK: Duration = Duration::from_millis(5);
 
-/// The toy.
+/// The robot.
 #[derive(Clone, Debug)]
 pub struct Toy {
     now: Instant,
@@ -32,12 +33,12 @@ pub struct Toy {
     commanded: Instant,
     bearing: f64,
     touched: bool,
-    /// Whether somebody holds the escape button down.
+    /// Whether the escape button is held.
     pub escape: bool,
 }
 
 impl Toy {
-    /// The toy in the middle of the room, heading along x.
+    /// A robot in the middle of the room, heading along x.
     pub fn new() -> Self {
         Toy {
             now: Instant::ZERO,
@@ -51,7 +52,7 @@ impl Toy {
         }
     }
 
-    /// Distance from the right side to the wall beside it, metres.
+    /// Distance from the right side to the wall next to it, in metres.
     pub fn right_gap(&self) -> f64 {
         self.range(-90f64.to_radians(), 0.0) - HALF.1
     }
@@ -150,7 +151,7 @@ impl Ultrasonic for Toy {
     fn echo(&self) -> Reading<Echo> {
         let beam = self.beam();
         let bearing = Angle::from_si(self.bearing);
-        // The same at the same time, and another one soon.
+        // Equal at equal times, and soon different.
         let ripple = RIPPLE * (1000.0 * self.now.as_secs_f64()).sin();
         let range = self.range(self.bearing, beam.forward.si()) + ripple;
         let echo = beam.echo(range, bearing).unwrap_or(Echo { distance: None, bearing });

@@ -1,4 +1,4 @@
-//! Lets the toy follow the walls of its room for two minutes and prints what it does.
+//! Follows the walls of the room for two minutes and prints each event.
 
 use afp::trace::{Names, Observe, Record};
 use afp::{Instant, NamedPlan, Scheduler};

@@ -53,7 +53,7 @@ fn the_escape_button_ends_the_plan_and_stops_the_toy() {
 }
 
 #[test]
-fn a_wall_that_stays_as_far_away_is_no_frozen_sensor() {
+fn a_constant_distance_is_not_a_frozen_sensor() {
     let (mut toy, mut plan) = (Toy::new(), Scheduler::new(BesideAWall::new()));
     let wake = plan.run_until(&mut toy, &mut NoTrace, seconds(20.0));
     assert!(matches!(wake, Ok(Wake::Ended(Ending::Ok))), "{wake:?}");

@@ -1,4 +1,4 @@
-//! What the robot does.
+//! The robot's actors.
 
 use std::f64::consts::TAU;
 
@@ -9,15 +9,15 @@ use crate::supervisors::current;
 use crate::templates::{self, roll, spin, spiral, suction};
 use crate::{Nozzle, Way, Wheels};
 
-/// The wheels count nothing although they are asked to turn.
+/// The wheels do not turn although they are commanded to.
 const BLOCKED: Fault =
     Fault::new(&Reason { code: "wheels-blocked", text: "the wheels have not turned for 2 s" });
-/// For so long.
+/// The time after which this is a fault.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// They have turned when the way has changed by so much, metres or radians.
+/// The smallest motion that counts as turning, in metres or radians.
 const PROGRESS: f64 = 0.01;
 
-/// Watches how far the wheels have turned since an actor began.
+/// Measures how far the wheels have turned since an actor began.
 #[derive(Clone, Debug)]
 struct Counted {
     from: Way,
@@ -30,7 +30,8 @@ impl Counted {
         Ok(Counted { from: current(env.way(), now)?, last: 0.0, since: now })
     }
 
-    /// The way and the angle so far; a fault when `which` of them has not changed for too long.
+    /// Returns the distance and the angle so far; a fault if `which` of them has not changed for
+    /// too long.
     fn so_far(
         &mut self,
         env: &(impl Wheels + ?Sized),
@@ -70,7 +71,7 @@ impl<E: Wheels + ?Sized> Actor<templates::Roll, E> for Roll {
             env.halt();
             return Ok(Poll::Ready(roll::State::Arrived));
         }
-        // Slower near the end: the motors need a moment.
+        // Slower near the end, because the motors have a lag.
         let speed = self.inputs.speed.si().min(0.02 + 3.0 * rest).copysign(distance);
         env.drive(Speed::from_si(speed), AngularSpeed::from_si(0.0));
         Ok(Poll::Pending)
@@ -118,7 +119,7 @@ impl<E: Wheels + ?Sized> Actor<templates::Spin, E> for Spin {
     }
 }
 
-/// The radius at which a spiral begins, and what it grows by with each turn, metres.
+/// The first radius of a spiral and its growth per turn, in metres.
 const BEGIN: f64 = 0.1;
 const GROWTH: f64 = 0.12;
 

@@ -1,10 +1,10 @@
-//! A robot vacuum cleaner: what its devices offer, the templates of its toolbox, and the robot simulated.
+//! A robot vacuum cleaner: its devices as traits, the templates of its toolbox, and its simulation.
 //!
-//! `vacuum.afp` declares the devices and the templates. Templates know the robot through the traits here alone, so that
-//! the real robot is another implementation of the same traits.
+//! `vacuum.afp` declares the devices and the templates. Templates use only the traits here, so the
+//! real robot is another implementation of the same traits.
 
 pub mod templates {
-    //! What `vacuum.afp` declares, as Rust.
+    //! The declarations of `vacuum.afp` as Rust.
     afp::toolbox!("vacuum.afp", robot: super::Wheels + super::Senses + super::Nozzle);
 }
 
@@ -24,33 +24,33 @@ use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 /// How far the wheels have turned since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Way {
-    /// The way ahead; less when it went backwards.
+    /// The distance ahead; driving backwards decreases it.
     pub ahead: Length,
-    /// The angle turned, counter-clockwise; counts on past a full turn.
+    /// The angle turned, counter-clockwise, without wrapping.
     pub turned: Angle,
 }
 
 /// The driven wheels.
 pub trait Wheels {
-    /// Asks for a speed ahead and a turn rate, until further notice.
+    /// Sets a speed ahead and a turn rate, until the next call.
     fn drive(&mut self, speed: Speed, turn: AngularSpeed);
 
-    /// What the counters say.
+    /// The counters' values.
     fn way(&self) -> Reading<Way>;
 
-    /// Asks for a standstill.
+    /// Stops the wheels.
     fn halt(&mut self) {
         self.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0));
     }
 }
 
-/// What the robot senses.
+/// The robot's sensors.
 pub trait Senses {
     /// Whether the left and the right switch of the bumper are pressed.
     fn bumper(&self) -> Reading<[bool; 2]>;
     /// Whether there is no floor below the front edge.
     fn drop(&self) -> Reading<bool>;
-    /// How much dirt the nozzle takes in, 0 to 1.
+    /// The amount of dirt in the nozzle, 0 to 1.
     fn dirt(&self) -> Reading<f64>;
     /// Whether the button is down.
     fn button(&self) -> Reading<bool>;

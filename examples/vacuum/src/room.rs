@@ -1,4 +1,4 @@
-//! The rooms that the robot cleans: floors drawn with letters, `*` for dirt and `o` for a drop.
+//! The rooms of the simulation: floors drawn with letters, `*` for dirt and `o` for a drop.
 
 use afp_platform::Grid;
 use afp_session::{Drawing, Pose2, Shape, World, WorldError};

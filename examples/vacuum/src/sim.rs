@@ -1,4 +1,4 @@
-//! The simulated robot: how it moves, what it senses, how it fails.
+//! The simulated robot: motion, sensors and faults.
 
 use std::f64::consts::TAU;
 
@@ -17,18 +17,19 @@ use crate::templates::devices::{Control, Devices, Fault};
 use crate::templates::signal;
 use crate::{Nozzle, Senses, Way, Wheels};
 
-/// Time goes on in such steps.
+/// The step of the simulation.
 const TICK: Duration = Duration::from_millis(5);
 const DT: f64 = 0.005;
-/// The wheels follow what they are asked within this time, seconds.
+/// The time constant of the wheels, in seconds.
 const LAG: f64 = 0.08;
-/// What the motors can do: m/s, rad/s.
+/// The limits of the motors: m/s, rad/s.
 const FASTEST: [f64; 2] = [0.3, 2.1];
-/// The counters are wrong by so much of the way, as a standard deviation.
+/// The relative error of the counters, as a standard deviation.
 const COUNT_ERROR: f64 = 0.02;
-/// The nozzle takes this share of a dirty cell in a second.
+/// The share of a cell's dirt that the nozzle takes in a second.
 const SUCTION: f64 = 1.5;
-/// The switches feel what is so near, metres; one side's switch what is not farther on the other, radians.
+/// The distance at which the switches respond, in metres, and the overlap of the two sides, in
+/// radians.
 const FEEL: f64 = 0.003;
 const SIDE: f64 = 0.15;
 const FRONT: f64 = 1.4;
@@ -41,19 +42,19 @@ pub struct Vacuum {
     now: Instant,
     clock: VirtualClock,
     pose: Pose2,
-    /// Speed ahead and turn rate: asked for, and of the wheels.
+    /// Speed ahead and turn rate: commanded, and of the wheels.
     asked: [f64; 2],
     moving: [f64; 2],
     way: [f64; 2],
     counters: Noise,
     suction: bool,
-    /// What is left of the dirt in each cell.
+    /// The remaining dirt in each cell.
     left: Vec<f64>,
     level: f64,
     touched: [bool; 2],
     held: [bool; 2],
     button: bool,
-    /// Stopped for good.
+    /// Stopped permanently.
     stopped: bool,
     blocked: bool,
     dead: bool,
@@ -61,7 +62,7 @@ pub struct Vacuum {
     lines: Lines,
 }
 
-/// From each sensor to the plan.
+/// The path from each sensor to the plan.
 #[derive(Clone, Default)]
 struct Lines {
     bumper: Line<[bool; 2]>,
@@ -96,7 +97,7 @@ impl Vacuum {
         self.lines.button.note(button, self.now);
     }
 
-    /// Walls push the body out and are felt.
+    /// Pushes the body out of walls and sets the switches.
     fn touch(&mut self) {
         let Pose2 { x, y, heading } = self.pose;
         self.touched = [false; 2];
@@ -121,13 +122,13 @@ impl Vacuum {
         self.room.letter(self.pose.x, self.pose.y) == DROP
     }
 
-    /// The share of the dirt that is gone; 1 where there was none.
+    /// The share of the dirt that is gone; 1 for a clean room.
     fn cleaned(&self) -> f64 {
         let dirty = self.room.letters().iter().filter(|letter| **letter == DIRT).count();
         if dirty == 0 { 1.0 } else { 1.0 - self.left.iter().sum::<f64>() / dirty as f64 }
     }
 
-    /// What bumper, cliff sensor, dirt sensor and button say themselves.
+    /// The values of bumper, cliff sensor, dirt sensor and button before faults.
     fn raw(&self) -> (Reading<[bool; 2]>, Reading<bool>, Reading<f64>, Reading<bool>) {
         let (sin, cos) = libm::sincos(self.pose.heading);
         let edge = [self.pose.x + RADIUS * cos, self.pose.y + RADIUS * sin];
@@ -154,7 +155,7 @@ impl Environment for Vacuum {
 impl Wheels for Vacuum {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed) {
         let asked = [speed.si(), turn.si()];
-        // Of a number that is none the motors make nothing.
+        // The motors ignore a command that is not finite.
         self.asked = if asked.iter().all(|number| number.is_finite()) { asked } else { [0.0; 2] };
     }
 

@@ -1,4 +1,4 @@
-//! What the robot watches. A sensor that does not answer is a fault, not "all is well".
+//! The robot's supervisors. A sensor without a value is a fault, not "all is well".
 
 use afp::core::Invalid;
 use afp::{Duration, Events, Fault, Instant, Reading, Reason, Supervisor};
@@ -10,7 +10,7 @@ const SILENT: Fault =
     Fault::new(&Reason { code: "sensor-silent", text: "a sensor gives no current value" });
 const RESTARTED: Fault =
     Fault::new(&Reason { code: "controller-restarted", text: "the controller has restarted" });
-/// A value that is older says nothing of now.
+/// The largest age of a usable value.
 const MAX_AGE: Duration = Duration::from_millis(100);
 
 /// The value of a reading that is not older than 100 ms.
@@ -21,7 +21,7 @@ pub(crate) fn current<T: Copy>(reading: Reading<T>, now: Instant) -> Result<T, F
     }
 }
 
-/// Implements a supervisor that keeps nothing: its events, the first one before others, and whether each holds now.
+/// Implements a stateless supervisor: its events in order of priority, and whether each holds now.
 macro_rules! supervisor {
     ($name:ident, $module:ident, |$live:ident, $env:ident, $now:ident| $events:expr) => {
         #[doc = concat!("See `", stringify!($name), "` in `vacuum.afp`.")]
@@ -40,7 +40,7 @@ macro_rules! supervisor {
                 $env: &mut E,
                 $now: Instant,
             ) -> Result<Option<$module::Event>, Fault> {
-                // One that is ignored now hides no other.
+                // An unwanted event does not hide the others.
                 let said = $events.into_iter().find(|(event, holds): &($module::Event, bool)| {
                     *holds && wanted.contains(*event as u16)
                 });

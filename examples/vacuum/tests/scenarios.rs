@@ -1,3 +1,3 @@
-//! The scenarios of the plans, each a test of its own.
+//! The scenarios of the plans, each as a test.
 
 afp::scenarios!("plans/tests", robot = vacuum::Vacuum);

@@ -46,28 +46,29 @@ def extension(folder: str | os.PathLike[str]) -> str | None:
     has nothing of its own."""
 
 def alike(runs: list[tuple[str, str, str, int]]) -> list[tuple[str, str, str, int, int]]:
-    """Runs that ended alike, of their endings, places, reasons and numbers: these, how many, and the first; failures last."""
+    """Group runs, given as endings, places, reasons and numbers: returns each group with its number of
+    runs and the first of them; failures last."""
 
 def target(world: World, reach: str, seed: int) -> tuple[float, float]:
-    """Where there is something to reach in a world: the first infrared source (`light`), or the `goal` that a seed makes up."""
+    """The target of a world: the first infrared source (`light`), or a random `goal` from a seed."""
 
 def draw_log(path: str | os.PathLike[str], what: str) -> str:
-    """A picture of a log, as SVG: `path`, `sonar` or `film`."""
+    """A picture of a log as SVG: `path`, `sonar` or `film`."""
 
 def faults() -> list[tuple[str, str]]:
-    """Every fault that `fail` knows: device and kind."""
+    """Every fault for `fail`: device and kind."""
 
 def number_of(text: str, unit: str) -> float | None:
-    """The number in SI units that a text stands for, where its unit is one of that kind: `30 cm` is 0.3 in metres."""
+    """The SI value of a string with a unit of that kind: `30 cm` is 0.3 in metres."""
 
 def read_log(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Reads a log, as far as it goes, into a dictionary."""
+    """Read a log into a dictionary, up to its first defect."""
 
 def read_recipe(path: str | os.PathLike[str]) -> tuple[list[tuple[str, str]], str, World, int]:
-    """What the run of a log was made of."""
+    """The inputs of a logged run."""
 
 def read_text(what: str, path: str | os.PathLike[str]) -> str:
-    """The text of a file with its own line ends; `what` says what cannot be done where it cannot be read."""
+    """Read a file with its own line ends; `what` describes the failed action in an error."""
 
 def write_text(what: str, path: str | os.PathLike[str], text: str) -> None:
-    """Writes a text to a file that appears under its name only when it is whole."""
+    """Write a file atomically."""

@@ -19,23 +19,23 @@ class PlanError(AfpError):
 
 @final
 class Diagnostic:
-    """One thing the compiler has to say, as `afpc check` says it."""
+    """One message of the compiler, as printed by `afpc check`."""
 
     @property
     def code(self) -> str:
-        """Which rule it is about: `E0203`."""
+        """Its code: `E0203`."""
     @property
     def severity(self) -> str:
         """`error`, `warning` or `note`."""
     @property
     def message(self) -> str:
-        """What is wrong."""
+        """The error."""
     @property
     def help(self) -> str:
-        """What to do, perhaps empty."""
+        """A suggestion, or an empty string."""
     @property
     def file(self) -> str:
-        """The file, as it was named."""
+        """The file as named by the caller."""
     @property
     def line(self) -> int:
         """The line, from 1."""
@@ -44,7 +44,7 @@ class Diagnostic:
         """The column, from 1."""
     @property
     def fix(self) -> str | None:
-        """The text that mends it in place of what is wrong, where there is one."""
+        """The replacement that fixes the error, if there is one."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -56,7 +56,7 @@ class Diagnostic:
 
 @disjoint_base
 class Plan:
-    """A plan: its text, what the compiler says of it, its drawings, and changes of it."""
+    """A plan: its text, diagnostics, drawings and changes."""
 
     def __new__(
         cls,
@@ -71,38 +71,38 @@ class Plan:
         """The text."""
     @property
     def path(self) -> Path | None:
-        """The file that it came from and is saved to."""
+        """The file that it was read from and is saved to."""
     @property
     def name(self) -> str:
         """The name of the plan that runs."""
     @property
     def plans(self) -> list[str]:
-        """The names of the plans of the file."""
+        """The names of the plans in the file."""
     @property
     def toolboxes(self) -> list[Toolbox]:
-        """The toolboxes that were given with it."""
+        """The toolboxes given with it."""
     @property
     def diagnostics(self) -> list[Diagnostic]:
-        """Everything the compiler has to say, in the order of the text."""
+        """All diagnostics, in source order."""
     @property
     def ok(self) -> bool:
         """Whether there are no errors; warnings do not count."""
     @property
     def scenarios(self) -> list[Scenario]:
-        """The scenarios of the file; none while it has errors."""
+        """The scenarios of the file; empty if it has errors."""
     def _invalid(self) -> list[tuple[str, int, str]]: ...
     def check(self) -> None:
-        """Raises `PlanError` if the plan has errors."""
+        """Raise `PlanError` if the plan has errors."""
     def report(self, *, color: bool = False) -> str:
-        """The diagnostics as `afpc check` prints them."""
+        """The diagnostics as printed by `afpc check`."""
     def formatted(self) -> str:
-        """The text in canonical form; the plan stays as it is."""
+        """The text in canonical form; the plan does not change."""
     def format(self) -> None:
-        """Brings the text into canonical form."""
+        """Format the text."""
     def save(self, path: str | os.PathLike[str] | None = None) -> None:
-        """Writes the text, and those of other files that a change has reached, to their files."""
+        """Write the text to its file, and texts of other changed files to theirs."""
     def svg(self, *, theme: str = "auto", fold: bool = False, data: bool = True) -> str:
-        """The drawing in the notation of the paper, as SVG, with what is wrong marked where it is."""
+        """The drawing in the paper's notation as SVG, with errors marked."""
     def dot(self) -> str:
         """The drawing for GraphViz."""
     def json(self) -> str:
@@ -125,37 +125,37 @@ class Toolbox:
         """The text of the toolbox file."""
     @property
     def name(self) -> str:
-        """The name behind `use`."""
+        """The name after `use`."""
     @property
     def templates(self) -> list[str]:
         """The names of the templates."""
     @property
     def implemented(self) -> list[str]:
-        """The names of the templates that have an implementation."""
+        """The names of the implemented templates."""
     def _declare(self, name: str, text: str) -> None: ...
     def _implement(self, template: str, maker: Callable[..., Any]) -> None: ...
     def _template(self, name: str) -> dict[str, Any]: ...
 
 @final
 class World:
-    """A room: where the robot starts and what stands, lies, shines and moves around it."""
+    """A room: the robot's start, and obstacles, floor, lights and moving things around it."""
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> World:
-        """Reads a world file, or a map of map_server (`.yaml`)."""
+        """Read a world file, or a map_server map (`.yaml`)."""
     @staticmethod
     def random(seed: int) -> World:
-        """A room made up from a seed, as `--world random:7` is."""
+        """A random room from a seed, like `--world random:7`."""
     @staticmethod
     def parse(text: str) -> World:
-        """Reads a world from the text of its file."""
+        """Read a world from the text of a world file."""
     @staticmethod
     def of_plan(path: str | os.PathLike[str]) -> World:
-        """The world that `afpc run` would take for the plan of this file."""
+        """The default world of a plan file, as in `afpc run`."""
     def _changed(self, values: Sequence[tuple[str, str]], start: tuple[float, float, float] | None) -> World: ...
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Its name."""
     @property
     def text(self) -> str:
         """The text of its file."""
@@ -164,12 +164,12 @@ class World:
         """Its file, or `random:SEED`."""
     @property
     def start(self) -> tuple[float, float, float]:
-        """Where the robot starts: x and y in metres, heading in radians."""
+        """The robot's start: x and y in metres, heading in radians."""
     @property
     def obstacles(self) -> list[str]:
-        """The names of what stands in it."""
+        """The names of its obstacles."""
     def outlines(self) -> list[NDArray[np.float64]]:
-        """The corners of everything that stands in it, metres, each an array of n x 2."""
+        """The corners of all obstacles in metres, each an array of n x 2."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def _repr_svg_(self) -> str: ...
@@ -182,17 +182,17 @@ class World:
 
 @final
 class Scenario:
-    """A scenario of a file: a world, what happens, what is expected."""
+    """A scenario of a file: a world, actions and expectations."""
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name."""
     @property
     def plan(self) -> str:
         """The name of its plan."""
     @property
     def path(self) -> Path:
-        """The file in which it stands."""
+        """Its file."""
     @property
     def line(self) -> int:
         """The line of its name, from 1."""
@@ -201,9 +201,9 @@ class Scenario:
         """The seed of all noise."""
     @property
     def until(self) -> float:
-        """When it ends at the latest, seconds."""
+        """Its time limit, in seconds."""
     def run(self, *, log: str | os.PathLike[str] | None = None) -> Verdict:
-        """Runs it; with `log`, records it there. Ctrl-C interrupts it."""
+        """Run it; with `log`, record it there. Ctrl-C interrupts it."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -211,7 +211,7 @@ class Scenario:
 
 @final
 class Broken:
-    """An expectation that was not met."""
+    """An unmet expectation."""
 
     @property
     def text(self) -> str:
@@ -227,10 +227,10 @@ class Broken:
         """Its column, from 1."""
     @property
     def time(self) -> float:
-        """When it became clear, seconds."""
+        """The time when it became clear, in seconds."""
     @property
     def why(self) -> str:
-        """What happened instead."""
+        """The actual behaviour."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     @staticmethod
@@ -239,32 +239,32 @@ class Broken:
 
 @final
 class Verdict:
-    """What a scenario came to."""
+    """The verdict of a scenario."""
 
     @property
     def passed(self) -> bool:
-        """Whether everything was as expected."""
+        """Whether all expectations were met."""
     @property
     def broken(self) -> list[Broken]:
-        """What was not as expected, in order of time."""
+        """Unmet expectations, in order of time."""
     @property
     def report(self) -> str:
-        """What broke, and the timeline around the first of it, as `afpc test` prints it."""
+        """The broken lines and the timeline around the first of them, as printed by `afpc test`."""
     @property
     def time(self) -> float:
-        """How long it ran, seconds."""
+        """The length of the run, in seconds."""
     @property
     def ending(self) -> str:
         """How the plan ended: `ok`, `interrupted`, `error`; `running` if it did not."""
     @property
     def trace_hash(self) -> str:
-        """The hash of the trace, as `afpc test --json` tells it."""
+        """The hash of the trace, as in `afpc test --json`."""
     @property
     def timeline(self) -> list[str]:
         """The timeline."""
     @property
     def command(self) -> str:
-        """The line that runs the scenario again; it says where none does."""
+        """The command that repeats the scenario, or a note why none does."""
     def _repr_html_(self) -> str: ...
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...

@@ -13,85 +13,89 @@ from ._afp_plans import Plan, World
 
 @final
 class Robot:
-    """The robot as a component in Python has it: devices and time, not the truth.
+    """The robot of a component: devices and time, without ground truth.
 
-    It can be used while a component is being called and not between calls."""
+    Use it only while a component is being called."""
 
     @property
     def time(self) -> float:
-        """The time of this step, seconds since the start."""
+        """The time of this step, in seconds since the start."""
     @property
     def distance(self) -> float | None:
-        """How far it is to the nearest thing ahead of the range sensor, metres; infinity for silence; `None` before the
-        first echo and for one that the sensor cannot measure."""
+        """The distance to the nearest object ahead of the range sensor, in metres. It is infinite
+        without an echo, and `None` before the first ping or if the sensor cannot measure it."""
     @property
     def bearing(self) -> float:
-        """Where the range sensor points, radians to the left of the heading."""
+        """The bearing of the range sensor, in radians to the left of the heading."""
     @property
     def odometry(self) -> NDArray[np.float64]:
-        """What the wheels have counted: x, y in metres and heading in radians against the start, speed, turn rate."""
+        """The odometry: x and y in metres and heading in radians, relative to the start, speed, turn
+        rate."""
     @property
     def touched(self) -> bool:
         """Whether the bumper is pressed."""
     @property
     def escape(self) -> bool:
-        """Whether the escape button is held down."""
+        """Whether the escape button is held."""
     @property
     def battery(self) -> tuple[float, float]:
-        """The battery's voltage, and the share of its charge that is left."""
+        """The battery's voltage, and the remaining share of its charge."""
     @property
     def color(self) -> NDArray[np.float64] | None:
-        """Red, green and blue of the floor, each from 0 to 1; `None` before it was looked at."""
+        """Red, green and blue of the floor, from 0 to 1; `None` before the first measurement."""
     @property
     def glow(self) -> tuple[float, float] | None:
-        """Bearing (radians) and strength of the brightest infrared source; `None` where all is dark."""
+        """Bearing (radians) and strength of the brightest infrared source; `None` without a source."""
     @property
     def camera(self) -> NDArray[np.uint8] | None:
-        """The latest picture, rows x columns x 3, a copy; `None` before the first one."""
+        """A copy of the latest picture, rows x columns x 3; `None` before the first one."""
     def drive(self, speed: float, turn: float = 0.0) -> None:
-        """Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for a fifth of a second at most: ask again."""
+        """Request a speed (m/s) and a turn rate (rad/s, to the left). It holds for at most a fifth of
+        a second, so repeat it."""
     def stop(self) -> None:
-        """Asks for a standstill."""
+        """Request a stop."""
     def point(self, bearing: float) -> None:
-        """Points the range sensor, radians to the left of the heading."""
+        """Point the range sensor, in radians to the left of the heading."""
     def sense(self, signal: str) -> Any:
-        """What a signal says, by device and name: `robot.sense("bumper.left")`. `None` before it says anything."""
+        """The value of a signal, by device and name: `robot.sense("bumper.left")`. `None` before its
+        first value."""
     def __reduce__(self) -> NoReturn: ...
 
 @final
 class Event:
-    """One thing that happened in a run."""
+    """An event of a run."""
 
     @property
     def time(self) -> float:
-        """When, seconds since the start."""
+        """The time in seconds since the start."""
     @property
     def kind(self) -> str:
-        """What happened: `started`, `event`, `finished`, `interrupted`, `committed`, `faulted`, `ended`, ..."""
+        """Its kind: `started`, `event`, `finished`, `interrupted`, `committed`, `faulted`, `ended`,
+        ..."""
     @property
     def component(self) -> str:
-        """Whom it happened to: the path of an element or supervisor; who wrote, for `committed`."""
+        """The path of the element or supervisor; for `committed`, the author."""
     @property
     def outcome(self) -> str | None:
         """The state or event."""
     @property
     def target(self) -> str | None:
-        """Where the outcome leads."""
+        """The target of the outcome."""
     @property
     def supervisor(self) -> str | None:
         """The supervisor that diverted a start, or whose event resumed."""
     @property
     def element(self) -> str | None:
-        """The element that was active or being entered when an event was taken."""
+        """The element that was active or starting when an event was taken."""
     @property
     def on(self) -> bool:
-        """Whether that element answered: the target is one of its `on`, not the supervisor's."""
+        """Whether the element's own `on` gave the target, and not the supervisor."""
     @property
     def entry(self) -> str | None:
-        """The entry that was written."""
+        """The written entry."""
     @property
     def port(self) -> str | None:
-        """The input port that was read."""
+        """The input port."""
     @property
     def old(self) -> Any:
         """The value before a commit."""
@@ -112,16 +116,16 @@ class Event:
         """The fault in words."""
     @property
     def request(self) -> str | None:
-        """What came from outside, in the words of scenarios: `press touch.touch`."""
+        """The stimulus in the words of scenarios: `press touch.touch`."""
     @property
     def refused(self) -> str | None:
-        """Why what came from outside was not done: a reason, or `not reached`."""
+        """The reason why a stimulus was not applied, or `not reached`."""
     @property
     def lateness(self) -> float | None:
-        """By how much a deadline was missed, seconds."""
+        """The lateness of a missed deadline, in seconds."""
     @property
     def cause(self) -> str | None:
-        """Why a deadline was missed: `late_release` or `long_poll`."""
+        """The reason for a missed deadline: `late_release` or `long_poll`."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -131,7 +135,7 @@ class Event:
 
 @final
 class Names:
-    """The names of a plan as it ran."""
+    """The names of a plan at its run."""
 
     def draw(
         self,
@@ -143,12 +147,12 @@ class Names:
         events: Sequence[Event],
         things: dict[str, list[list[float]]],
     ) -> str:
-        """The path of a run over its world, as SVG: rows of time, x, y, heading, what happened on the way, and where what
-        moves was last."""
+        """The path of a run over its world, as SVG: rows of time, x, y, heading, the events, and the
+        last outlines of moving things."""
 
 @final
 class Runner:
-    """A plan in a simulated world. `afp.Simulation` is made of it."""
+    """A plan in a simulated world, the base of `afp.Simulation`."""
 
     def __new__(
         cls,
@@ -162,7 +166,7 @@ class Runner:
     ) -> Self: ...
     @property
     def time(self) -> float:
-        """The time, seconds."""
+        """The time in seconds."""
     @property
     def ending(self) -> str:
         """How the plan ended: `ok`, `interrupted`, `error`; `running` before."""
@@ -171,64 +175,66 @@ class Runner:
         """The code and the text of the fault that ended the plan."""
     @property
     def stopped_by(self) -> str | None:
-        """Why the plan stopped though it did not end by itself: `until` or `stop`."""
+        """The reason why the plan stopped before its own end: `until` or `stop`."""
     def things(self) -> dict[str, list[list[float]]]:
-        """Where what moves was last: outlines in metres."""
+        """The last outlines of moving things, in metres."""
     @property
     def names(self) -> Names:
         """The names of the plan."""
     @property
     def trace_hash(self) -> str:
-        """The hash of the trace so far, as `afpc run` tells it."""
+        """The hash of the trace so far, as in `afpc run`."""
     @property
     def deadline_misses(self) -> int:
-        """Deadlines missed so far."""
+        """The number of missed deadlines so far."""
     @property
     def active(self) -> str | None:
-        """The path of the active element, sub-plans left out."""
+        """The path of the active element, without sub-plans."""
     @property
     def event_count(self) -> int:
-        """How many events there are."""
+        """The number of events."""
     @property
     def timeline(self) -> list[str]:
-        """The timeline as `afpc run` prints it."""
+        """The timeline as printed by `afpc run`."""
     @property
     def pose(self) -> tuple[float, float, float]:
-        """Where the robot is: x, y, heading."""
+        """The robot's pose: x, y, heading."""
     @property
     def collisions(self) -> list[tuple[str, float, float]]:
-        """What the robot touched: obstacle, first and last time."""
+        """The robot's contacts: obstacle, first and last time."""
     def run(self, until: float | None, stop: bool) -> bool:
-        """Runs the plan until it ends or until a time, when it is stopped if `stop` is set; whether it still runs."""
+        """Run the plan until it ends or until a time; with `stop`, stop it at that time. Return
+        whether it is still running."""
     def step(self) -> bool:
-        """Makes one step of the plan; whether it still runs."""
+        """Make one step of the plan; return whether it is still running."""
     def listen(self, seen: int, until: float | None) -> bool:
-        """Goes on until something has happened after the first `seen` events, or until a time; whether the plan still
-        runs."""
+        """Continue until there are more than `seen` events, or until a time; return whether the plan
+        is still running."""
     def request_stop(self) -> None:
-        """Asks the plan to stop at its next step; from any thread."""
+        """Request the plan to stop at its next step; callable from any thread."""
     def repeat(self, path: str | os.PathLike[str]) -> None:
-        """Asks for all that came from outside in the run of a log."""
+        """Request all stimuli of a logged run."""
     def keyframe(self) -> Runner:
-        """The same run at this moment, which goes on by itself; it writes no log."""
+        """A copy of the run at this moment, which continues independently; it writes no log."""
     def restore(self, moment: Runner) -> None:
-        """Goes on from the moment of another run of the same plan."""
+        """Continue from the moment of another run of the same plan."""
     def events(self, first: int) -> list[Event]:
-        """The events from the `first`-th on."""
+        """The events from index `first` on."""
     def path(self) -> NDArray[np.float64]:
-        """Where the robot was every 20 ms: time, x, y, heading."""
+        """The robot's pose every 20 ms: time, x, y, heading."""
     def draw(self, plan: str, world: World, seed: int) -> str:
         """The path so far over the world, as SVG."""
     def sense(self, name: str) -> Any:
-        """What a sensor says."""
+        """The value of a sensor."""
     def entries(self) -> dict[str, Any]:
         """The entries by name."""
     def get(self, name: str) -> Any:
         """The value of an entry."""
     def set(self, name: str, value: Any, at: float | None = None) -> None:
-        """Writes an entry: before the start an `in` entry, later an `in` or `var` entry at the next step."""
+        """Write an entry: before the start an `in` entry, later an `in` or `var` entry at the next
+        step."""
     def hold(self, control: str | None, at: float | None, time: float) -> None:
-        """Holds a control down for a while."""
+        """Hold a control for a while."""
     def fail(
         self,
         device: str,
@@ -238,25 +244,27 @@ class Runner:
         delay: float | None,
         share: float | None,
     ) -> None:
-        """Breaks something."""
+        """Inject a fault."""
     def fire(self, component: str, outcome: str, outputs: dict[str, Any], at: float | None) -> None:
-        """Lets a component report an outcome that it did not see, with its outputs."""
+        """Make a component report an outcome with its outputs."""
     def idle(self, element: str | None, at: float | None) -> None:
-        """Lets an actor, those of a sub-plan, or all of them do nothing from their next start on."""
+        """Make an actor, the actors of a sub-plan, or all of them do nothing from their next start on."""
     def close(self) -> Path | None:
-        """Ends the log, where there is one; its path. In a process that was forked there is none."""
+        """End the log and return its path. A forked process has no log."""
     def failures(self, seen: int) -> list[tuple[float, str, str, BaseException]]:
-        """The exceptions of components after the first `seen`: time, element or supervisor, template, exception."""
+        """The exceptions of components after the first `seen`: time, element or supervisor, template,
+        exception."""
     def __reduce__(self) -> NoReturn: ...
 
 @disjoint_base
 class Driven:
-    """What drives a run. `step` is here because a function of Python around it takes a twentieth of a step."""
+    """A driver of a run. It contains `step`, because a Python wrapper would cost a twentieth of a
+    step."""
 
     _runner: Runner
     def __new__(cls, *_args: Any, **_named: Any) -> Self: ...
     def step(self) -> bool:
-        """Makes the next step of the plan, which may be a while later; whether the plan still runs."""
+        """Make the next step of the plan, which may be later; return whether it is still running."""
 
 @final
 class Carbot:
@@ -266,25 +274,26 @@ class Carbot:
     half_width: float
     def __new__(cls, world: World, seed: int = 0) -> Self: ...
     def drive(self, speed: float, turn: float, time: float) -> None:
-        """Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C interrupts it."""
+        """Drive at a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C
+        interrupts it."""
     def stop(self) -> None:
-        """Stops the wheels."""
+        """Stop the wheels."""
     @property
     def time(self) -> float:
-        """The time, seconds."""
+        """The time in seconds."""
     @property
     def pose(self) -> tuple[float, float, float]:
-        """Where the robot truly is: x, y in metres, heading in radians."""
+        """The robot's true pose: x and y in metres, heading in radians."""
     @property
     def touched(self) -> list[str]:
-        """What the robot has run into, in order of time; what it touches at different times counts each time."""
+        """The robot's contacts in order of time; repeated contacts count separately."""
     def sense(self, name: str) -> Any:
-        """What a sensor says: see `Robot`."""
+        """The value of a sensor; see `Robot`."""
     def __reduce__(self) -> NoReturn: ...
 
 @final
 class Courses:
-    """Some episodes side by side."""
+    """Episodes that advance together."""
 
     speed: float
     turn: float
@@ -302,34 +311,34 @@ class Courses:
     ) -> Self: ...
     @property
     def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """The least and the greatest of what is observed."""
+        """Minimum and maximum of each observed number."""
     @property
     def commands(self) -> int:
-        """How many numbers an action has."""
+        """The length of an action."""
     def reset(self, starts: Sequence[tuple[int, tuple[Any, ...]]]) -> NDArray[np.float32]:
-        """Lets some of the episodes begin anew; what is observed in all of them."""
+        """Start some of the episodes again and return all observations."""
     def step(
         self, actions: NDArray[np.float64], again: Sequence[tuple[int, tuple[Any, ...]]]
     ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
-        """Makes a step in all of them, an action each; those that are named begin anew instead."""
+        """Make a step with an action in each episode; the named ones start again instead."""
     def step_first(
         self, action: NDArray[np.float64]
     ) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Makes a step in the first of them; what came of it, and what `info` tells. Most of the time of a single robot's step
-        would go into arrays otherwise."""
+        """Make a step in the first episode and return its result and `info`. For a single robot,
+        arrays would take most of the time."""
     def info(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
-        """Of all of them the time, the robot's true pose, and how often it ran into something."""
+        """The time, the robot's true pose and the number of collisions, for all episodes."""
     def place(self, index: int) -> tuple[str, tuple[float, float] | None]:
-        """Where an episode takes place, and where there is something to reach."""
+        """The world of an episode, and its target."""
     def moving(self, index: int) -> list[tuple[int, NDArray[np.float64]]]:
-        """What moves in one of them: the numbers of the obstacles, and their corners as they are now."""
+        """The moving obstacles of an episode: their indices and current corners."""
     def sense(self, index: int, name: str) -> Any:
-        """What a sensor of one of them says."""
+        """The value of a sensor in an episode."""
     def __reduce__(self) -> NoReturn: ...
 
 @final
 class Judge:
-    """Looks at a running plan and says what driving was worth since the last look."""
+    """Observes a running plan and computes the reward since the last look."""
 
     def __new__(
         cls,
@@ -359,18 +368,19 @@ class Sweeper:
     ) -> Self: ...
     @property
     def total(self) -> int:
-        """How many runs there are."""
+        """The number of runs."""
     @property
     def is_quiet(self) -> bool:
-        """Whether its runs call nothing that is written in Python."""
+        """Whether its runs call no Python code."""
     @property
     def identity(self) -> str:
-        """What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal, all but the
-        first by its hash. What Python reads is left out: where runs are done by other processes it goes along."""
+        """The identity of the sweep: program, plan, worlds, grid and Python code, as in its journal,
+        all but the first by its hash. Files read by Python are not included; they are sent along to
+        other processes."""
     def open(self, out: str, restart: bool) -> None:
-        """Keeps outcomes in a journal beside the table `out`, and takes up those that are there."""
+        """Keep outcomes in a journal next to the table `out`, and load earlier ones."""
     def left(self) -> list[int]:
-        """The numbers of the runs that are not done."""
+        """The numbers of the remaining runs."""
     def run(
         self,
         runs: list[int],
@@ -379,25 +389,25 @@ class Sweeper:
         on_run: Callable[[dict[str, Any]], Any] | None = None,
         judge: Callable[[Runner, World, int], dict[str, float | None]] | None = None,
     ) -> None:
-        """Does runs and keeps their outcomes; tells `progress` how many of this call are done, and `on_run` the row of
-        each. `judge` gives further figures of a run: its number, its end, its world and its seed go in, numbers by name
-        come out."""
+        """Do runs and keep their outcomes. `progress` receives the number of runs done by this call,
+        and `on_run` the row of each. `judge` computes metrics: it receives the run's number,
+        simulation, world and seed, and returns numbers by name."""
     def lines(
         self,
         runs: list[int],
         jobs: int | None = None,
         judge: Callable[[Runner, World, int], dict[str, float | None]] | None = None,
     ) -> list[str]:
-        """Does runs for another process; their outcomes as lines of JSON."""
+        """Do runs for another process and return their outcomes as lines of JSON."""
     def accept(self, lines: list[str], on_run: Callable[[dict[str, Any]], Any] | None = None) -> int:
-        """Keeps outcomes of another process, and passes their rows to `on_run`; those of runs that are done are dropped. How many
-        were new."""
+        """Keep outcomes of another process, and pass their rows to `on_run`. Drop outcomes of finished
+        runs, and return the number of new ones."""
     def runner(
         self, run: int, log: str | os.PathLike[str] | None = None, camera: bool = False
     ) -> tuple[Runner, World]:
-        """A run about to begin again, and its world; its log is written to a file, perhaps with what the camera sees."""
+        """A run at its start, and its world; optionally with a log and the camera's pictures."""
     def write(self) -> list[Path]:
-        """Writes the table, if it is written anywhere, and closes the journal; its paths."""
+        """Write the table, if one is wanted, and close the journal; return the paths."""
     def columns(self) -> dict[str, tuple[list[Any], str]]:
-        """The outcomes so far by column, in the order of the runs; the second of a pair is the type."""
+        """The outcomes so far by column, in the order of runs; each pair ends with the type."""
     def __reduce__(self) -> NoReturn: ...

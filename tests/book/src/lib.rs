@@ -1,67 +1,66 @@
-//! The code blocks of the book in `docs/`, for the tests that keep them true.
+//! The code blocks of the book in `docs/`, for their tests.
 //!
-//! The word behind a block's fence says what is in it, tags behind commas how it is checked:
+//! The word after a block's fence names its content; tags after commas select the check:
 //!
-//! | fence | how it is checked |
+//! | fence | check |
 //! |---|---|
 //! | `afp` | a plan or toolbox that compiles without a diagnostic, in canonical form; the plan runs |
 //! | `afp,fragment` | a part of one, without syntax errors |
 //! | `afp,error=E0203+E0211` | exactly these codes |
 //! | `rust` | compiled with the Rust above it on the page; its tests run |
-//! | `console` | commands behind `$ `, and what they print; `...` stands for anything |
+//! | `console` | commands after `$ `, and their output; `...` matches anything |
 //! | `sh` | commands; those of `afpc` succeed |
 //! | `toml,world`, `toml,project`, `toml,cargo` | read as a world, as `afp.toml`, as a manifest |
 //! | `text` | an excerpt |
-//! | `ebnf` | the grammar: the parser takes random sentences of it |
+//! | `ebnf` | the grammar: the parser accepts random sentences of it |
 //!
-//! `of=PATH` says that a block is an excerpt of that file, seen from `examples/vacuum`, to the letter.
-//! `set=ENTRY=VALUE` gives a plan an input that it needs to run. `file=NAME` puts a block's text into a file of that name, for the blocks after it on the page.
+//! `of=PATH` marks a literal excerpt of that file, relative to `examples/vacuum`. `set=ENTRY=VALUE`
+//! gives a plan a required input. `file=NAME` writes a block's text to a file with that name, for
+//! later blocks of the page.
 
 pub mod rust;
 
 use std::path::Path;
 use std::{fs, io};
 
-/// Where the book is, seen from this package.
+/// The book's folder, relative to this package.
 pub const DOCS: &str = "../../docs";
 
 /// A fenced block of a page.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// The page, without its ending.
+    /// The page, without its extension.
     pub page: String,
     /// The line of its fence, from 1.
     pub line: usize,
-    /// The word behind the fence.
+    /// The word after the fence.
     pub kind: String,
-    /// What follows the word, `name` or `name=value`.
+    /// The tags, `name` or `name=value`.
     pub tags: Vec<String>,
     /// The text between the fences.
     pub text: String,
 }
 
 impl Block {
-    /// Whether a tag is there.
     pub fn has(&self, tag: &str) -> bool {
         self.tags.iter().any(|each| each == tag)
     }
 
-    /// The value of a tag.
     pub fn value(&self, tag: &str) -> Option<&str> {
         self.tags.iter().find_map(|each| each.strip_prefix(tag)?.strip_prefix('='))
     }
 
-    /// Page and line, as editors jump to them.
+    /// Page and line in the format of editors.
     pub fn place(&self) -> String {
         format!("docs/{}.md:{}", self.page, self.line)
     }
 }
 
-/// The pages written by hand, by name without ending, sorted: all but the pages of codes, which are
-/// tested with the compiler.
+/// The handwritten pages, sorted by name without extension. Pages of codes are tested with the
+/// compiler.
 ///
 /// # Errors
-/// A file cannot be read.
+/// A file is unreadable.
 pub fn pages(docs: &Path) -> io::Result<Vec<(String, String)>> {
     let mut pages = Vec::new();
     for entry in fs::read_dir(docs)? {
@@ -78,7 +77,7 @@ pub fn pages(docs: &Path) -> io::Result<Vec<(String, String)>> {
 /// The blocks of all pages, in order.
 ///
 /// # Errors
-/// A file cannot be read; a fence is indented or not closed.
+/// A file is unreadable, or a fence is indented or not closed.
 pub fn blocks(docs: &Path) -> io::Result<Vec<Block>> {
     let mut all = Vec::new();
     for (page, text) in pages(docs)? {
@@ -90,7 +89,7 @@ pub fn blocks(docs: &Path) -> io::Result<Vec<Block>> {
     Ok(all)
 }
 
-/// The blocks of a page, or the line of a fence that is wrong.
+/// The blocks of a page, or the line of an invalid fence.
 fn blocks_of(page: &str, text: &str) -> Result<Vec<Block>, usize> {
     let mut blocks: Vec<Block> = Vec::new();
     let mut open = false;

@@ -1,4 +1,4 @@
-//! The Rust of the book as modules that a test can include.
+//! The book's Rust as modules for a test.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -7,13 +7,13 @@ use std::{fs, io};
 
 use super::Block;
 
-/// The module that includes the modules of the pages.
+/// The parent of the pages' modules.
 const HOME: &str = "rust_blocks";
 
-/// A module for each page with Rust: its blocks one after the other, and a test that runs its `main`.
+/// Writes a module for each page with Rust: its blocks in order, and a test that runs its `main`.
 ///
-/// Files that blocks are written to go to a folder of the page below `out`, and the Rust names them
-/// there.
+/// Blocks with file names are written to a folder of the page below `out`, and the Rust refers to
+/// that folder.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -31,7 +31,7 @@ pub fn modules(blocks: &[Block], out: &Path) -> io::Result<String> {
     Ok(code)
 }
 
-/// Whether a block is Rust that is compiled here; excerpts are compiled where they stand.
+/// Whether a block is Rust to compile here; excerpts are compiled in their own files.
 fn is_whole(block: &Block) -> bool {
     block.kind == "rust" && block.value("of").is_none()
 }
@@ -54,10 +54,10 @@ fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
         rust = rust.replace(&name, &path);
     }
     let name = page.replace('-', "_");
-    // What is the crate's root for readers is the page's module here.
+    // The reader's crate root is the page's module here.
     rust = rust.replace("=> crate ", &format!("=> crate::{HOME}::{name} "));
     let runs = match rust.contains("\nfn main()") {
-        // An error that 'main' ends with fails the test as it fails the program.
+        // An error returned by 'main' fails the test.
         true => {
             "#[test]\nfn main_runs() {\n    use std::process::{ExitCode, Termination};\n    \
                  assert_eq!(main().report(), ExitCode::SUCCESS);\n}\n"

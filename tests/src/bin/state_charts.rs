@@ -1,6 +1,6 @@
 //! Writes cases for a state chart engine: the plans of `run/` and random ones.
 //!
-//! `state_charts COUNT FILE` writes one JSON object a line; `tests/scxml/replay.js` reads them.
+//! `state_charts COUNT FILE` writes a JSON object per line; `tests/scxml/replay.js` reads them.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};

@@ -1,4 +1,4 @@
-//! The smallest supervisor there is.
+//! The smallest supervisor.
 
 use afp_core::{Events, Fault, Instant, Supervisor, Text};
 
@@ -6,7 +6,7 @@ use crate::platform::Platform;
 use crate::script::Phase;
 use crate::templates::{self, glance};
 
-/// Watches until the script says that something happens.
+/// Watches until the script reports its event.
 #[derive(Clone, Debug)]
 pub struct Glance {
     name: Text,

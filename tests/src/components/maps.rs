@@ -4,11 +4,10 @@ use afp_core::{Computation, Fault};
 
 use crate::templates::{self, make_map, read_map};
 
-/// Something that only components can look into.
+/// A type that only components can read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Map(i64);
 
-/// Makes a map.
 #[derive(Debug)]
 pub struct MakeMap;
 

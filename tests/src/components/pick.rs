@@ -1,4 +1,4 @@
-//! A computation whose way its input decides.
+//! A computation whose input selects its state.
 
 use afp_core::{Computation, Fault, Reason, Text};
 
@@ -6,7 +6,7 @@ use crate::templates::{self, pick};
 
 const NO_SUCH_WAY: Fault = Fault::new(&Reason { code: "no-such-way", text: "choose 0, 1 or 2" });
 
-/// Goes the way whose number is given.
+/// Reaches the state with the given number.
 #[derive(Debug)]
 pub struct Pick;
 

@@ -6,7 +6,7 @@ use crate::platform::Platform;
 use crate::script::Phase;
 use crate::templates::{self, stay};
 
-/// Acts until it is interrupted or the script lets it fail.
+/// Acts until it is interrupted or the script makes it fail.
 #[derive(Clone, Debug)]
 pub struct Stay {
     name: Text,

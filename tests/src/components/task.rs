@@ -1,4 +1,4 @@
-//! The smallest actor there is.
+//! The smallest actor.
 
 use afp_core::{Actor, Fault, Instant, Poll, Text};
 
@@ -6,7 +6,7 @@ use crate::platform::Platform;
 use crate::script::Phase;
 use crate::templates::{self, task};
 
-/// Acts until the script says that it is done.
+/// Acts until the script reports its state.
 #[derive(Clone, Debug)]
 pub struct Task {
     name: Text,

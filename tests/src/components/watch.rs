@@ -1,4 +1,4 @@
-//! A supervisor that sees what the script says.
+//! A supervisor with scripted events.
 
 use afp_core::{Events, Fault, Instant, Supervisor, Text};
 
@@ -6,7 +6,7 @@ use crate::platform::Platform;
 use crate::script::Phase;
 use crate::templates::{self, watch};
 
-/// Watches until the script says that something happens.
+/// Watches until the script reports an event.
 #[derive(Clone, Debug)]
 pub struct Watch {
     name: Text,

@@ -1,4 +1,4 @@
-//! An actor that does what the script says.
+//! An actor with scripted states.
 
 use afp_core::{Actor, Fault, Instant, Poll, Text};
 
@@ -6,7 +6,7 @@ use crate::platform::Platform;
 use crate::script::Phase;
 use crate::templates::{self, Side, work};
 
-/// Acts until the script says that a state is reached.
+/// Acts until the script reports a state.
 #[derive(Clone, Debug)]
 pub struct Work {
     name: Text,

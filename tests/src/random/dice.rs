@@ -6,7 +6,7 @@
 pub struct Dice(u64);
 
 impl Dice {
-    /// Dice whose throws depend on the seed alone.
+    /// Dice that depend only on the seed.
     pub fn new(seed: u64) -> Self {
         Dice(seed)
     }
@@ -19,17 +19,17 @@ impl Dice {
         bits ^ (bits >> 31)
     }
 
-    /// A number from `least` up to, without, `end`.
+    /// A number from `least` to `end`, exclusive.
     pub fn between(&mut self, least: u64, end: u64) -> u64 {
         least + self.next() % (end - least)
     }
 
-    /// True in so many of a hundred cases.
+    /// True with that chance in percent.
     pub fn percent(&mut self, chance: u64) -> bool {
         self.between(0, 100) < chance
     }
 
-    /// One of several, which must not be none.
+    /// One of several, at least one.
     pub fn pick<T: Clone>(&mut self, from: &[T]) -> T {
         from[self.between(0, from.len() as u64) as usize].clone()
     }

@@ -13,17 +13,17 @@ pub struct Made {
     pub word: &'static str,
     /// Template or plan, with its bindings.
     pub call: String,
-    /// Its states or events, all of which must be connected.
+    /// Its states or events; all must be connected.
     pub outcomes: Vec<&'static str>,
 }
 
-/// Types whose entries take a value of a type, by conversion where need be.
+/// Types whose entries accept a value of a type, possibly by conversion.
 pub const NUMBERS: &[Type] = &[Type::Float, Type::Int, Type::Text];
 pub const TEXTS: &[Type] = &[Type::Text];
 const SIDES: &[Type] = &[Type::Side];
 const MAPS: &[Type] = &[Type::Map];
 
-/// Bindings in the making.
+/// Bindings under construction.
 pub struct Bindings<'a> {
     entries: &'a Entries,
     list: Vec<String>,
@@ -46,7 +46,7 @@ impl<'a> Bindings<'a> {
         }
     }
 
-    /// For what has a range: only entries that change can leave it.
+    /// For values with a range: only entries that change can leave it.
     fn maybe_changing(&mut self, port: &str, ty: Type, dice: &mut Dice) {
         if dice.percent(60) {
             let entry = dice.pick(&self.entries.changing(ty));
@@ -62,7 +62,7 @@ impl<'a> Bindings<'a> {
         }
     }
 
-    /// Lets no output write an entry.
+    /// Excludes an entry from outputs.
     pub fn keep(&mut self, entry: &str) {
         self.taken.push(entry.to_owned());
     }
@@ -92,7 +92,7 @@ fn channel(
     channels.push(Channel { name: name.to_owned(), outcomes, actor });
 }
 
-/// An actor; `name` is the one that scripts know it by.
+/// An actor; `name` is its name in scripts.
 pub fn actor(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<Channel>) -> Made {
     let mut bindings = Bindings::new(entries);
     if dice.percent(10) {
@@ -166,7 +166,7 @@ pub fn guard(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<
     Made { word: "supervise", call: bindings.call("Watch"), outcomes: outcomes.to_vec() }
 }
 
-/// A computation other than those of loops.
+/// A computation outside loops.
 pub fn computation(entries: &Entries, tables: &[Table], dice: &mut Dice) -> Made {
     if !tables.is_empty() && dice.percent(15) {
         let index = index(entries, dice);

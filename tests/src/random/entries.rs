@@ -29,18 +29,17 @@ pub struct Entry {
     pub name: String,
     pub kind: Kind,
     pub ty: Type,
-    /// Whether it has a range.
     pub ranged: bool,
 }
 
-/// The entries of one plan; each has an initial value but maps and some results.
+/// The entries of one plan; all have initial values except maps and some results.
 #[derive(Clone, Debug)]
 pub struct Entries {
     pub list: Vec<Entry>,
     pub text: String,
 }
 
-/// The types that have literals.
+/// The types with literals.
 pub const TYPES: [Type; 6] =
     [Type::Bool, Type::Int, Type::Float, Type::Length, Type::Text, Type::Side];
 
@@ -57,7 +56,8 @@ impl Type {
         }
     }
 
-    /// A range that all constants of tables and literals are in, of either kind of number, and that sums and products leave.
+    /// A range that contains all constants of tables and literals, for both kinds of number; sums
+    /// and products can leave it.
     pub fn range(self) -> Option<&'static str> {
         match self {
             Type::Int => Some(" from -5 to 300"),
@@ -81,11 +81,11 @@ impl Type {
 }
 
 impl Entries {
-    /// Entries for the plan of that number: at least one of each type, and two maps.
+    /// Entries for the plan with that number: at least one of each type, and two maps.
     pub fn new(plan: u64, dice: &mut Dice) -> Self {
         let mut entries = Entries { list: Vec::new(), text: String::new() };
         for (index, ty) in (0..).zip(TYPES.iter().chain(&TYPES)) {
-            // The first of each type can be written by everybody.
+            // Every component can write the first of each type.
             let kind = match index < TYPES.len() {
                 true => Kind::Var,
                 false => dice.pick(&[Kind::In, Kind::In, Kind::Out, Kind::Out, Kind::Const]),
@@ -110,7 +110,7 @@ impl Entries {
         let open = ty == Type::Map || kind == Kind::Out && dice.percent(50);
         let long = ty == Type::Text && kind != Kind::Const && dice.percent(40);
         if long {
-            // Two of these are more than a text holds.
+            // Two of these exceed the length of a string.
             self.text.push_str(" = \"thirty-three letters of plain text\"");
         } else if !open {
             let _ = write!(self.text, " = {}", ty.literal(dice));
@@ -120,13 +120,13 @@ impl Entries {
         self.list.push(Entry { name, kind, ty, ranged: range.is_some() });
     }
 
-    /// The entries that formulas can read: results without a first value are not among them.
+    /// The entries for formulas, without results that have no initial value.
     pub fn readable(&self, ty: Type) -> Vec<String> {
         let fits = |entry: &&Entry| entry.ty == ty && entry.kind != Kind::Out;
         self.list.iter().filter(fits).map(|entry| entry.name.clone()).collect()
     }
 
-    /// The entries that change, so that no formula over them is known when the plan is compiled.
+    /// The entries that change, so that the compiler cannot evaluate a formula over them.
     pub fn changing(&self, ty: Type) -> Vec<String> {
         let changes = |entry: &&Entry| entry.ty == ty && matches!(entry.kind, Kind::Var);
         self.list.iter().filter(changes).map(|entry| entry.name.clone()).collect()
@@ -140,7 +140,6 @@ impl Entries {
         self.list.iter().filter(fits).map(|entry| entry.name.clone()).collect()
     }
 
-    /// The entries of one kind.
     pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Entry> {
         self.list.iter().filter(move |entry| entry.kind == kind)
     }

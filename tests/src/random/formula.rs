@@ -3,10 +3,10 @@
 use super::dice::Dice;
 use super::entries::{Entries, Type};
 
-/// A formula that can be bound to a port of type `ty`.
+/// A formula for a port of type `ty`.
 ///
-/// Divisors and what is rounded or read from text are entries that change: a constant formula
-/// without a value is an error already when the plan is compiled.
+/// Divisors and rounded or parsed values are entries that change, because an invalid constant
+/// formula is a compile error.
 pub fn formula(ty: Type, entries: &Entries, depth: u64, dice: &mut Dice) -> String {
     if depth == 0 || dice.percent(40) {
         return leaf(ty, entries, dice);
@@ -107,7 +107,7 @@ fn text(a: &str, entries: &Entries, depth: u64, dice: &mut Dice) -> String {
     }
 }
 
-/// A formula of another type that the port's type can be converted from, now and then.
+/// Sometimes a formula of another type that converts to the port's type.
 pub fn converted(ty: Type, entries: &Entries, dice: &mut Dice) -> String {
     if dice.percent(70) {
         return formula(ty, entries, 2, dice);

@@ -8,7 +8,7 @@ use super::element::{Made, actor, computation, guard, sub_plan};
 use super::entries::{Entries, Type};
 use super::table::Table;
 
-/// A finished plan, as others can use it.
+/// A finished plan for use as a sub-plan.
 #[derive(Clone, Debug)]
 pub struct Shape {
     pub name: String,
@@ -18,14 +18,13 @@ pub struct Shape {
     pub text: String,
 }
 
-/// A plan in the making.
+/// A plan under construction.
 struct Builder<'a> {
     number: u64,
     tables: &'a [Table],
     entries: Entries,
     dice: &'a mut Dice,
     channels: &'a mut Vec<Channel>,
-    /// How many elements there will be.
     elements: u64,
     /// The events of each global supervisor.
     globals: Vec<Vec<String>>,
@@ -36,7 +35,7 @@ struct Builder<'a> {
 }
 
 impl Shape {
-    /// The plan of a number, which may use those made before, and tables.
+    /// The plan with a number, which may use earlier ones, and tables.
     pub fn new(
         number: u64,
         (others, tables): (&[Shape], &[Table]),
@@ -89,7 +88,7 @@ impl Builder<'_> {
         self.text.push_str("}\n");
     }
 
-    /// The first element gives the plan its map, so that nobody reads it before.
+    /// The first element writes the plan's map, before anything reads it.
     fn map_maker(&mut self) {
         let map = format!("m{}", self.number);
         let _ = writeln!(
@@ -98,7 +97,7 @@ impl Builder<'_> {
         );
     }
 
-    /// One element, or a loop of two; how many they are.
+    /// Adds one element, or a loop of two, and returns the number of them.
     fn element(&mut self, index: u64, others: &[Shape]) -> u64 {
         let last = index + 1 == self.elements;
         let name = format!("p{}e{index}", self.number);
@@ -135,7 +134,7 @@ impl Builder<'_> {
             self.reactions(index);
         }
         for (n, state) in made.outcomes.iter().enumerate() {
-            // The first state leads to the next element, so that all of them can be reached.
+            // The first state leads to the next element, so that all are reachable.
             let target = match n == 0 && index + 1 < self.elements {
                 true => format!("e{}", index + 1),
                 false => self.target(computes.then_some(index)),
@@ -149,7 +148,7 @@ impl Builder<'_> {
         self.text.push_str("    }\n");
     }
 
-    /// `for i in 0..limit`: takes no time.
+    /// `for i in 0..limit`, without time.
     fn counting_loop(&mut self, index: u64) -> u64 {
         let int = self.dice.pick(&self.entries.changing(Type::Int));
         let float = self.dice.pick(&self.entries.changing(Type::Float));
@@ -168,7 +167,7 @@ impl Builder<'_> {
         2
     }
 
-    /// Row after row of a table: takes no time.
+    /// Reads all rows of a table, without time.
     fn rows(&mut self, index: u64) -> u64 {
         let int = self.dice.pick(&self.entries.changing(Type::Int));
         let table = self.dice.pick(self.tables);
@@ -189,7 +188,7 @@ impl Builder<'_> {
         3
     }
 
-    /// Two computations that only events lead to: they resume or lead elsewhere.
+    /// Two computations after an event: they resume or lead to an element.
     fn chain(&mut self) {
         let int = self.dice.pick(&self.entries.changing(Type::Int));
         let float = self.dice.pick(&self.entries.changing(Type::Float));
@@ -206,9 +205,9 @@ impl Builder<'_> {
         );
     }
 
-    /// Where an edge leads; computations lead onward only, lest they spin.
+    /// The target of an edge; computations lead only forwards, so that they cannot loop.
     fn target(&mut self, computation: Option<u64>) -> String {
-        // The outermost plan goes on for longer.
+        // The outermost plan runs longer.
         if self.dice.percent(if self.number == 0 { 4 } else { 20 }) {
             return "terminate".to_owned();
         }
@@ -219,7 +218,7 @@ impl Builder<'_> {
         format!("e{}", self.dice.between(least, self.elements))
     }
 
-    /// What an element does instead where global supervisors report something.
+    /// An element's reactions to global supervisors.
     fn reactions(&mut self, index: u64) {
         for (global, mut events) in self.globals.clone().into_iter().enumerate() {
             if !self.dice.percent(40) {
@@ -232,7 +231,7 @@ impl Builder<'_> {
                     continue;
                 }
                 let target = self.event_target(false);
-                // It is active already.
+                // It is already active.
                 let itself = target == format!("e{index}");
                 let _ =
                     write!(self.text, " {event} -> {}", if itself { "ignore" } else { &target });
@@ -241,7 +240,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A global supervisor, or a local one of the element with that index; gives its events.
+    /// A global supervisor, or a local one of the element with that index; returns its events.
     fn guard(&mut self, name: &str, indent: usize, owner: Option<u64>) -> Vec<String> {
         let channel = match owner {
             Some(owner) => format!("p{}e{owner}{name}", self.number),

@@ -6,7 +6,6 @@ use super::dice::Dice;
 use super::element::{Bindings, Made, NUMBERS, TEXTS};
 use super::entries::{Entries, TYPES, Type};
 
-/// A table of the file.
 #[derive(Clone, Debug)]
 pub struct Table {
     name: String,
@@ -15,7 +14,7 @@ pub struct Table {
     pub text: String,
 }
 
-/// What columns are called: some of these names mean something to Rust, or to the language elsewhere.
+/// Names of columns, some of which have a meaning in Rust, or elsewhere in the language.
 const NAMES: [&str; 8] = ["x", "type", "value", "loop", "row", "next", "state", "fn"];
 
 impl Table {
@@ -37,7 +36,7 @@ impl Table {
         Table { name, columns, text }
     }
 
-    /// A `Row` of this table; `kept` is an entry that it shall not write.
+    /// A `Row` of this table; `kept` is an entry that it must not write.
     pub fn reader(
         &self,
         index: &str,
@@ -61,7 +60,7 @@ impl Table {
     }
 }
 
-/// A constant formula, within the ranges that entries of its type have.
+/// A constant formula, within the range of its type.
 fn constant(ty: Type, dice: &mut Dice) -> String {
     let literal = ty.literal(dice);
     if dice.percent(60) {
@@ -78,7 +77,7 @@ fn constant(ty: Type, dice: &mut Dice) -> String {
     }
 }
 
-/// An index that is known only when it is read: of a row, behind the last one, or of none.
+/// An index that is known only at run time: of a row, past the last one, or far outside.
 pub fn index(entries: &Entries, dice: &mut Dice) -> String {
     let (int, float) = (entries.changing(Type::Int), entries.changing(Type::Float));
     match dice.between(0, 6) {

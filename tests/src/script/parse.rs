@@ -1,4 +1,4 @@
-//! Reads scripts from text, line by line.
+//! Parses scripts line by line.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use afp_core::{Duration, Instant, Text, Value};
 
 use super::{Act, Outside, Phase, Script, Signal};
 
-/// A line of a script that says nothing known.
+/// An unknown line of a script.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScriptError(String);
 

@@ -1,13 +1,13 @@
-//! Where the components of a running plan are in its chart.
+//! The components of a running plan in its chart.
 
 use afp_core::trace::{ComponentId, Outcome};
 use afp_dsl::graph::{Component, Graph, PlanId, TemplateId};
 
 /// A component of a running plan.
 pub struct Place {
-    /// The id of its state; of a supervisor that of the state it belongs to.
+    /// The id of its state; for a supervisor that of its owner's state.
     pub state: String,
-    /// What its events begin with.
+    /// The prefix of its events.
     pub path: String,
     pub kind: Kind,
     /// Its states or events.
@@ -24,7 +24,6 @@ pub enum Kind {
 }
 
 impl Place {
-    /// The event by which a chart knows an outcome.
     pub fn event(&self, outcome: Outcome) -> String {
         let name = match outcome {
             Outcome::DeadlineMissed => "DeadlineMissed",
@@ -36,7 +35,6 @@ impl Place {
         format!("{}.{name}", self.path)
     }
 
-    /// The event of a fault.
     pub fn fault(&self) -> String {
         match self.kind {
             Kind::Plan => ":failed".to_owned(),
@@ -52,13 +50,13 @@ impl Places {
     /// A component.
     ///
     /// # Panics
-    /// When the trace names one that the plan does not have.
+    /// The plan does not have it.
     pub fn get(&self, id: ComponentId) -> &Place {
         &self.0[id.0 as usize]
     }
 }
 
-/// The components of a graph: the outermost plan, its elements, its supervisors, then the same for
+/// The components of a graph: the outermost plan, its elements, its supervisors, and then those of
 /// each of its sub-plans.
 pub fn places(graph: &Graph) -> Places {
     let name = graph.main().name.clone();

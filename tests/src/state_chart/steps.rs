@@ -1,4 +1,4 @@
-//! From a trace to the events of a chart and to what must be active between them.
+//! From a trace to the events of a chart and the active states in between.
 
 use afp_core::Fault;
 use afp_core::trace::{ComponentId, Ending, Outcome, Record};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::places::{Kind, Place, Places};
 
-/// The records that tell of the flow of action.
+/// The records about the flow of action.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seen {
     StopRequested,
@@ -35,7 +35,7 @@ impl Seen {
             Record::Interrupted { element } => Seen::Interrupted(element),
             Record::Finished { element, state } => Seen::Finished(element, state),
             Record::Started { component } => Seen::Started(component),
-            // The record names who panicked; it is the whole plan that fails.
+            // The record names the panicking component; the whole plan fails.
             Record::Faulted { fault, .. } if fault == Fault::PANIC => Seen::Faulted(WHOLE),
             Record::Faulted { component, .. } => Seen::Faulted(component),
             Record::Ended { plan, ending } => Seen::Ended(plan, ending),
@@ -44,7 +44,7 @@ impl Seen {
     }
 }
 
-/// An event and what must hold after it.
+/// An event and the expectations after it.
 #[derive(Default)]
 struct Step {
     event: Option<String>,
@@ -57,16 +57,17 @@ struct Step {
 pub struct Steps {
     /// The start and all events; never empty.
     steps: Vec<Step>,
-    /// Whether the run goes on in a way that the chart cannot know.
+    /// Whether the chart cannot follow the rest of the run.
     pub cut: bool,
     /// Whether the plan was asked to stop.
     stopping: bool,
-    /// The step that the last event or fault found; computations that could have resumed may stand behind it.
+    /// The step that ended with the last event or fault, before computations that could have
+    /// resumed.
     found: usize,
 }
 
 impl Steps {
-    /// The steps as the engine's program reads them.
+    /// The steps in the format of the engine's program.
     pub fn json(&self) -> Value {
         let step = |step: &Step| {
             let Step { event, active, only, same } = step;
@@ -84,14 +85,14 @@ impl Steps {
         &mut self.steps[last]
     }
 
-    /// The step whose end the last event found.
+    /// The step that the last event ended.
     fn before(&mut self) -> &mut Step {
         &mut self.steps[self.found]
     }
 }
 
 impl Step {
-    /// Control is at an element: exactly there, if nothing can be inside of it.
+    /// Control is at an element: exactly there, if the element has no inner states.
     fn is_at(&mut self, place: &Place) {
         match place.kind {
             Kind::Actor | Kind::Computation => self.only = Some(place.state.clone()),
@@ -99,13 +100,12 @@ impl Step {
         }
     }
 
-    /// Control is at an element or inside of it.
+    /// Control is at an element or inside it.
     fn is_at_least(&mut self, place: &Place) {
         self.active.push(place.state.clone());
     }
 }
 
-/// The steps of a run.
 pub fn steps(places: &Places, seen: &[Seen]) -> Steps {
     let start = Step::default();
     let mut steps = Steps { steps: vec![start], cut: false, stopping: false, found: 0 };
@@ -134,7 +134,7 @@ fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen
             steps.feed(places.get(supervisor).event(event));
             steps.last().same = true;
         }
-        // Both stand behind the event that they are due to.
+        // Both come after the event that caused them.
         Seen::Diverted(element) => steps.before().is_at_least(places.get(element)),
         Seen::Resumed(element) => steps.last().is_at_least(places.get(element)),
         Seen::Interrupted(element) => {
@@ -142,7 +142,7 @@ fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen
             step.is_at(places.get(element));
         }
         Seen::Started(component) => steps.last().is_at(places.get(component)),
-        // The end of a sub-plan's body is an event that the chart makes itself.
+        // The chart itself makes the event for the end of a sub-plan's body.
         Seen::Finished(element, _) if places.get(element).kind == Kind::SubPlan => {}
         Seen::Finished(element, state) => {
             let place = places.get(element);
@@ -153,15 +153,15 @@ fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen
         Seen::Ended(WHOLE, ending) => ended(places, ending, steps),
         Seen::Ended(plan, ending) => {
             let finishes = matches!(rest, [Seen::Finished(element, _), ..] if *element == plan);
-            // An initial value that is out of its range: the chart is inside of the plan already.
+            // An initial value is out of its range, but the chart is already inside the plan.
             let never_began = previous == Some(Seen::Started(plan));
             steps.cut = never_began || !matches!(ending, Ending::Error(_)) && !finishes;
         }
     }
 }
 
-/// Whether the whole run fails before anything else happens: an `interrupt` failed or something
-/// panicked, and control goes nowhere.
+/// Whether the whole run fails next: an `interrupt` failed or a component panicked, so control is
+/// nowhere.
 fn fails(rest: &[Seen]) -> bool {
     let mut faults = rest.iter().map_while(|record| match record {
         Seen::Faulted(component) => Some(*component),
@@ -177,7 +177,7 @@ fn faulted(
     component: ComponentId,
     rest: &[Seen],
 ) {
-    // A sub-plan whose body has ended in `Error` is left already.
+    // A sub-plan whose body has ended in `Error` has already ended.
     let left = matches!(
         previous,
         Some(Seen::Ended(plan, Ending::Error(_))) if plan == component && plan != WHOLE

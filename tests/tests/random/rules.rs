@@ -1,8 +1,7 @@
-//! Which rules a sample of traces exercised.
+//! The rules that a sample of traces exercised.
 
 use std::collections::BTreeMap;
 
-/// A rule, and how a trace shows it.
 type Rule = (&'static str, fn(&[String]) -> bool);
 
 const RULES: &[Rule] = &[
@@ -78,7 +77,7 @@ const RULES: &[Rule] = &[
     ("the run goes on to the end", |trace| !any(trace, |line| line.contains(" Plan0 ended "))),
 ];
 
-/// How many traces exercised each rule.
+/// The number of traces for each rule.
 #[derive(Debug, Default)]
 pub struct Exercised {
     traces: usize,
@@ -86,7 +85,6 @@ pub struct Exercised {
 }
 
 impl Exercised {
-    /// Counts a trace.
     pub fn count(&mut self, trace: &[String]) {
         self.traces += 1;
         for (rule, shows) in RULES {
@@ -120,7 +118,7 @@ fn parts(line: &str) -> Option<(&str, &str, &str)> {
     Some((time, component, rest))
 }
 
-/// How deep the component of a line stands, 0 for those of the outermost plan.
+/// The nesting depth of a line's component, 0 for the outermost plan.
 fn depth(line: &str) -> usize {
     let element = parts(line).filter(|(_, _, rest)| *rest == "interrupted" || *rest == "started");
     element.map_or(0, |(_, component, _)| component.matches('.').count())

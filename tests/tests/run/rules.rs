@@ -1,6 +1,6 @@
-//! The rules of the run time, each with the cases that show it.
+//! The rules of the run time, each with its cases.
 //!
-//! Numbers are those of the sections in which the rules were first written down.
+//! The numbers are those of the design's sections.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -395,7 +395,7 @@ fn every_rule_has_cases_and_every_case_a_rule() {
 #[test]
 fn every_case_expects_a_trace() {
     if std::env::var_os("AFP_BLESS").is_some() {
-        // The cases are being written.
+        // The cases are being rewritten.
         return;
     }
     for entry in fs::read_dir(super::folder()).expect("the folder of cases").flatten() {

@@ -1,4 +1,5 @@
-//! What cargo knows of the workspace: its packages, and which of them a package is built from. The modules of a package.
+//! Cargo's knowledge of the workspace: its packages and their dependencies. The modules of a
+//! package.
 
 pub mod modules;
 mod paths;
@@ -9,33 +10,31 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// A package of the workspace.
 #[derive(Debug)]
 pub struct Package {
-    /// Its folder, seen from the root.
+    /// Its folder, relative to the root.
     pub folder: PathBuf,
-    /// The packages of the workspace that it is built from: dependencies and build dependencies, optional
-    /// ones too. What only its tests use is not among them.
+    /// Its dependencies in the workspace: normal, build and optional ones, without development
+    /// dependencies.
     pub needs: BTreeSet<String>,
 }
 
-/// The root of the checkout.
 pub fn root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.ancestors().nth(2).unwrap_or(here).to_owned()
 }
 
-/// The cargo that runs the tests, at the root and without the network.
+/// The cargo of the tests, at the root and offline.
 pub fn cargo(command: &str) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(root()).args([command, "--offline"]);
     cargo
 }
 
-/// What a command prints.
+/// The output of a command.
 ///
 /// # Panics
-/// It cannot be run, or does not succeed; its errors are shown.
+/// It cannot run, or fails; its errors are shown.
 pub fn output(command: &mut Command) -> String {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -66,7 +65,7 @@ fn read(package: &Value, root: &Path) -> (String, Package) {
     (text(&package["name"]), Package { folder, needs })
 }
 
-/// Everything that a package is built from, itself included.
+/// All dependencies of a package, with itself.
 pub fn built_from(packages: &BTreeMap<String, Package>, name: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let mut open = vec![name.to_owned()];

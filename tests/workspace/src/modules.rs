@@ -142,7 +142,7 @@ impl Modules {
                 }
                 (Meaning::Module(module), _) => {
                     let mut found = self.lookup(module, name, seen);
-                    // A macro makes an item that nothing else defines.
+                    // A macro may create an item without another definition.
                     if found.is_empty() && position > 0 && !self.imports(module, name) {
                         found.insert(Meaning::Item(module));
                     }

@@ -77,7 +77,7 @@ impl Path {
     }
 }
 
-/// The `use` at the beginning, with its number of tokens. One of a macro need not be Rust.
+/// The `use` at the beginning, with its number of tokens. Inside a macro it may be invalid Rust.
 fn item_use(tokens: &[TokenTree]) -> Option<(usize, ItemUse)> {
     let is_end =
         |token: &TokenTree| matches!(token, TokenTree::Punct(mark) if mark.as_char() == ';');

@@ -1,4 +1,4 @@
-//! One case: a plan, a room, a seed and what happens.
+//! One case: a plan, a room, a seed and stimuli.
 
 use std::fmt;
 
@@ -8,28 +8,26 @@ use afp_sim::World;
 use crate::chance::{Chance, Dice};
 use crate::plans::{Plan, plans};
 
-/// How long a case lasts.
+/// The length of a case.
 const SECONDS: u64 = 30;
 
-/// What is driven where, and what happens meanwhile.
+/// A plan in a room, with stimuli.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The plan.
     pub plan: &'static Plan,
     /// The room.
     pub world: World,
     /// The seed of the robot's noise.
     pub seed: u64,
-    /// What the plan is given: its inputs by name, the values as they would stand in a plan.
+    /// The plan's inputs by name, with values in plan syntax.
     pub inputs: Vec<(&'static str, String)>,
-    /// What happens.
+    /// The stimuli.
     pub chance: Chance,
-    /// When the case is over.
     pub until: Instant,
 }
 
 impl Case {
-    /// The case of a number: room `random:N`, one of the plans, and its own chances.
+    /// The case with a number: room `random:N`, a plan, and random stimuli.
     pub fn random(number: u64) -> Case {
         let plan = &plans()[Dice::new(number, 2).below(plans().len())];
         Case {
@@ -38,7 +36,7 @@ impl Case {
         }
     }
 
-    /// A plan in a given room, in which nothing happens.
+    /// A plan in a given room, without stimuli.
     pub fn quiet(plan: &'static Plan, world: World, seed: u64) -> Case {
         let until = Instant::ZERO + Duration::from_secs(SECONDS);
         Case { plan, world, seed, inputs: Vec::new(), chance: Chance::default(), until }

@@ -1,4 +1,4 @@
-//! What happens at random: faults, presses of the button, bumps.
+//! Random stimuli: faults, presses of the button, bumps.
 
 use std::fmt;
 
@@ -11,22 +11,21 @@ use rand_pcg::rand_core::Rng;
 
 use crate::sensor::Sensor;
 
-/// Something that happens to the robot from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stimulus {
-    /// Something breaks for a while; [`Duration::MAX`] is for good.
+    /// A fault with its duration; [`Duration::MAX`] is permanent.
     Break(Fault, Duration),
-    /// The escape button is pressed or let go.
+    /// The escape button is pressed or released.
     Escape(bool),
-    /// The bumper is pressed or let go.
+    /// The bumper is pressed or released.
     Bump(bool),
 }
 
-/// What happens when, in order of time.
+/// The stimuli in order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chance(pub Vec<(Instant, Stimulus)>);
 
-/// A stream of chances.
+/// A stream of random numbers.
 pub(crate) struct Dice(Pcg32);
 
 impl Dice {
@@ -47,7 +46,7 @@ impl Dice {
         self.below(100) < chance
     }
 
-    /// Whole milliseconds, so that a person can write the schedule down.
+    /// Whole milliseconds, so that the schedule is easy to write.
     fn millis(&mut self, low: f64, high: f64) -> Duration {
         Duration::from_millis(self.between(low * 1e3, high * 1e3) as u64)
     }
@@ -70,12 +69,12 @@ impl Chance {
         if dice.percent(30) {
             hold(dice, &mut stimuli, seconds, Stimulus::Escape);
         }
-        // The sort is stable: of two at the same time the one thrown first comes first.
+        // The sort is stable: of two stimuli at the same time the first one stays first.
         stimuli.sort_by_key(|(at, _)| *at);
         Chance(stimuli)
     }
 
-    /// Lets happen what is due, to the robot.
+    /// Applies every due stimulus to the robot.
     pub(crate) fn happen(&self, next: &mut usize, sim: &mut Simulation) {
         while let Some((at, stimulus)) = self.0.get(*next)
             && *at <= sim.now()
@@ -92,10 +91,10 @@ impl Chance {
     }
 }
 
-/// Any fault, of any strength.
 fn fault(dice: &mut Dice) -> Fault {
     let mut rows: Vec<_> = faults(TABLE).collect();
-    // The recorded worlds were thrown in this order: what any sensor has, the rest, the battery's.
+    // The recorded worlds depend on this order: faults of all sensors, then the others, then the
+    // battery's.
     rows.sort_by_key(|(_, device, row)| match row.name {
         "frozen" | "lost" | "nan" | "delayed" | "slow" => 0,
         _ if device.name == Sensor::Battery.name() => 2,
@@ -108,7 +107,7 @@ fn fault(dice: &mut Dice) -> Fault {
     Carbot::fault(id, amount).expect("the amount is within its bounds")
 }
 
-/// Holds something down for a while.
+/// Presses something for a while.
 fn hold(
     dice: &mut Dice,
     stimuli: &mut Vec<(Instant, Stimulus)>,

@@ -1,4 +1,4 @@
-//! What the robot came to touch, where on its outside, and what it was doing.
+//! The contacts of the robot: the obstacle, the place on the robot's outside, and the active actor.
 
 use std::fmt;
 
@@ -6,32 +6,31 @@ use afp_core::trace::{ComponentKind, Names, Record};
 use afp_core::{Duration, Instant};
 use afp_sim::{Collision, HALF_LENGTH, HALF_WIDTH, Pose, World};
 
-/// The outline of what is touched is looked at in so many places for each of its edges.
+/// The number of tested places on each edge of an obstacle's outline.
 const PLACES: u32 = 200;
 
-/// The robot came to touch something.
 #[derive(Clone, Debug)]
 pub struct Contact {
-    /// What, by its place in [`World::obstacles`].
+    /// The obstacle, as an index into [`World::obstacles`].
     pub obstacle: usize,
-    /// When.
     pub at: Instant,
-    /// The path of the actor that had started last; empty before the first.
+    /// The path of the last actor; empty before the first start.
     pub actor: String,
-    /// Where on the robot's outside: ahead and to the left of its middle, metres.
+    /// The place on the robot's outside: ahead and to the left of its middle, in metres.
     pub place: [f64; 2],
 }
 
-/// What a run leaves behind for its contacts to be told: actors in the order of their starts, and where the robot was.
+/// The records needed to describe contacts: actors in the order of their starts, and the robot's
+/// poses.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Diary {
     pub(crate) actors: Vec<(Instant, String)>,
-    /// One every so often, from the beginning on.
+    /// The poses at a fixed interval, from the beginning on.
     pub(crate) poses: Vec<Pose>,
 }
 
 impl Diary {
-    /// Takes note of an actor that starts.
+    /// Records an actor's start.
     pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
         if let Record::Started { component } = record {
             let component = names.component(*component);
@@ -41,7 +40,8 @@ impl Diary {
         }
     }
 
-    /// The contacts of a run whose poses were noted `every` so often; things are where they were at its start.
+    /// The contacts of a run with its poses at the interval `every`; obstacles are at their initial
+    /// places.
     pub(crate) fn contacts(
         &self,
         world: &World,
@@ -62,7 +62,7 @@ impl Diary {
     }
 }
 
-/// The place of a convex outline that is nearest to the robot's outside, seen from the robot.
+/// The point of a convex outline that is nearest to the robot's outside, relative to the robot.
 fn nearest(pose: Pose, corners: &[[f64; 2]]) -> [f64; 2] {
     let (sin, cos) = pose.heading.sin_cos();
     let seen = |[x, y]: [f64; 2]| {

@@ -1,4 +1,4 @@
-//! Drives one case.
+//! Drives a case.
 
 use std::cell::{Cell, RefCell};
 use std::fmt::Write;
@@ -16,44 +16,44 @@ use crate::push::Pushes;
 use crate::watch::Watch;
 use crate::witness::Witness;
 
-/// How often the truth is looked at.
+/// The interval of checks against ground truth.
 const LOOK: Duration = Duration::from_millis(20);
-/// A robot that is so far from where it takes itself to be, metres, does not know where it is.
+/// The distance between true and estimated position above which the robot is lost, in metres.
 const ASTRAY: f64 = 0.5;
-/// How long the robot is watched after the end.
+/// The time for which the robot is watched after the end.
 const REST: Duration = Duration::from_secs(2);
 
-/// What a case came to.
+/// The result of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The hash of its trace.
     pub trace: TraceHash,
     /// How the plan ended, if it did.
     pub ending: Option<Ending>,
-    /// Promises that broke, oldest first.
+    /// Violated rules, oldest first.
     pub broken: Vec<(Instant, String)>,
-    /// What happened, line by line.
+    /// The events, line by line.
     pub timeline: String,
-    /// What the robot came to touch, each time, oldest first.
+    /// The contacts of the robot, oldest first.
     pub contacts: Vec<Contact>,
-    /// What was seen of it on the way.
+    /// The observations.
     pub seen: Seen,
-    /// When the plan ended, or the case.
+    /// The end of the plan, or of the case.
     pub at: Instant,
-    /// Where the robot is then.
+    /// The robot's pose at that time.
     pub pose: Pose,
 }
 
-/// What is seen of a robot that is looked at every [`LOOK`].
+/// Observations of the robot at each [`LOOK`].
 #[derive(Clone, Debug, Default)]
 pub struct Seen {
-    /// For how long its drive was told to move into something that it touched.
+    /// The time in which its drive was commanded to move into a touched obstacle.
     pub pushing: Duration,
-    /// For how long it touched something while its drive was told to move, into it or away from it.
+    /// The time in which it touched an obstacle while its drive was commanded to move in any
+    /// direction.
     pub touching: Duration,
-    /// When and where it did.
+    /// The times and places of pushes.
     pub pushes: Pushes,
-    /// When it first took itself to be more than [`ASTRAY`] from where it was.
+    /// The first time when its estimate was off by more than [`ASTRAY`].
     pub astray: Option<Instant>,
 }
 
@@ -74,7 +74,8 @@ impl Seen {
 /// Drives a case to its end.
 ///
 /// # Panics
-/// The simulator, the scheduler or a template panics, which they should not; or the plan lacks an input of the case.
+/// The simulator, the scheduler or a template panics, which is a bug; or the case lacks an input of
+/// the plan.
 pub fn run(case: &Case) -> Outcome {
     let plan = loaded(case);
     let names = plan.names();
@@ -122,7 +123,8 @@ pub fn run(case: &Case) -> Outcome {
             wake = scheduler.step((&mut robot, &mut sink, &clock), now);
             watch.borrow_mut().stepped(now);
             if matches!(wake, Wake::Ended(_)) {
-                // Nobody helps the robot: what the plan did must be enough.
+                // From here on the robot gets no commands, so the plan's own actions must be
+                // enough.
                 (at, end) = (now, now + REST);
             }
         }
@@ -136,7 +138,7 @@ pub fn run(case: &Case) -> Outcome {
     Outcome { trace, ending, broken, timeline, contacts, seen, at, pose }
 }
 
-/// Whoever watches a case, before it begins.
+/// The watch of a case, before it begins.
 fn watch(case: &Case, sim: &Simulation) -> Watch {
     let reach = case.world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
     let reach = reach.flatten().fold(0.0, f64::max);

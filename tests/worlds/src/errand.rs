@@ -1,6 +1,7 @@
-//! Errands: a plan in a made-up room, and where the robot has to be in the end.
+//! Errands: a plan in a random room, with a target.
 //!
-//! A room is fit for an errand when a wide enough way leads to its goal; what a plan misses then is its own fault.
+//! A room is suitable for an errand if a wide enough path leads to its goal; missing the goal is
+//! then the plan's fault.
 
 use std::sync::OnceLock;
 
@@ -16,35 +17,36 @@ use crate::drive::Outcome;
 use crate::plans::{Plan, part, plan};
 use crate::reach::{Reach, bounds, is_in_sight, room};
 
-/// What is lower than this the range sensor does not hear, metres.
+/// The range sensor does not detect obstacles lower than this, in metres.
 const HEARD: f64 = 0.15;
-/// The robot's eyes are so far above the floor, metres.
+/// The height of the robot's eyes, in metres.
 const EYE: f64 = 0.15;
-/// Places that are tried for a goal made up.
+/// The attempts to find a random goal.
 const TRIES: usize = 200;
-/// Nearer to anything the lane is not free at a goal straight ahead, metres.
+/// The free distance around the lane to a goal straight ahead, in metres.
 const LANE: f64 = 0.45;
-/// A bin needs so much room around its middle, metres.
+/// The free distance around the middle of a bin, in metres.
 const BIN: f64 = 0.25;
-/// Nearer to the start than this no goal made up is, metres.
+/// The smallest distance of a random goal from the start, in metres.
 const APART: f64 = 1.5;
 
 /// A plan, a room and a goal.
 #[derive(Clone, Debug)]
 pub struct Errand {
-    /// What is driven, where, and for how long at most.
+    /// The case, with its time limit.
     pub case: Case,
-    /// The text of the room's file, so that the same can be driven by hand.
+    /// The text of the room's file, to repeat the drive by hand.
     pub text: String,
     goal: [f64; 2],
-    /// So near to the goal the robot's middle is in the end, metres.
+    /// The largest final distance of the robot's middle from the goal, in metres.
     within: f64,
-    /// Where that straight on from the start is as good as the goal.
+    /// Whether a place beyond the goal, seen from the start, is as good.
     beyond: bool,
 }
 
 impl Errand {
-    /// Two metres straight ahead, round what stands in the way; none where the room of the number is not fit.
+    /// Two metres straight ahead, around obstacles; `None` if the room with that number is not
+    /// suitable.
     pub fn ahead(number: u64) -> Option<Errand> {
         let text = World::random_text(number);
         let world = parsed(&text);
@@ -52,23 +54,24 @@ impl Errand {
         let goal = [x + 2.0 * heading.cos(), y + 2.0 * heading.sin()];
         let fit = Reach::of(&world).has(goal) && room(&world, goal) > LANE;
         let case = Case::quiet(plan("avoid_obstacle"), world, number);
-        // It counts as there 40 cm beside the place, and the odometry drifts.
+        // The place counts as reached from 40 cm, and the odometry drifts.
         fit.then(|| Errand { case: lasting(case, 300), text, goal, within: 0.7, beyond: true })
     }
 
-    /// To where the room's beacon is as bright as wanted.
+    /// To the bright surroundings of the room's beacon.
     pub fn beacon(number: u64) -> Option<Errand> {
         let text = World::random_text(number);
         let world = parsed(&text);
         let goal = world.lights[0].position;
-        // From the turning centre to the beacon where it is bright enough: the sensor sits 18 cm before it.
+        // The distance from turning centre to beacon with enough brightness: the sensor is 18 cm
+        // ahead.
         let seen = |place| is_in_sight(&world, (place, EYE), (goal, world.lights[0].height));
         let fit = Reach::of(&world).near(goal, 0.5).any(seen);
         let case = Case::quiet(plan("find_infrared"), world, number);
         fit.then(|| Errand { case: lasting(case, 300), text, goal, within: 0.9, beyond: false })
     }
 
-    /// To a pink bin, which is put somewhere.
+    /// To a pink bin at a random place.
     pub fn bin(number: u64) -> Option<Errand> {
         let text = World::random_text(number);
         let world = parsed(&text);
@@ -85,7 +88,6 @@ impl Errand {
         fit.then(|| Errand { case: lasting(case, 300), text, goal, within: 1.2, beyond: false })
     }
 
-    /// To a place of the map.
     pub fn place(number: u64) -> Option<Errand> {
         let text = World::random_text(number);
         let world = parsed(&text);
@@ -93,7 +95,7 @@ impl Errand {
         Errand::within_reach((&world, &reach), text, number, 180)
     }
 
-    /// To a place of a world that can be reached, in so many seconds; the number decides which place.
+    /// To a reachable place of a world, within some seconds; the number selects the place.
     pub fn within_reach(
         (world, reach): (&World, &Reach),
         text: String,
@@ -108,7 +110,7 @@ impl Errand {
         Some(Errand { case, text, goal, within: 0.3, beyond: false })
     }
 
-    /// Why the robot did not do what it was sent for; none if it did.
+    /// The reason why the robot failed its errand, if it did.
     pub fn objection(&self, outcome: &Outcome) -> Option<String> {
         let [mut x, mut y] = [outcome.pose.x - self.goal[0], outcome.pose.y - self.goal[1]];
         let (sin, cos) = self.case.world.start.heading.sin_cos();
@@ -125,7 +127,8 @@ impl Errand {
         }
     }
 
-    /// When the robot touched what its range sensor hears and what does not walk into it.
+    /// The contacts with obstacles that the range sensor detects and that do not walk into the
+    /// robot.
     pub fn touches<'a>(&self, outcome: &'a Outcome) -> impl Iterator<Item = &'a Contact> {
         outcome.contacts.iter().filter(|contact| {
             let obstacle = self.case.world.obstacles.get(contact.obstacle);
@@ -143,7 +146,7 @@ fn lasting(case: Case, seconds: u64) -> Case {
     Case { until: Instant::ZERO + Duration::from_secs(seconds), ..case }
 }
 
-/// A place of the room that is fit, apart from the start.
+/// A suitable place of the room, away from the start.
 fn somewhere(world: &World, number: u64, is_fit: impl Fn([f64; 2]) -> bool) -> Option<[f64; 2]> {
     let (low, high) = bounds(world);
     let mut dice = Dice::new(number, 3);

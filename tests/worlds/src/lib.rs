@@ -1,8 +1,8 @@
-//! Random worlds: a made-up room, a plan, and things that happen at random, thirty seconds long.
+//! Random worlds: a random room, a plan and random stimuli, for thirty seconds.
 //!
-//! [`Case::random`] makes one from a number and [`run`] drives it. What must hold in any of them is
-//! watched while it runs: see [`Watch`] for the rules. Nothing depends on the machine, so the hash of a
-//! case's trace is the same everywhere.
+//! [`Case::random`] makes one from a number and [`run`] drives it. [`Watch`] lists the rules that
+//! are checked during the run. Nothing depends on the machine, so the hash of a case's trace is the
+//! same everywhere.
 #![forbid(unsafe_code)]
 
 mod case;

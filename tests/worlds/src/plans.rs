@@ -1,4 +1,4 @@
-//! The plans that are driven: those shipped, and those of this package for what they lack.
+//! The plans for random worlds: the shipped ones, and this package's for missing features.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,25 +10,23 @@ use afp_dsl::files::Disk;
 use afp_dsl::graph::Graph;
 use afp_syntax::source::Source;
 
-/// Where plans are, seen from the root of the checkout; first those that AFP ships.
+/// The folders of plans, relative to the root of the checkout; the shipped ones come first.
 const SHIPPED: &str = "plans";
 const FOLDERS: [&str; 2] = [SHIPPED, "tests/worlds/plans"];
 
-/// A plan that can be driven in any room.
+/// A plan that runs in any room.
 #[derive(Debug)]
 pub struct Plan {
     /// The name of its file, without `.afp`.
     pub name: String,
-    /// Whether it is one of those that AFP ships.
     pub shipped: bool,
-    /// What it compiles to.
     pub graph: Graph,
 }
 
 /// Every plan, by name.
 ///
 /// # Panics
-/// A file cannot be read, or does not compile.
+/// A file is unreadable, or does not compile.
 pub fn plans() -> &'static [Plan] {
     static PLANS: OnceLock<Vec<Plan>> = OnceLock::new();
     PLANS.get_or_init(|| {
@@ -38,7 +36,7 @@ pub fn plans() -> &'static [Plan] {
     })
 }
 
-/// The plan of a name.
+/// The plan with a name.
 ///
 /// # Panics
 /// There is none.
@@ -47,7 +45,7 @@ pub fn plan(name: &str) -> &'static Plan {
     found.unwrap_or_else(|| panic!("there is no plan '{name}'"))
 }
 
-/// One plan of several in a file that AFP ships.
+/// One plan of several in a shipped file.
 ///
 /// # Panics
 /// There is none.
@@ -56,7 +54,6 @@ pub fn part(file: &str, name: &str) -> Plan {
     compiled(&folder, &folder.join(format!("{file}.afp")), Some(name))
 }
 
-/// The plans of a folder.
 fn of(name: &str) -> Vec<Plan> {
     let folder = folder(name);
     let files = fs::read_dir(&folder).unwrap_or_else(|why| panic!("{}: {why}", folder.display()));
@@ -70,7 +67,7 @@ fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)
 }
 
-/// The plan of a file, one that AFP ships; that of `part` where the file has several.
+/// The plan of a shipped file; that of `part` if the file has several.
 fn compiled(folder: &Path, path: &Path, part: Option<&str>) -> Plan {
     let text = fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -1,4 +1,4 @@
-//! When and where the robot pushed against something, and what it took itself to be doing.
+//! The pushes of the robot against obstacles, with its estimated motion.
 
 use std::fmt;
 
@@ -8,15 +8,15 @@ use afp_sim::Pose;
 
 use crate::witness::Witness;
 
-/// Pushes of one thing that are no farther apart than this are one.
+/// Pushes of one obstacle within this time count as one.
 const APART: Duration = Duration::from_millis(300);
 
-/// A stretch of time in which the robot touched something and its drive was told to move into it.
+/// A time span in which the robot touched an obstacle and its drive was commanded to move into it.
 #[derive(Clone, Debug)]
 pub struct Push {
-    /// The name of what it touched.
+    /// The name of the obstacle.
     pub what: String,
-    /// When it began and when it was seen last, and where the robot was then, truly and by its odometry.
+    /// Its start and end, each with the robot's true pose and its odometry.
     ends: [(Instant, Pose, Option<Motion>); 2],
 }
 
@@ -25,7 +25,7 @@ pub struct Push {
 pub struct Pushes(Vec<Push>);
 
 impl Pushes {
-    /// Whether the robot pushes against something; takes note of it.
+    /// Checks whether the robot pushes against an obstacle, and records it.
     pub(crate) fn look(&mut self, robot: &Witness, names: &[String]) -> bool {
         let truth = robot.sim.truth();
         let Some(obstacle) = truth.pushing().next() else { return false };

@@ -1,19 +1,19 @@
-//! Which places of a room the robot can get to: what a goal must be, so that a plan can be blamed for missing it.
+//! The reachable places of a room: a plan fails only if it misses a reachable goal.
 
 use std::ops::RangeInclusive;
 
 use afp_sim::world::{Mobility, Obstacle};
 use afp_sim::{HALF_LENGTH, HALF_WIDTH, World};
 
-/// From one place to the next, metres.
+/// The distance between two places, in metres.
 const CELL: f64 = 0.1;
-/// A place is wide enough when the robot can turn around there with so much to spare, metres.
+/// A place is wide enough if the robot can turn around there with this clearance, in metres.
 const SPARE: f64 = 0.05;
-/// The robot leaves its start, where there may be less room, for a place so near, metres.
+/// The distance within which the robot may leave a narrow start, in metres.
 const LEAVING: f64 = 0.3;
 
-/// The places of a room to which a wide enough way leads from the robot's start, as things stand at the start. What walks
-/// about is taken away: it gives way by itself.
+/// The places of a room that a wide enough path connects to the robot's start, with obstacles at
+/// their initial places. Walking obstacles are ignored, since they give way.
 #[derive(Clone, Debug)]
 pub struct Reach {
     low: [f64; 2],
@@ -23,7 +23,7 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// Looks for every way in a room.
+    /// Finds the reachable places of a room.
     pub fn of(world: &World) -> Reach {
         let (low, high) = bounds(world);
         let [columns, rows] = [0, 1].map(|i| ((high[i] - low[i]) / CELL).ceil() as usize);
@@ -42,22 +42,21 @@ impl Reach {
         reach
     }
 
-    /// How much floor it can get to, square metres.
+    /// The reachable area, in square metres.
     pub fn area(&self) -> f64 {
         self.reached.iter().filter(|reached| **reached).count() as f64 * CELL * CELL
     }
 
-    /// Whether the robot can get to a place.
     pub fn has(&self, place: [f64; 2]) -> bool {
         self.near(place, CELL / 2.0).next().is_some()
     }
 
-    /// The places within so many metres of one, both ways.
+    /// The places within a distance of another one in metres, along either axis.
     pub fn near(&self, place: [f64; 2], far: f64) -> impl Iterator<Item = [f64; 2]> {
         self.around(place, far).filter(|cell| self.reached[*cell]).map(|cell| self.middle(cell))
     }
 
-    /// The cells within so many metres of a place, along either axis.
+    /// The cells within a distance of a place in metres, along either axis.
     fn around(&self, place: [f64; 2], far: f64) -> impl Iterator<Item = usize> + use<> {
         let range = |i: usize, count: usize| -> RangeInclusive<usize> {
             let cell = |at: f64| ((at - self.low[i]) / CELL).max(0.0) as usize;
@@ -73,7 +72,7 @@ impl Reach {
     }
 }
 
-/// The lower left and the upper right corner of what stands in a room.
+/// The lower left and the upper right corner of a room's obstacles.
 pub(crate) fn bounds(world: &World) -> ([f64; 2], [f64; 2]) {
     let corners = world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
     let outside = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -82,19 +81,19 @@ pub(crate) fn bounds(world: &World) -> ([f64; 2], [f64; 2]) {
     })
 }
 
-/// How far the nearest thing is from a place, metres; nothing inside of one.
+/// The distance from a place to the nearest obstacle in metres; zero inside one.
 pub(crate) fn room(world: &World, place: [f64; 2]) -> f64 {
     let room = |it: &Obstacle| distance(&it.outline.corners(), place);
     world.obstacles.iter().map(room).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether nothing stands between two places, each with its height above the floor, metres.
+/// Whether the line between two places, each with a height in metres, is free of obstacles.
 pub(crate) fn is_in_sight(
     world: &World,
     (from, low): ([f64; 2], f64),
     (to, high): ([f64; 2], f64),
 ) -> bool {
-    /// So many places of the line are looked at.
+    /// The number of tested places on the line.
     const PLACES: u32 = 50;
     (0..=PLACES).all(|n| {
         let share = f64::from(n) / f64::from(PLACES);
@@ -105,7 +104,7 @@ pub(crate) fn is_in_sight(
     })
 }
 
-/// How far a place is from a convex outline whose corners go counter-clockwise; nothing inside of it.
+/// The distance from a place to a convex outline with counter-clockwise corners; zero inside it.
 fn distance(corners: &[[f64; 2]], place: [f64; 2]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     let mut inside = true;

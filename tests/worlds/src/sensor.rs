@@ -1,9 +1,9 @@
-//! The sensors that are watched.
+//! The watched sensors.
 
 use afp_carbot::table::TABLE;
 use afp_core::Duration;
 
-/// What measures, in the order of the Carbot's devices.
+/// The sensors, in the order of the Carbot's devices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sensor {
     Ultrasonic,
@@ -30,12 +30,11 @@ impl Sensor {
         Sensor::Battery,
     ];
 
-    /// A supervisor or an actor asks it at least so often.
+    /// The longest interval between two readings by a supervisor or an actor.
     pub fn asked_every(self) -> Duration {
         Duration::from_millis(if self == Sensor::Battery { 100 } else { 50 })
     }
 
-    /// What the toolbox calls it.
     pub fn name(self) -> &'static str {
         TABLE.get(self as usize).map_or("", |row| row.name)
     }

@@ -1,4 +1,4 @@
-//! One fault at a time, for good: every fault of every device, in every shipped plan and many rooms.
+//! Single permanent faults: every fault of every device, in every shipped plan and many rooms.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -14,28 +14,29 @@ use crate::chance::{Chance, Stimulus};
 use crate::drive::Outcome;
 use crate::plans::{Plan, plans};
 
-/// When the fault begins.
+/// The start of the fault.
 const FROM: Instant = Instant::from_nanos(5_000_000_000);
-/// When a run is over.
+/// The end of a run.
 const UNTIL: Instant = Instant::from_nanos(60_000_000_000);
-/// Longer than this a robot should not push against anything in a run, and for much longer it must not.
+/// The longest time that a robot should push against an obstacle in a run; much longer is a
+/// failure.
 const LONG: Duration = Duration::from_secs(1);
 const TOO_LONG: Duration = Duration::from_secs(3);
 
-/// What says that the robot did not get on, whatever the fault: something stood in its way, or its plan gave up.
+/// The reasons of a blocked robot, for any fault: an obstacle, or a plan that gave up.
 const BLOCKED: [&str; 4] = ["drive-blocked", "drive-stalled", "failed", "no-progress"];
 
-/// A shipped plan in a room, in which one thing breaks for good, or none.
+/// A shipped plan in a room, with one permanent fault or none.
 #[derive(Clone, Debug)]
 pub struct Single {
     /// The plan, in the room, with the fault.
     pub case: Case,
-    /// The device, and what becomes of it; empty for a run without a fault.
+    /// The device and its fault; empty for a run without a fault.
     pub fault: (&'static str, &'static str),
 }
 
 impl Single {
-    /// Every fault in every shipped plan, and none, in rooms `0..rooms`.
+    /// All runs of every shipped plan, with every fault and without one, in rooms `0..rooms`.
     pub fn all(rooms: u64) -> Vec<Single> {
         let mut all = Vec::new();
         for plan in plans().iter().filter(|plan| plan.shipped) {
@@ -64,7 +65,7 @@ impl Single {
         Single { case, fault: name }
     }
 
-    /// What is wrong with how it ended; nothing mostly.
+    /// The objections to its ending, usually none.
     pub fn objections(&self, outcome: &Outcome) -> Vec<String> {
         let mut wrong: Vec<String> =
             outcome.broken.iter().map(|(at, why)| format!("{at}: {why}")).collect();
@@ -79,20 +80,21 @@ impl Single {
         wrong
     }
 
-    /// Whether the robot pushed against something for longer than it should: it slides along something low beside it
-    /// that no sensor of its shows.
+    /// Whether the robot pushed for too long: it may slide along a low obstacle at its side that
+    /// its sensors do not show.
     pub fn pushes_long(&self, outcome: &Outcome) -> bool {
-        // Who goes round things by touching them touches several, and does so with a dead bumper, too: `TOO_LONG` holds.
+        // A plan that feels its way touches several obstacles, also with a dead bumper, so
+        // `TOO_LONG` applies.
         let feels =
             ["avoid_obstacle", "find_object", "patrol"].contains(&self.case.plan.name.as_str());
         !feels && outcome.seen.pushing > LONG
     }
 
-    /// Whether a reason is one that this fault may have.
+    /// Whether this fault can cause a reason.
     fn explains(&self, code: &str) -> bool {
         let (device, kind) = self.fault;
         let silent = match (device, kind) {
-            // Silence that is repeated looks like a rotator that does not move.
+            // Repeated silence looks like a rotator that does not move.
             ("ultrasonic", "frozen") if code == "stuck-rotator" => code,
             ("ultrasonic", "frozen") => "frozen-range",
             ("ultrasonic", _) => "no-range",
@@ -112,7 +114,7 @@ impl Single {
     }
 }
 
-/// How the runs with each fault ended, by plan.
+/// The endings of all runs by fault and plan.
 #[derive(Debug, Default)]
 pub struct Account(BTreeMap<(String, String), Row>);
 
@@ -126,7 +128,6 @@ struct Row {
 }
 
 impl Account {
-    /// Takes a run into account.
     pub fn add(&mut self, single: &Single, outcome: &Outcome) {
         let (device, kind) = single.fault;
         let fault = if device.is_empty() { "none".to_owned() } else { format!("{device}.{kind}") };
@@ -143,7 +144,7 @@ impl Account {
         row.longest = row.longest.max(outcome.seen.pushing);
     }
 
-    /// The account as tables in Markdown, one for each plan.
+    /// The account as Markdown tables, one for each plan.
     pub fn markdown(&self) -> String {
         let mut text = String::new();
         let mut last = "";

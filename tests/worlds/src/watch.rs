@@ -1,4 +1,4 @@
-//! What must hold in any world, watched while a plan runs.
+//! Rules for any world, checked while a plan runs.
 
 use afp_carbot::guard::{LATE, PATIENCE};
 use afp_core::trace::{ComponentKind, Names, Record};
@@ -14,32 +14,34 @@ mod tests;
 
 use stand::Stand;
 
-/// Readings of sensors that measure all the time are usable up to this age.
+/// The largest usable age of readings from continuous sensors.
 const CURRENT: Duration = Duration::from_millis(100);
 
-/// Watches the readings that a plan gets, the commands that it gives and its trace.
+/// Watches a plan's readings, commands and trace.
 ///
 /// The rules:
 ///
-/// 1. A command to move comes at the same instant as a valid reading of the odometry that is no
-///    older than 100 ms.
+/// 1. A command to move comes at the instant of a valid odometry reading that is no older than 100
+///    ms.
 /// 2. A command to move comes no later than the templates' [`PATIENCE`], and a poll, after the last
-///    usable reading of every sensor that was asked since the active actor started. What the range sensor,
-///    the infrared sensor and the camera say now and then is usable once, when it is valid and no older than
-///    200 ms, the patience and the patience; what other sensors say is usable while it is valid and no older
-///    than 100 ms. So neither silence nor nonsense is free space for longer than that.
-/// 3. Whatever interrupts an actor, the command is zero when the next one starts; the same when it
-///    fails, and when it is ready.
-/// 4. After the end of the plan nothing commands motion, and the command is zero at the end.
-/// 5. While the command is zero the robot stands, once the stop time that the templates declare is over,
-///    unless something pushes it; on a slippery floor the time that friction needs comes on top, and
-///    what a controller that hears nothing takes until it stops by itself.
-/// 6. Every body is finite and in the room; valid readings are finite and within what is measured.
+///    usable reading of every sensor used since the active actor started. A valid reading of the
+///    range sensor, the infrared sensor or the camera is usable once, up to an age of 200 ms for
+///    the range sensor and of the patience for the others. Readings of other sensors are usable
+///    while they are valid and no older than 100 ms. Silence and invalid readings therefore never
+///    count as free space for longer.
+/// 3. After any interruption of an actor, the command is zero when the next one starts. The command
+///    is also zero when an actor fails, and when it is ready.
+/// 4. After the end of the plan there are no commands to move, and the command is zero at the end.
+/// 5. While the command is zero, the robot has stopped after the stop time of the templates, unless
+///    something pushes it. On a slippery floor the time for friction is added, and for a deaf
+///    controller the time until it stops by itself.
+/// 6. Every body is finite and in the room; valid readings are finite and within the measuring
+///    range.
 #[derive(Debug)]
 pub struct Watch {
     sensors: [Use; Sensor::ALL.len()],
     command: (f64, f64),
-    /// An actor failed in this step.
+    /// Whether an actor failed in this step.
     failed: bool,
     ended: bool,
     /// The instants of this step and of the one before.
@@ -49,14 +51,14 @@ pub struct Watch {
     broken: Vec<(Instant, String)>,
 }
 
-/// How an actor uses a sensor.
+/// An actor's use of a sensor.
 #[derive(Clone, Copy, Debug, Default)]
 struct Use {
-    /// Since when nothing usable came; none if the sensor has not been asked since the actor started.
+    /// The time since the last usable reading; `None` if the actor has not used the sensor.
     waiting: Option<Instant>,
-    /// When the latest reading was measured.
+    /// The measuring time of the latest reading.
     measured: Instant,
-    /// When it was asked for.
+    /// The time of its request.
     asked: Instant,
 }
 
@@ -74,25 +76,24 @@ impl Watch {
         }
     }
 
-    /// Notes that a promise is broken.
+    /// Records a violated rule.
     pub(crate) fn breaks(&mut self, at: Instant, why: String) {
         if self.broken.len() < 20 {
             self.broken.push((at, why));
         }
     }
 
-    /// What is broken, oldest first.
+    /// The violated rules, oldest first.
     pub(crate) fn broken(self) -> Vec<(Instant, String)> {
         self.broken
     }
 
-    /// A step begins.
     pub(crate) fn step(&mut self, now: Instant) {
         self.steps = [now, self.steps[0]];
         self.failed = false;
     }
 
-    /// A plan was told something by a sensor that measured it at `time`.
+    /// Records a reading that a plan received, measured at `time`.
     pub(crate) fn told(&mut self, sensor: Sensor, valid: bool, time: Instant, now: Instant) {
         let known = &mut self.sensors[sensor as usize];
         let usable = match sensor {
@@ -112,7 +113,7 @@ impl Watch {
         }
     }
 
-    /// The plan commands a motion.
+    /// Records a command to move.
     pub(crate) fn commanded(&mut self, speed: f64, turn: f64, now: Instant) {
         self.command = (speed, turn);
         self.stand.commanded((speed, turn) == (0.0, 0.0), now);
@@ -127,7 +128,7 @@ impl Watch {
         if odometry.asked != now || age > CURRENT {
             self.breaks(now, format!("it drives with an odometry of {age} before"));
         }
-        // Late polls are no reason to fault later than the first one after the patience.
+        // A late poll delays the first possible fault after the patience.
         let late = PATIENCE + self.steps[0].since(self.steps[1]);
         for sensor in Sensor::ALL {
             let patience = late + sensor.asked_every();
@@ -139,7 +140,7 @@ impl Watch {
         }
     }
 
-    /// Something happened in the plan.
+    /// Records an event of the plan.
     pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
         let actor =
             |id| matches!(names.component(id).kind, ComponentKind::Actor | ComponentKind::SubPlan);
@@ -162,7 +163,7 @@ impl Watch {
         }
     }
 
-    /// A step is over.
+    /// Ends a step.
     pub(crate) fn stepped(&mut self, now: Instant) {
         if self.failed {
             self.must_stand(now, "failed");
@@ -179,7 +180,7 @@ impl Watch {
         }
     }
 
-    /// Something happens from outside.
+    /// Records a stimulus.
     pub(crate) fn happened(&mut self, chance: &Chance) {
         for (at, stimulus) in &chance.0 {
             match *stimulus {
@@ -194,7 +195,7 @@ impl Watch {
         }
     }
 
-    /// Looks at the truth.
+    /// Compares with ground truth.
     pub(crate) fn look(&mut self, sim: &Simulation) {
         let now = sim.now();
         let pose = sim.truth().pose();

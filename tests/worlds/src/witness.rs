@@ -1,4 +1,4 @@
-//! The robot with a witness between it and the plan, who sees every reading and every command.
+//! A witness between robot and plan, which records every reading and every command.
 
 use std::cell::{Cell, RefCell};
 use std::fmt;
@@ -22,19 +22,19 @@ use crate::watch::Watch;
 pub(crate) struct Witness {
     pub(crate) sim: Simulation,
     pub(crate) watch: Rc<RefCell<Watch>>,
-    /// What the odometry said last when it was asked.
+    /// The last odometry reading.
     pub(crate) counted: Cell<Option<Motion>>,
 }
 
 impl Witness {
-    /// Notes what a plan was told.
+    /// Records a reading for the plan.
     fn told<T>(&self, sensor: Sensor, reading: Reading<T>) -> Reading<T> {
         let valid = reading.value.is_ok();
         self.watch.borrow_mut().told(sensor, valid, reading.time, self.sim.now());
         reading
     }
 
-    /// A reading that says nonsense breaks a promise.
+    /// An invalid value in a reading violates a rule.
     fn sane(&self, what: &str, value: &dyn fmt::Debug, sane: bool) {
         if !sane {
             let why = format!("a valid reading of {what} is {value:?}");
@@ -174,7 +174,7 @@ impl FlowCamera for Witness {
 
 impl Localisation for Witness {
     fn belief(&mut self, now: Instant) -> Result<Reading<Belief>, Fault> {
-        // What becomes of it is what becomes of the odometry.
+        // It shares the fate of the odometry.
         let Reading { time, value } = self.sim.belief(now)?;
         self.told(Sensor::Odometry, Reading { time, value: value.map(|_| ()) });
         Ok(Reading { time, value })

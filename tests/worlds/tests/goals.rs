@@ -1,6 +1,6 @@
-//! How often plans reach their goal in rooms made up, how soon, and what they touch on the way. `AFP_GOALS` says from which
-//! seed on the rooms are taken and in how many, as in `AFP_GOALS=5000..100`; `AFP_GOAL` tells everything about one run, as in
-//! `AFP_GOAL=5017`.
+//! Success rates of plans in random rooms, with times and contacts. `AFP_GOALS` sets the first seed
+//! and the number of rooms, as in `AFP_GOALS=5000..100`; `AFP_GOAL` shows the details of one run,
+//! as in `AFP_GOAL=5017`.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -10,7 +10,7 @@ use afp_core::Instant;
 use afp_worlds::{Contact, Errand, Outcome, Pushes, run};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
-/// Rooms unless told otherwise: the first seed and how many.
+/// The default rooms: the first seed and the number.
 const ROOMS: (u64, usize) = (1000, 24);
 
 fn rooms() -> (u64, usize) {
@@ -22,23 +22,23 @@ fn rooms() -> (u64, usize) {
     parts.unwrap_or_else(|| panic!("AFP_GOALS={text}: not FIRST..COUNT"))
 }
 
-/// Rooms in which the robot pushed for longer are listed, seconds.
+/// Rooms with a longer push are listed, in seconds.
 const PUSHED: f64 = 1.0;
 
-/// How a plan fared in all rooms.
+/// The results of a plan in all rooms.
 #[derive(Debug, Default)]
 struct Account {
-    /// The rooms in which it missed its goal, and why.
+    /// The rooms with a missed goal, and the reasons.
     missed: Vec<(u64, String)>,
-    /// The rooms in which it touched what it should not, and by which actors.
+    /// The rooms with forbidden contacts, and the actors.
     touched: Vec<(u64, Vec<Contact>)>,
-    /// For how long it drove to its goal, seconds.
+    /// The times to the goal, in seconds.
     took: Vec<f64>,
-    /// For how long it pushed, seconds, in which room, and against what.
+    /// The durations of pushes in seconds, with the rooms and the obstacles.
     pushed: Vec<(f64, u64, Pushes)>,
-    /// For how long it touched something while it drove, into it or away from it, seconds.
+    /// The durations of contacts while driving in any direction, in seconds.
     touching: Vec<f64>,
-    /// The rooms in which it did not know where it was, and since when.
+    /// The rooms in which the robot was lost, and since when.
     astray: Vec<(u64, Instant)>,
 }
 
@@ -59,7 +59,7 @@ impl Account {
         self.astray.extend(outcome.seen.astray.map(|at| (room, at)));
     }
 
-    /// Puts rooms and times in order and says it all.
+    /// Sorts and prints everything.
     fn tell(&mut self, name: &str) {
         self.missed.sort();
         self.touched.sort_by_key(|(room, _)| *room);
@@ -95,17 +95,17 @@ impl Account {
         }
     }
 
-    /// Whether the goal is missed in one of so many rooms at most.
+    /// Whether at most one goal of so many is missed.
     fn misses_one_of(&self, many: usize) -> bool {
         self.missed.len() * many <= self.took.len() + self.missed.len()
     }
 }
 
-/// Sends the robot on its errand in the first rooms that are fit.
+/// Runs an errand in the first suitable rooms.
 fn sent(name: &str, errand: fn(u64) -> Option<Errand>) -> Account {
     let (first, count) = rooms();
     let account = Mutex::new(Account::default());
-    // Rooms are looked at while others are driven in; two in three are fit.
+    // Rooms are tested while others are driven in; two thirds are suitable.
     (first..).filter_map(errand).take(count).par_bridge().for_each(|errand| {
         let outcome = run(&errand.case);
         if env::var_os("AFP_GOAL").is_some() {
@@ -120,7 +120,7 @@ fn sent(name: &str, errand: fn(u64) -> Option<Errand>) -> Account {
 }
 
 #[test]
-fn what_stands_in_the_way_is_rounded() {
+fn obstacles_are_avoided() {
     let account = sent("avoid_obstacle", Errand::ahead);
     assert!(account.misses_one_of(6), "{account:?}");
 }

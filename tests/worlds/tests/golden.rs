@@ -1,7 +1,7 @@
-//! Recorded trace hashes: the same on every machine and at every level of optimisation.
+//! Recorded trace hashes: equal on every machine and at every optimisation level.
 //!
-//! A new engine, a changed model, template or plan changes them, and `AFP_BLESS=1` records them
-//! anew; nothing else may.
+//! Only a new engine or a changed model, template or plan may change them; `AFP_BLESS=1` then
+//! records them again.
 
 use std::env;
 use std::fs;
@@ -10,12 +10,12 @@ use std::path::Path;
 use afp_sim::World;
 use afp_worlds::{Case, plan, run};
 
-/// How many random worlds are recorded.
+/// The number of recorded random worlds.
 const RANDOM: u64 = 24;
-/// How many robots in the room of the paper.
+/// The number of robots in the room of the paper.
 const QUIET: u64 = 4;
 
-/// The plans are named, so that a new one changes nothing here.
+/// The plans are listed by name, so that a new one changes nothing here.
 fn cases() -> impl Iterator<Item = (String, Case)> {
     let room = include_str!("../../../worlds/wall_following.toml");
     let room = World::parse(room).expect("the room is well-formed");

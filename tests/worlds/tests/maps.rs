@@ -1,6 +1,6 @@
-//! How often `GoTo` reaches places on public maps. Nothing is fetched: `AFP_MAPS` names a folder with the repositories of
-//! `maps.toml`, each in a folder that is called as it is; `AFP_PLACES` says how many places on each map, 9 by default, and
-//! `AFP_MAP` which maps alone, by a part of their path.
+//! Success rates of `GoTo` on public maps. The test downloads nothing: `AFP_MAPS` is a folder with
+//! the repositories of `maps.toml`, each in a folder of its name. `AFP_PLACES` sets the number of
+//! places on each map, 9 by default, and `AFP_MAP` selects maps by a part of their path.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -12,9 +12,9 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde::Deserialize;
 
 const LIST: &str = include_str!("../maps.toml");
-/// Places on each map unless told otherwise.
+/// The default number of places on each map.
 const PLACES: u64 = 9;
-/// How long the robot may take, seconds.
+/// The time limit of the robot, in seconds.
 const PATIENCE: u64 = 900;
 
 #[derive(Deserialize)]
@@ -22,20 +22,19 @@ struct List {
     map: Vec<Entry>,
 }
 
-/// A map of the list.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
     repository: String,
     path: String,
     start: [f64; 3],
-    /// So many of nine places may be missed.
+    /// The permitted misses of nine places.
     #[serde(default)]
     missed: u64,
 }
 
 impl Entry {
-    /// The world that it is, as text and as such.
+    /// The world of the map, as text and loaded.
     fn load(&self, folder: &Path) -> Result<(String, World), String> {
         let path = folder.join(&self.repository).join(&self.path);
         let read = |path: &Path| fs::read(path).map_err(|why| format!("{}: {why}", path.display()));
@@ -51,7 +50,8 @@ impl Entry {
         Ok((text, world))
     }
 
-    /// Sends the robot to places of the map; how many it missed and touched things on its way to, and of how many.
+    /// Drives to places of the map; returns the numbers of misses, of drives with contacts, and of
+    /// places.
     fn visit(&self, folder: &Path, places: u64) -> Result<[usize; 3], String> {
         let (text, world) = self.load(folder)?;
         let reach = Reach::of(&world);

@@ -1,7 +1,8 @@
-//! Every single fault in every shipped plan: the robot stops for the right reason, or gets where it should, and pushes
-//! against nothing for long. By default in a few rooms; `AFP_ROOMS` says in how many, and `AFP_BLESS=1` then writes the
-//! page of the book; `AFP_PLAN` leaves out every plan but one, `AFP_FAULT` every case whose name does not end with one of
-//! these, as in `touch.frozen,slip`; `AFP_SINGLE` says which case to show.
+//! Every single fault in every shipped plan: the robot stops for the right reason, or reaches its
+//! goal, and does not push for long. By default it runs in a few rooms. `AFP_ROOMS` sets their
+//! number, and `AFP_BLESS=1` then writes the book's page. `AFP_PLAN` selects one plan, `AFP_FAULT`
+//! selects cases by endings of their names, as in `touch.frozen,slip`, and `AFP_SINGLE` shows one
+//! case.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -12,24 +13,23 @@ use afp_core::Duration;
 use afp_worlds::{Account, Single, run};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-/// Rooms unless told otherwise.
+/// The default number of rooms.
 const ROOMS: u64 = 1;
-/// A run that pushes for longer is told of.
+/// Runs with a longer push are printed.
 const TOLD: Duration = Duration::from_millis(900);
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/single-faults.md");
-/// One run of so many may push against something for more than a second, but for plans that go round things by touching
-/// them.
+/// One run of so many may push for more than a second, apart from plans that feel their way.
 const LONG_OF: usize = 500;
-/// The tables of the page begin here.
+/// The beginning of the page's tables.
 const TABLES: &str = "<!-- tables: made by a test -->\n";
 
-/// The name of a case, by which [`shown`] finds it again.
+/// The name of a case, for [`shown`].
 fn name(single: &Single) -> String {
     let (device, kind) = single.fault;
     format!("{} {} {device}.{kind}", single.case.plan.name, single.case.seed)
 }
 
-/// Drives the case of a name and tells everything about it.
+/// Drives the case with a name and prints the details.
 fn shown(name_of: &str, all: &[Single]) {
     let single = all.iter().find(|single| name(single) == name_of);
     let single = single.unwrap_or_else(|| panic!("no case '{name_of}'"));

@@ -1,4 +1,5 @@
-//! Random worlds, by default two hundred; `AFP_WORLDS` says how many, `AFP_WORLD_SEED` which one.
+//! Random worlds, two hundred by default; `AFP_WORLDS` sets the number, `AFP_WORLD_SEED` selects
+//! one.
 
 use std::env;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,9 +10,9 @@ use std::time::{Duration, Instant};
 use afp_worlds::{Case, Outcome, run};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-/// How many worlds are driven through unless told otherwise.
+/// The default number of worlds.
 const WORLDS: u64 = 200;
-/// How often a long run says how far it is.
+/// The interval of progress messages.
 const NEWS: Duration = Duration::from_secs(10);
 
 fn asked(name: &str) -> Option<u64> {
@@ -19,13 +20,13 @@ fn asked(name: &str) -> Option<u64> {
     Some(text.parse().unwrap_or_else(|_| panic!("{name}={text}: not a number")))
 }
 
-/// How to see one world again.
+/// The command that repeats a world.
 fn again(number: u64) -> String {
     let profile = if cfg!(debug_assertions) { "" } else { " --release" };
     format!("AFP_WORLD_SEED={number} cargo test{profile} -p afp-worlds -- --nocapture")
 }
 
-/// Drives through a world; what breaks or panics, in words.
+/// Drives through a world and returns violated rules or a panic in words.
 fn verdict(number: u64) -> (Option<Outcome>, Vec<String>) {
     match catch_unwind(AssertUnwindSafe(|| run(&Case::random(number)))) {
         Ok(outcome) => {
@@ -36,7 +37,7 @@ fn verdict(number: u64) -> (Option<Outcome>, Vec<String>) {
     }
 }
 
-/// Drives through one world, and tells everything about it.
+/// Drives through one world and prints the details.
 fn tell(number: u64) {
     print!("{}", Case::random(number));
     let (outcome, broken) = verdict(number);
@@ -48,7 +49,7 @@ fn tell(number: u64) {
 }
 
 #[test]
-fn in_any_world_every_promise_is_kept() {
+fn all_rules_hold_in_any_world() {
     if let Some(number) = asked("AFP_WORLD_SEED") {
         return tell(number);
     }

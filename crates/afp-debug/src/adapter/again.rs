@@ -1,4 +1,4 @@
-//! The command line that repeats a run without a debugger.
+//! The command that repeats a run without a debugger.
 
 use afp_core::{Duration, Instant};
 use afp_dsl::types::text::duration;
@@ -9,8 +9,8 @@ use super::Launch;
 use super::mode::By;
 use crate::target::Target;
 
-/// The command; none where the run had something from outside for which there is no option: a value written or forced on
-/// the way, a hand in the world, a button that is held for as long as somebody likes.
+/// Returns the command. It is `None` if some input has no option: a value written or forced during
+/// the run, a move in the world, or a button held for an unknown time.
 pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<String> {
     if let Some(log) = &launch.log {
         return Some(format!("afpc run --again {}", shell_file(log)));
@@ -40,7 +40,7 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
         }
         _ => {}
     }
-    // What is set before the start is asked for first.
+    // Values set before the start are the first requests.
     let requests = target.requests();
     let requests = requests.get(launch.set.len()..)?;
     for (option, value) in options(requests, target.now())? {
@@ -49,7 +49,7 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
     Some(command)
 }
 
-/// What came from outside up to the end as options.
+/// Converts the inputs up to the end to options.
 fn options(
     requests: &[(Instant, Stimulus)],
     ended: Instant,
@@ -59,7 +59,7 @@ fn options(
         let press = |control| ("--press", format!("{control}@{}", second(*at)));
         options.push(match what {
             Stimulus::Hold(control, HOLD) => press(control),
-            // What a press has ended does not see how long it lasts.
+            // The plan ended before the end of the press, so its length has no effect.
             Stimulus::Press(control, true) if ended <= *at + HOLD => press(control),
             Stimulus::Break(NameWithUnit { name, unit }, amount, lasting) => {
                 let amount = match amount {
@@ -78,7 +78,7 @@ fn options(
     Some(options)
 }
 
-/// An instant as the command line takes it, exact.
+/// An exact instant in command-line format.
 fn second(at: Instant) -> String {
     duration(at.as_nanos()).replace(' ', "")
 }

@@ -1,4 +1,4 @@
-//! The clients of a run: how each counts lines, which events it subscribed to, joining and leaving.
+//! The clients of a run: their numbering, subscriptions, joining and leaving.
 
 use std::time::Duration as Wall;
 
@@ -8,11 +8,10 @@ use serde_json::{Value, json};
 
 use super::Adapter;
 
-/// A client of an adapter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ClientId(u32);
 
-/// A message for a client.
+/// A message with its receiver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Outgoing {
     pub to: ClientId,
@@ -20,43 +19,40 @@ pub struct Outgoing {
     pub message: String,
 }
 
-/// What is known of a client.
 #[derive(Debug)]
 pub(super) struct Client {
-    /// What it calls itself.
     pub name: String,
     pub counting: Counting,
-    /// Whether it names files by their addresses.
     pub names_uris: bool,
-    /// The number of the last message to it.
+    /// The number of the last message sent to it.
     sent: i64,
-    /// Whether it knows what clients have to know.
+    /// Whether it has given the token.
     pub admitted: bool,
-    /// Whether it is told what happens in the run.
+    /// Whether it receives the run's events.
     pub attached: bool,
-    /// Whether it wants to be told what is the case.
+    /// Whether it receives state messages.
     pub state: bool,
-    /// Whether it wants to be told what the robot's signals say.
+    /// Whether it receives the robot's signals.
     pub sensed: bool,
-    /// Whether it wants to be told what happens, as records.
+    /// Whether it receives the trace as records.
     pub trace: bool,
-    /// Whether it knows our own requests, and so our own events.
+    /// Whether it knows AFP's own requests, and therefore AFP's own events.
     pub ours: bool,
-    /// What keeps it in its role, where it answers for that.
+    /// The lease on its role, if it has one.
     pub lease: Option<Lease>,
-    /// Whether it has said goodbye.
+    /// Whether it has disconnected.
     pub over: bool,
 }
 
-/// When a client was asked last whether it is there, and since when it has not said so.
+/// The time of the last question of a lease, and how long it is unanswered.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lease {
     pub asked: Wall,
-    /// How long an answer could have been heard to what was asked; none where all is answered.
+    /// The time during which an answer could have arrived; `None` if no question is open.
     pub open: Option<Wall>,
 }
 
-/// How a client counts.
+/// The line and column numbers of a client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Counting {
     /// The number of the first line.
@@ -66,7 +62,6 @@ pub(super) struct Counting {
 }
 
 impl ClientId {
-    /// The number that clients know each other by.
     pub(super) fn number(self) -> u32 {
         self.0
     }
@@ -78,7 +73,6 @@ impl Default for Counting {
     }
 }
 
-/// Names the files of all sources in a message in another way.
 pub(super) fn rename_sources(message: &mut Value, rename: fn(&str) -> String) {
     if let Some(Value::String(path)) = message.pointer_mut("/source/path") {
         *path = rename(path);
@@ -91,7 +85,7 @@ pub(super) fn rename_sources(message: &mut Value, rename: fn(&str) -> String) {
 }
 
 impl Adapter<'_> {
-    /// A client comes; what it says is handed over with its number.
+    /// Adds a client and returns its id for later messages.
     pub fn join(&mut self) -> ClientId {
         self.joined += 1;
         let (id, number) = (ClientId(self.joined), self.joined);
@@ -113,14 +107,15 @@ impl Adapter<'_> {
         id
     }
 
-    /// A client is gone: its breakpoints go with it, and its role. With the last one that it is told to, the run ends.
+    /// Removes a client with its breakpoints and its role. The run ends with the last attached
+    /// client.
     pub fn leave(&mut self, id: ClientId) -> Vec<Outgoing> {
         self.detach(id);
         self.clients.remove(&id);
         self.take()
     }
 
-    /// A client is not told of the run any more.
+    /// Stops sending the run's events to a client.
     pub(super) fn detach(&mut self, id: ClientId) {
         let Some(client) = self.clients.get_mut(&id) else { return };
         client.attached = false;
@@ -139,27 +134,26 @@ impl Adapter<'_> {
         self.send_roles();
     }
 
-    /// Whether a client has said goodbye.
+    /// Whether a client has disconnected.
     pub fn is_over(&self, id: ClientId) -> bool {
         self.clients.get(&id).is_none_or(|client| client.over)
     }
 
-    /// Whether a client has been let in: it has launched a run or joined one, with the token where there is one.
+    /// Whether a client is admitted: it has launched or joined a run, with the token if one is set.
     pub fn is_admitted(&self, id: ClientId) -> bool {
         self.clients.get(&id).is_some_and(|client| client.admitted)
     }
 
-    /// Those who have been let in.
     pub(super) fn admitted(&self) -> impl Iterator<Item = ClientId> + '_ {
         self.clients.iter().filter(|(_, client)| client.admitted).map(|(id, _)| *id)
     }
 
-    /// Those who are told what happens in the run.
+    /// The clients that receive the run's events.
     pub(super) fn attached(&self) -> impl Iterator<Item = ClientId> + '_ {
         self.clients.iter().filter(|(_, client)| client.attached).map(|(id, _)| *id)
     }
 
-    /// How the client that asks counts.
+    /// The numbering of the asking client.
     pub(super) fn counting(&self) -> Counting {
         self.counting_of(self.asker)
     }
@@ -172,7 +166,7 @@ impl Adapter<'_> {
         self.clients.get(&id).map_or("a client that is gone", |client| &*client.name)
     }
 
-    /// Takes all messages, numbered for each client.
+    /// Takes all messages, with sequence numbers for each client.
     pub(super) fn take(&mut self) -> Vec<Outgoing> {
         let mut all = Vec::with_capacity(self.out.len());
         for (to, mut message) in std::mem::take(&mut self.out) {
@@ -187,24 +181,23 @@ impl Adapter<'_> {
         all
     }
 
-    /// Sends an event of the protocol to all.
+    /// Sends a protocol event to all clients.
     pub(super) fn event<E: IEvent>(&mut self, body: &E::Body) {
         let body = serde_json::to_value(body).unwrap_or_default();
         self.broadcast(E::EVENT, &body);
     }
 
-    /// Sends an event of the protocol to a client.
+    /// Sends a protocol event to a client.
     pub(super) fn event_to<E: IEvent>(&mut self, to: ClientId, body: &E::Body) {
         let body = serde_json::to_value(body).unwrap_or_default();
         self.send_event(to, E::EVENT, body);
     }
 
-    /// Sends an event to all.
+    /// Sends an event to all clients.
     pub(super) fn broadcast(&mut self, event: &str, body: &Value) {
         self.send_event_where(|client| client.attached, event, body);
     }
 
-    /// Sends an event to some.
     pub(super) fn send_event_where(
         &mut self,
         wanted: impl Fn(&Client) -> bool,
@@ -217,7 +210,6 @@ impl Adapter<'_> {
         }
     }
 
-    /// Sends an event to a client.
     pub(super) fn send_event(&mut self, to: ClientId, event: &str, body: Value) {
         let mut message = json!({"type": "event", "event": event});
         if !body.is_null() {

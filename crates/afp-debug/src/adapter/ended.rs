@@ -1,4 +1,4 @@
-//! How a run has ended: by what, with which figures, and by which command it is repeated.
+//! The end of a run: its reason, its figures and the command that repeats it.
 
 use afp_session::{EndingKind, Figure, FigureValue};
 use dapts::event;
@@ -7,11 +7,11 @@ use serde_json::{Map, Value, json};
 use super::mode::By;
 use super::{Adapter, Run, again};
 
-/// So many stretches of time are told one by one.
+/// The number of time spans listed individually.
 const SPANS: usize = 4;
 
 impl Adapter<'_> {
-    /// Tells how the plan ended.
+    /// Sends how the plan ended.
     pub(super) fn ended(&mut self, run: &Run<'_>, by: &By) {
         let ending = run.target.state().ended().map_or(EndingKind::Interrupted, |it| it.0);
         let misses = run.target.misses();
@@ -45,14 +45,14 @@ impl Adapter<'_> {
 }
 
 impl Run<'_> {
-    /// The edge by which the plan ended, as function breakpoints name it.
+    /// The last edge of the plan, in the format of function breakpoints.
     fn last_edge(&self) -> Option<String> {
         let led = self.target.state().ended_by()?;
         let unit = self.target.program().unit(led.by)?;
         Some(format!("{}.{}", unit.path, led.outcome))
     }
 
-    /// The same, or who made it end; nothing where a log breaks off.
+    /// The last edge, or the client that ended the run; null for an incomplete log.
     fn ended_by(&self, by: &By) -> Value {
         match (by, self.last_edge()) {
             (_, Some(edge)) => json!({ "edge": edge }),
@@ -89,7 +89,7 @@ impl Run<'_> {
     }
 }
 
-/// What a run came to, where there is something to say.
+/// A figure in words, if it has content.
 fn in_words(figure: &Figure) -> Option<String> {
     let name = figure.name.replace('_', " ");
     if !figure.text.is_empty() {

@@ -1,4 +1,4 @@
-//! Values and outcomes that a client holds in place for a while, whatever the plan does.
+//! Values and outcomes that a client forces for a while.
 
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
@@ -10,26 +10,27 @@ use super::{Adapter, Answer, Refusal, Run};
 use crate::program::Spot;
 use crate::target::Happened;
 
-/// How long something is forced unless a client says otherwise, and at most: seconds.
+/// The default and the maximum duration of a force, in seconds.
 const USUALLY: f64 = 10.0;
 const AT_MOST: f64 = 600.0;
 
 #[derive(Deserialize)]
 pub(super) struct Wanted {
-    /// An entry of the outermost plan, or a state or event: `patrol.avoid.touch.TouchSensorPressed`.
+    /// An entry of the outermost plan, or a state or event:
+    /// `patrol.avoid.touch.TouchSensorPressed`.
     path: String,
-    /// The value of the entry, as people write it.
+    /// The value of the entry with its unit.
     value: Option<String>,
     seconds: Option<f64>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Release {
-    /// What is not forced any more; without it nothing is.
+    /// The path to release; the default is all.
     path: Option<String>,
 }
 
-/// Something that is forced.
+/// A forced value or outcome.
 #[derive(Clone, Debug)]
 pub(super) struct Force {
     path: String,
@@ -39,14 +40,14 @@ pub(super) struct Force {
 
 #[derive(Clone, Debug)]
 enum What {
-    /// An entry has this value.
+    /// The value of an entry.
     Value(String),
-    /// A component reports an outcome whenever it is asked.
+    /// An outcome that a component reports at each poll.
     Outcome { component: ComponentId, name: String },
 }
 
 impl Adapter<'_> {
-    /// Forces an entry or an outcome; gives all that is forced.
+    /// Forces an entry or an outcome, and returns all forces.
     pub(super) fn force(&mut self, wanted: Wanted) -> Answer<Value> {
         let seconds = wanted.seconds.unwrap_or(USUALLY);
         if !(seconds > 0.0 && seconds <= AT_MOST) {
@@ -71,7 +72,7 @@ impl Adapter<'_> {
         self.say_forced()
     }
 
-    /// Lets go of what is forced; gives what still is. Entries keep their values.
+    /// Releases forces and returns the remaining ones. Entries keep their values.
     pub(super) fn release(&mut self, release: Release) -> Answer<Value> {
         let run = self.run()?;
         let stays = |force: &Force| release.path.as_ref().is_some_and(|path| *path != force.path);
@@ -87,7 +88,7 @@ impl Adapter<'_> {
 }
 
 impl Run<'_> {
-    /// What is forced, and until when.
+    /// All forces with their end times.
     pub(super) fn forced(&self) -> Vec<Value> {
         let shown = |force: &Force| {
             let mut shown = json!({"path": force.path, "until": force.until.as_secs_f64()});
@@ -99,7 +100,7 @@ impl Run<'_> {
         self.forces.iter().map(shown).collect()
     }
 
-    /// The state or event of a path.
+    /// Finds the state or event of a path.
     fn outcome(&self, path: &str) -> Result<What, String> {
         let program = self.target.program();
         match program.find(path) {
@@ -116,14 +117,14 @@ impl Run<'_> {
         }
     }
 
-    /// Makes a component report what is forced, if it is asked now; else it does once it starts.
+    /// Makes a component report the forced outcome, now or when it starts.
     fn fire(&mut self, what: &What) -> Result<(), String> {
         let What::Outcome { component, name } = what else { return Ok(()) };
         let waits = !self.target.state().is_on(*component) && !self.target.is_recorded();
         if waits { Ok(()) } else { self.target.fire(*component, name) }
     }
 
-    /// After something happened: what is forced is so again, what has had its time is not any more.
+    /// Applies forces again after a step, and removes expired ones.
     pub(super) fn keep_forces(&mut self, happened: &[Happened]) {
         if self.forces.is_empty() {
             return;
@@ -148,7 +149,7 @@ impl Run<'_> {
                 }
             });
             if again {
-                // What cannot be now, because its plan is over, is tried again when it can.
+                // If the sub-plan has ended, the next step tries again.
                 let _ = match &force.what {
                     What::Value(value) => self.target.set(&force.path, value.trim()).map(|_| ()),
                     outcome => self.fire(outcome),

@@ -1,7 +1,8 @@
-//! Going to an element along the plan's own edges: what is active, or watches, is made to report what leads there.
+//! Goes to an element along the plan's own edges: active elements and watching supervisors report
+//! the outcomes on the path.
 //!
-//! Nothing is entered from nowhere: values are those that the edges on the way leave, the trace is one that sensors could
-//! have brought about, and so the run can be gone back through and run again.
+//! Every entry into an element follows an edge, so values come from the edges on the path. Sensors
+//! could produce the same trace, so the run can be stepped back and repeated.
 
 use std::collections::VecDeque;
 use std::collections::btree_map::{BTreeMap, Entry};
@@ -16,7 +17,6 @@ use super::{Adapter, Answer, Refusal, Run};
 use crate::program::{Program, Spot, Unit};
 use crate::target::Happened;
 
-/// What a component has to report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Report {
     component: ComponentId,
@@ -24,7 +24,7 @@ struct Report {
 }
 
 impl Adapter<'_> {
-    /// The elements at a line.
+    /// Lists the elements at a line.
     pub(super) fn goto_targets(
         &mut self,
         asked: dapts::GotoTargetsArguments,
@@ -68,7 +68,7 @@ impl Adapter<'_> {
 }
 
 impl Run<'_> {
-    /// Makes the next report on the way to an element come about.
+    /// Causes the next report on the path to an element.
     fn lead(&mut self, to: ComponentId) -> Result<(), String> {
         let program = self.target.program().clone();
         let unit = program.unit(to).filter(|unit| unit.kind != ComponentKind::Supervisor);
@@ -90,10 +90,10 @@ impl Run<'_> {
         self.target.fire(component, &outcome)
     }
 
-    /// After something happened on the way to an element: what leads on from here is made to come about.
+    /// Causes the next report after a step on the path.
     ///
     /// # Errors
-    /// Nothing does: why.
+    /// The reason if no report leads on.
     pub(super) fn lead_on(&mut self, happened: &[Happened]) -> Result<(), String> {
         let Mode::Goto(to) = self.mode else { return Ok(()) };
         let plan = self.target.program().unit(to).map(|unit| unit.plan);
@@ -109,7 +109,7 @@ impl Run<'_> {
     }
 }
 
-/// Whether something has come to the element that one goes to; computations are done as soon as they begin.
+/// Whether the target was reached; a computation is done as soon as it begins.
 pub(super) fn is_there(happened: &[Happened], to: ComponentId) -> bool {
     happened.iter().any(|what| {
         let kind = matches!(what.event.kind, EventKind::Started | EventKind::Finished(_));
@@ -117,7 +117,7 @@ pub(super) fn is_there(happened: &[Happened], to: ComponentId) -> bool {
     })
 }
 
-/// The first report on a shortest way from one element of a plan to another one.
+/// The first report on a shortest path between two elements of a plan.
 fn way(program: &Program, plan: ComponentId, from: ComponentId, to: &str) -> Option<Report> {
     let is_it =
         |unit: &Unit, name: &str| unit.plan == plan && unit.owner.is_none() && unit.name == name;
@@ -140,7 +140,8 @@ fn way(program: &Program, plan: ComponentId, from: ComponentId, to: &str) -> Opt
     None
 }
 
-/// The edges that can be brought about while an element is active: of itself where it is an actor, and of all who watch.
+/// The edges that can be taken while an element is active: its own if it is an actor, and those of
+/// its supervisors.
 fn edges(program: &Program, plan: ComponentId, here: ComponentId) -> Vec<(Report, &str)> {
     let Some(unit) = program.unit(here) else { return Vec::new() };
     let report =

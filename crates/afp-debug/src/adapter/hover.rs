@@ -1,5 +1,5 @@
-//! What a word of the text has to do with the run: the value of an entry or formula, what a port was given, since when an
-//! element is active, what a supervisor reported, when an edge was taken.
+//! Hover during a run: the value of an entry or formula, a port's last input, the start of an
+//! element, a supervisor's report, the last use of an edge.
 
 use afp_core::Instant;
 use afp_core::trace::ComponentId;
@@ -11,11 +11,10 @@ use crate::program::{Place, Program, Spot, Unit};
 use crate::state::State;
 use crate::watched::Watched;
 
-/// What there is to say of a word.
 struct HoverText {
     text: String,
     ty: Option<String>,
-    /// More of it, as for [`Adapter::variables`]; 0 for nothing.
+    /// A reference for [`Adapter::variables`]; 0 if there are no details.
     more: u32,
 }
 
@@ -26,7 +25,7 @@ impl From<String> for HoverText {
 }
 
 impl Adapter<'_> {
-    /// What a word is while the plan runs. Without its place in a file it is one of the frame.
+    /// Evaluates a word during the run, in the frame if the client gives no position.
     pub(super) fn hover(
         &mut self,
         asked: &dapts::EvaluateArguments,
@@ -41,7 +40,8 @@ impl Adapter<'_> {
                 let is_of_frame =
                     |(plan, _): &&(ComponentId, _)| frame.is_some_and(|it| it.plan == *plan);
                 let is_on = |(plan, _): &&(ComponentId, _)| state.is_on(*plan);
-                // Of several uses of a plan that of the frame is meant, else the one that goes on.
+                // Among several uses of a plan, the frame's one comes first, and then the active
+                // one.
                 let inside = all.iter().find(is_of_frame).or_else(|| all.iter().find(is_on));
                 *inside
                     .or_else(|| all.first())
@@ -67,7 +67,7 @@ impl Adapter<'_> {
         })
     }
 
-    /// Where a word stands, if the client says so.
+    /// The position of a word, if the client gives one.
     fn place(&mut self, asked: &dapts::EvaluateArguments) -> Answer<Option<Place>> {
         let path = asked.source.as_ref().and_then(|source| source.path.as_deref());
         let (Some(path), Some(line)) = (path, asked.line) else { return Ok(None) };
@@ -81,16 +81,15 @@ impl Adapter<'_> {
     }
 }
 
-/// A word inside a plan, and behind the name of a component.
+/// A word inside a plan, and after the name of a component.
 struct Word<'a> {
     program: &'a Program,
     state: &'a State,
     plan: ComponentId,
     unit: Option<ComponentId>,
     text: &'a str,
-    /// Whether it is the port in front of a binding.
+    /// Whether it is a port before a binding.
     is_bound: bool,
-    /// The edges that begin with it.
     edges: &'a [Spot],
 }
 
@@ -108,7 +107,7 @@ impl Word<'_> {
         found.ok_or_else(|| self.nothing())
     }
 
-    /// Whether it names an entry: other formulas are what they are.
+    /// Whether it names an entry; other formulas are constant.
     fn reads(&self) -> bool {
         let mut entries = self.program.entries.iter().filter(|entry| entry.plan == self.plan);
         let is_part = |part: char| part.is_alphanumeric() || part == '_';
@@ -127,7 +126,7 @@ impl Word<'_> {
         own.into_iter().chain(owner.and_then(|id| Some((id, self.program.unit(id)?))))
     }
 
-    /// What an input of the component was given last.
+    /// The last value of the component's input.
     fn port(&self) -> Option<HoverText> {
         let id = self.unit?;
         let (_, si_unit) = self.program.unit(id)?.inputs.iter().find(|port| port.0 == self.text)?;
@@ -136,7 +135,7 @@ impl Word<'_> {
         Some(HoverText::from(value.unwrap_or_else(|| "not read yet".to_owned())))
     }
 
-    /// When a state was reached or an event taken last, by its own edge or by the one at that place.
+    /// The last time of a state or event, by its own edge or the edge at that position.
     fn outcome(&self) -> Option<HoverText> {
         let here = |spot: &&Spot| self.program.plan_at(**spot) == self.plan;
         let last = match self.edges.iter().find(here) {
@@ -154,7 +153,7 @@ impl Word<'_> {
         Some(HoverText::from(text))
     }
 
-    /// What an element or a supervisor does.
+    /// The activity of an element or a supervisor.
     fn component(&self) -> Option<HoverText> {
         let same = self
             .program
@@ -162,7 +161,8 @@ impl Word<'_> {
             .filter(|(_, unit)| unit.plan == self.plan && unit.name == self.text);
         let same: Vec<_> = same.collect();
         let owners: Vec<_> = self.units().map(|(id, _)| id).collect();
-        // An element's own supervisors hide nothing, but two elements may have supervisors of one name.
+        // The supervisors of an element are always visible, but two elements may have supervisors
+        // with the same name.
         let is_near = |unit: &Unit| unit.owner.is_none_or(|owner| owners.contains(&owner));
         let (id, unit) = same.iter().find(|(_, unit)| is_near(unit))?;
         let is_on = self.state.is_on(*id);
@@ -186,7 +186,7 @@ impl Word<'_> {
     }
 }
 
-/// Whether a text goes on with what binds a port.
+/// Whether a text continues with a port binding.
 fn binds(behind: &str) -> bool {
     behind.strip_prefix('=').is_some_and(|rest| !rest.starts_with('='))
 }

@@ -14,47 +14,47 @@ use super::mode::{By, Mode, Pace};
 use super::stop::stopped_event;
 use super::{Adapter, Answer, Guard, Refusal, Run, parse};
 
-/// What is to be run, and how.
+/// The arguments of `launch`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub struct Launch {
     /// The plan's file; append `:Plan` to select a plan other than the first.
     pub program: String,
-    /// The log of a run that is over, to be looked at in place of a run.
+    /// The log of a recorded run, to show instead of a new run.
     pub log: Option<String>,
-    /// The world; without one that of the plan.
+    /// The world; the default is the plan's.
     pub world: Option<String>,
-    /// Where the robot starts, metres and radians; without it where the world says.
+    /// The start of the robot, in metres and radians; the default is the world's.
     pub start: Option<[f64; 3]>,
-    /// The seed of all noise; 0 without one.
+    /// The seed of all noise; the default is 0.
     pub seed: Option<u64>,
-    /// Values for `in` entries as people write them, `"30 cm"`.
+    /// Values for `in` entries with units, `"30 cm"`.
     pub set: BTreeMap<String, String>,
-    /// When the plan is stopped at the latest, seconds from the start; never without it.
+    /// The time limit in seconds from the start; the default is none.
     pub until: Option<f64>,
-    /// How fast time passes, as a multiple of that on the wall; without it as fast as it can be computed.
+    /// The speed as a multiple of real time; the default is unlimited.
     pub speed: Option<f64>,
-    /// Whether the run stands still before its first step.
+    /// Whether the run stops before its first step.
     pub stop_on_entry: bool,
-    /// Whether breakpoints hold it.
+    /// Whether breakpoints are disabled.
     pub no_debug: bool,
-    /// What a client has to know that was not started by the same person.
+    /// The token of a guarded adapter.
     pub token: Option<String>,
 }
 
-/// What joins a run of another client.
+/// The arguments of `attach`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Attach {
-    /// What a client has to know that was not started by the same person.
+    /// The token of a guarded adapter.
     token: Option<String>,
-    /// `operator` takes over; without it the client watches.
+    /// `operator` takes over; by default the client only watches.
     role: Option<String>,
-    /// Whether it answers for its role.
+    /// Whether the client puts its role under a lease.
     lease: bool,
 }
 
-/// What can go wrong that a run may be held at.
+/// The exceptions that can stop a run.
 const FILTERS: [(&str, &str, bool); 5] = [
     ("fault", "A component fails", true),
     ("deadlineMissed", "A deadline is missed", false),
@@ -63,7 +63,8 @@ const FILTERS: [(&str, &str, bool); 5] = [
     ("collision", "The robot touches something, in the simulator", false),
 ];
 
-/// What a client can ask for: of a run that is over nothing changes, and who watches changes nothing.
+/// The capabilities for a client: a recorded run cannot change, and an observer cannot change a
+/// run.
 pub(super) fn capabilities(steers: bool, is_recorded: bool) -> dapts::Capabilities {
     let (steers, changes) = (Some(steers), Some(steers && !is_recorded));
     dapts::Capabilities {
@@ -138,14 +139,14 @@ impl Adapter<'_> {
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
         }
         self.event_to::<event::Initialized>(self.asker, &None);
-        // Some may have been set in an earlier run, of another program.
+        // Some breakpoints may come from an earlier run of a different program.
         let program = self.run()?.target.program().clone();
         self.find_breakpoints(&program);
         self.send_roles();
         self.begun()
     }
 
-    /// Joins those who watch a run.
+    /// Joins a run.
     pub(super) fn attach(&mut self, attach: Attach, now: Wall) -> Answer<Value> {
         self.admit(attach.token.as_deref())?;
         match attach.role.as_deref() {
@@ -183,10 +184,10 @@ impl Adapter<'_> {
         self.begun()
     }
 
-    /// Lets the client in that asks.
+    /// Admits the asking client.
     ///
     /// # Errors
-    /// What it told is not what clients have to know, or too many are there already.
+    /// The token is wrong, or the number of clients is at its limit.
     fn admit(&mut self, told: Option<&str>) -> Answer<()> {
         if let Some(Guard { token, most }) = &self.guard {
             if !token.is(told.unwrap_or_default()) {
@@ -202,7 +203,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// The client that asks is told what happens in the run from now on.
+    /// Attaches the asking client to the run's events.
     fn take_part(&mut self) {
         if let Some(client) = self.clients.get_mut(&self.asker) {
             client.attached = true;
@@ -238,7 +239,8 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// A client has set what it wants to set: its run begins; one that has joined is told whether it stands still.
+    /// Starts the run after a client's configuration; a client that joined receives the stopped
+    /// state instead.
     pub(super) fn configured(&mut self, now: Wall) -> Answer<()> {
         let (asker, is_operator) = (self.asker, self.operator == Some(self.asker));
         let run = self.run()?;
@@ -270,7 +272,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Begins again, with the text as it is now; a client may say with what else.
+    /// Starts the run again with the current text, and with new arguments if the client gives some.
     pub(super) fn restart(&mut self, arguments: &Value, now: Wall) -> Answer<()> {
         let run = self.run()?;
         let traced = run.traced.is_some();
@@ -284,7 +286,7 @@ impl Adapter<'_> {
         self.start(now)
     }
 
-    /// Ends the plan, the robot stops, and everybody is told how it ended.
+    /// Ends the plan, stops the robot and sends the result to all clients.
     pub(super) fn terminate(&mut self) -> Answer<()> {
         let Some(mut run) = self.run.take() else { return Ok(()) };
         let mut said = Vec::new();
@@ -301,10 +303,11 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// A client says goodbye; the run goes on for the others, unless it wants it to end and takes part in it.
+    /// Disconnects a client. The run continues for the others, unless a client in the run asks to
+    /// end it.
     pub(super) fn disconnect(&mut self, asked: dapts::DisconnectArguments) -> Answer<()> {
         let asker = self.asker;
-        // Whoever reaches the port may say goodbye; it takes the token to end the run.
+        // Every client at the port can disconnect; ending the run needs the token.
         let may_end = self.guard.is_none() || self.takes_part();
         if let Some(client) = self.clients.get_mut(&asker) {
             client.over = true;
@@ -331,10 +334,10 @@ impl Adapter<'_> {
     }
 }
 
-/// What a run begins with again, where a client says so; one that joined the run sends along what it joined with.
+/// Returns the arguments of a restart, if given. A client that joined sends its `attach` arguments.
 ///
 /// # Errors
-/// It says so, and it is wrong.
+/// The arguments are invalid.
 fn again(arguments: &Value) -> Answer<Option<Launch>> {
     let said = &arguments["arguments"];
     let names = |key: &str| !matches!(&said[key], Value::Null) && said[key] != "";
@@ -342,7 +345,7 @@ fn again(arguments: &Value) -> Answer<Option<Launch>> {
 }
 
 /// # Errors
-/// What is to be run cannot be: why.
+/// The reason if the arguments of `launch` contradict each other.
 fn check(launch: &Launch) -> Answer<()> {
     if launch.speed.is_some_and(|speed| !(speed > 0.0 && speed.is_finite())) {
         return Err("'speed' is a number above 0; leave it out for as fast as can be".into());
@@ -372,5 +375,5 @@ fn check(launch: &Launch) -> Answer<()> {
     Ok(())
 }
 
-/// The number of the thread that is the flow of action.
+/// The thread number of the flow of action.
 pub(super) const FLOW: ComponentId = ComponentId(0);

@@ -1,4 +1,4 @@
-//! What a client can inspect while a run is paused: threads, stacks, values.
+//! Inspection of a paused run: threads, stacks and values.
 
 use std::time::Duration as Wall;
 
@@ -14,14 +14,12 @@ use crate::program::Unit;
 use crate::state::State;
 use crate::watched::Watched;
 
-/// What a number for variables stands for: three bits of this below the number of a component.
+/// The meaning of a variables reference: three bits of this below the component's number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Group {
-    /// The entries of a plan.
     Entries,
-    /// What a component started with.
+    /// The inputs of a component at its start.
     Inputs,
-    /// The supervisors of an element.
     Supervisors,
     /// Reports and deadlines of a supervisor.
     Timing,
@@ -32,7 +30,6 @@ impl Group {
     const ALL: [Group; 5] =
         [Group::Entries, Group::Inputs, Group::Supervisors, Group::Timing, Group::Outputs];
 
-    /// The number by which clients ask for it, of a component.
     pub fn reference(self, id: ComponentId) -> u32 {
         let kind = Group::ALL.iter().position(|known| *known == self).unwrap_or(0) as u32;
         (id.0 << 3 | kind) + 1
@@ -99,7 +96,7 @@ impl Adapter<'_> {
         Ok(dapts::StackTraceResponse { stack_frames, total_frames: total })
     }
 
-    /// The text of a file that the client has not.
+    /// Returns the text of a file that the client does not have.
     pub(super) fn source(
         &mut self,
         asked: dapts::SourceArguments,
@@ -206,7 +203,7 @@ impl Adapter<'_> {
             .collect())
     }
 
-    /// What the entries hold that a component writes, by its ports: what it has ready is written when it is done.
+    /// Lists the entries that a component writes, by port; it writes ready values when it is done.
     fn outputs_of(&mut self, id: ComponentId) -> Answer<Vec<dapts::Variable>> {
         let run = self.run()?;
         let (program, state) = (run.target.program(), run.target.state());
@@ -225,7 +222,7 @@ impl Adapter<'_> {
         Ok(shown.collect())
     }
 
-    /// The supervisors that watch while an element is active, with what they reported last.
+    /// Lists the supervisors of an active element, with their last reports.
     fn supervisors_of(&mut self, element: ComponentId) -> Answer<Vec<dapts::Variable>> {
         let run = self.run()?;
         let (program, state) = (run.target.program(), run.target.state());
@@ -285,7 +282,7 @@ impl Adapter<'_> {
         Ok(dapts::SetVariableResponse { value, ..dapts::SetVariableResponse::default() })
     }
 
-    /// Writes an entry that a formula is.
+    /// Writes an entry, given as a formula.
     pub(super) fn set_expression(
         &mut self,
         asked: dapts::SetExpressionArguments,
@@ -294,7 +291,7 @@ impl Adapter<'_> {
         Ok(dapts::SetExpressionResponse { value, ..dapts::SetExpressionResponse::default() })
     }
 
-    /// Writes an entry by its name in the plan of a frame; gives the value.
+    /// Writes an entry by its name in the plan of a frame, and returns the value.
     fn assign(&mut self, frame: Option<u64>, name: &str, value: &str) -> Answer<String> {
         let plan = self.plan_of(None, frame)?;
         let run = self.run()?;
@@ -304,8 +301,8 @@ impl Adapter<'_> {
         Ok(run.target.set(path, value)?)
     }
 
-    /// The value of a formula; `name = value` writes an entry, but not where a client shows it by itself, again and
-    /// again; `why PATH` is [`Adapter::why`] for clients that have a console alone.
+    /// Evaluates a formula. `name = value` writes an entry, except in watches and hovers, which
+    /// clients repeat. `why PATH` is [`Adapter::why`] for clients that have only a console.
     pub(super) fn evaluate(
         &mut self,
         asked: dapts::EvaluateArguments,
@@ -336,7 +333,6 @@ impl Adapter<'_> {
         Ok(dapts::EvaluateResponse { result, ty, ..dapts::EvaluateResponse::default() })
     }
 
-    /// The plan that a client looks into.
     pub(super) fn plan_of(
         &mut self,
         scope: Option<u32>,
@@ -352,20 +348,19 @@ impl Adapter<'_> {
     }
 }
 
-/// What a supervisor reported last.
+/// The last report of a supervisor.
 pub(super) fn said(state: &State, supervisor: ComponentId) -> String {
     let report = state.report(supervisor);
     report.map_or("clear".to_owned(), |(at, event)| format!("{event} at {:.3} s", at.as_secs_f64()))
 }
 
-/// The two sides of an assignment; a comparison is none.
+/// The two sides of an assignment; `None` for a comparison.
 fn assigned(text: &str) -> Option<(&str, &str)> {
     let (name, value) = text.split_once('=')?;
     let compares = name.ends_with(['!', '<', '>']) || value.starts_with('=');
     (!compares).then(|| (name.trim(), value.trim()))
 }
 
-/// The component behind the number of a frame.
 pub(super) fn component(frame: u64) -> ComponentId {
     ComponentId(u32::try_from(frame.saturating_sub(1)).unwrap_or(u32::MAX))
 }

@@ -1,55 +1,52 @@
-//! How a run goes on, how fast its time passes, and what ends it.
+//! How a run continues, its speed, and how it ends.
 
 use std::time::Duration as Wall;
 
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
 
-/// How a run goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
-    /// It stands still.
+    /// Stopped.
     Held,
-    /// Until something holds it.
+    /// Continue until something stops the run.
     On,
-    /// Until the next transition of a plan, or the end of that plan.
+    /// Until the next transition of a plan, or its end.
     Next(ComponentId),
     /// Until the next transition of any plan.
     Into,
-    /// Until a sub-plan has ended.
+    /// Until the end of a sub-plan.
     Out(ComponentId),
     /// One step of the scheduler.
     One,
-    /// Until an element is active, along edges that are brought about.
+    /// Until an element is active, along forced edges.
     Goto(ComponentId),
-    /// Up to an instant, whatever happens.
+    /// Up to an instant, without stops.
     Seek(Instant),
     Over,
 }
 
 impl Mode {
-    /// Whether it is a step of a client.
     pub fn is_step(self) -> bool {
         matches!(self, Mode::Next(_) | Mode::Into | Mode::Out(_) | Mode::One | Mode::Goto(_))
     }
 }
 
-/// Who or what ended a run.
+/// The reason why a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum By {
     Plan,
-    /// The time that it was given.
+    /// The time limit.
     Until,
-    /// A client, by its name.
     Client(String),
 }
 
-/// How fast time passes.
+/// The speed of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
-    /// A multiple of time on the wall; none is as fast as it can be computed.
+    /// A multiple of real time; `None` means unlimited.
     pub factor: Option<f64>,
-    /// The two times when it began to pass.
+    /// The instants of run and wall clock when this speed began.
     since: (Instant, Wall),
 }
 
@@ -58,7 +55,7 @@ impl Pace {
         Pace { factor, since: (at, now) }
     }
 
-    /// The instant that is now.
+    /// Returns the instant of the run at a wall-clock time.
     pub fn limit(&self, now: Wall) -> Instant {
         let (at, wall) = self.since;
         match self.factor {

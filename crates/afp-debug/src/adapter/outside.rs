@@ -1,4 +1,4 @@
-//! Requests of clients that act from outside: buttons, faults, the speed of time.
+//! Requests that act from outside: buttons, faults, moves, speed.
 
 use std::time::Duration as Wall;
 
@@ -30,7 +30,7 @@ pub(super) struct Break {
 
 #[derive(Deserialize)]
 pub(super) struct Move {
-    /// A thing of the world; the robot without it.
+    /// A thing of the world; the default is the robot.
     thing: Option<String>,
     to: [f64; 3],
 }
@@ -47,7 +47,7 @@ pub(super) struct Speed {
 }
 
 impl<'h> Adapter<'h> {
-    /// What runs, to change something in it.
+    /// The running target, for a change.
     fn changeable(&mut self) -> Answer<&mut (dyn Target + 'h)> {
         let target = &mut *self.run()?.target;
         match target.is_recorded() {
@@ -81,17 +81,16 @@ impl<'h> Adapter<'h> {
         Ok(())
     }
 
-    /// Puts the robot or a thing of its world somewhere else.
+    /// Moves the robot or a thing.
     pub(super) fn carry(&mut self, wanted: Move) -> Answer<()> {
         self.put(wanted.thing.map_or(Put::Robot, Put::Thing), wanted.to)
     }
 
-    /// Puts something into the world that was not there.
+    /// Adds a thing to the world.
     pub(super) fn drop_into(&mut self, wanted: Drop) -> Answer<()> {
         self.put(Put::New(wanted.shape), wanted.to)
     }
 
-    /// What the robot's camera sees.
     pub(super) fn picture(&mut self) -> Answer<Value> {
         let target = &self.run()?.target;
         let (width, height, rgb) = target.picture().ok_or("there is no picture yet")?;

@@ -53,7 +53,7 @@ impl Adapter<'_> {
         Ok(dapts::SetDataBreakpointsResponse { breakpoints })
     }
 
-    /// Sets all breakpoints of a kind; an answer for each that is wanted. Others are told of them.
+    /// Sets all breakpoints of a kind, with an answer for each. Other clients are informed.
     fn set_all(&mut self, set: Set, wanted: Vec<Wanted>) -> Answer<Vec<dapts::Breakpoint>> {
         let program = self.run()?.target.program().clone();
         let first = self.counting().first_line;
@@ -67,7 +67,6 @@ impl Adapter<'_> {
         Ok(told)
     }
 
-    /// Tells all but their owner of breakpoints.
     pub(super) fn send_breakpoints(
         &mut self,
         owner: ClientId,
@@ -83,7 +82,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// Tells a client of a breakpoint, whose it is where it is of another one.
+    /// Sends a breakpoint to a client, with its owner if that is another client.
     pub(super) fn send_breakpoint(
         &mut self,
         other: ClientId,
@@ -101,8 +100,7 @@ impl Adapter<'_> {
         self.event_to::<event::Breakpoint>(other, &dapts::BreakpointEvent { breakpoint, reason });
     }
 
-    /// Finds all breakpoints anew in a program that has taken the place of another one; tells everybody of those that
-    /// are elsewhere now.
+    /// Locates all breakpoints in a new program, and sends moved ones to all clients.
     pub(super) fn find_breakpoints(&mut self, program: &Program) {
         let clients: Vec<_> = self.attached().collect();
         for (owner, moved) in self.breakpoints.find_in(program) {
@@ -155,7 +153,7 @@ impl Adapter<'_> {
     }
 }
 
-/// A breakpoint as the protocol has it.
+/// A breakpoint in the protocol's format.
 fn shown(breakpoint: &Breakpoint, program: &Program, first_line: u32) -> dapts::Breakpoint {
     let id = Some(breakpoint.id);
     match &breakpoint.found {

@@ -1,7 +1,8 @@
-//! Who steers a run, where several watch it: one at a time; anybody may end it.
+//! The operator of a run with several clients: one at a time; each client can end the run.
 //!
-//! A client may put its role under a lease: it is asked five times a second whether it is still there, and answers. A
-//! connection may stay open long after the person behind it is cut off, a page may be hidden; answers tell.
+//! A client can put its role under a lease. The adapter then asks it five times a second, and the
+//! client answers. A connection may stay open after its user is cut off, and a page may be hidden;
+//! only answers prove presence.
 
 use std::time::Duration as Wall;
 
@@ -13,16 +14,16 @@ use super::clients::Lease;
 use super::launch::capabilities;
 use super::{Adapter, Answer, ClientId, Refusal};
 
-/// How often who steers is asked whether it is there.
+/// The interval of questions to the operator.
 const ASK: Wall = Wall::from_millis(200);
-/// How long it may leave that open, of the time in which an answer is heard.
+/// The longest time without an answer, counting only time in which an answer could arrive.
 const SILENT: Wall = Wall::from_secs(3);
-/// How long while the run makes a step of its.
+/// The longest time without an answer during a step of the operator.
 const SILENT_IN_A_STEP: Wall = Wall::from_millis(500);
-/// How often a lease is looked at: what passes beyond that between two calls, the adapter or whoever calls it was busy.
+/// The most time counted between two calls. Beyond it, the adapter or its owner was busy.
 const LOOK: Wall = Wall::from_millis(100);
 
-/// What changes a run, or lets time pass.
+/// Commands that change a run or let time pass.
 const STEERS: &[&str] = &[
     "afp/drop",
     "afp/fault",
@@ -48,16 +49,14 @@ const STEERS: &[&str] = &[
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Wanted {
-    /// The role.
     take: Option<String>,
-    /// Gives it away.
     release: bool,
-    /// Whether it answers for it.
+    /// Whether to put the role under a lease.
     lease: bool,
 }
 
 impl Adapter<'_> {
-    /// Takes the role of who steers, or gives it away; who has which.
+    /// Takes or releases the operator's role, and returns all roles.
     pub(super) fn role(&mut self, wanted: Wanted, now: Wall) -> Answer<Value> {
         self.run()?;
         match wanted.take.as_deref() {
@@ -75,7 +74,7 @@ impl Adapter<'_> {
         Ok(self.roles(self.asker))
     }
 
-    /// The client that asks steers from now on.
+    /// Makes the asking client the operator.
     pub(super) fn take_role(&mut self, lease: bool, now: Wall) {
         let (asker, before) = (self.asker, self.operator);
         self.operator = Some(asker);
@@ -87,7 +86,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// Whether the client that asks may do what it asks for. A role that nobody has is taken by who uses it.
+    /// Checks that the asking client may send a command. The first user of a free role takes it.
     pub(super) fn may(&mut self, command: &str, now: Wall) -> Answer<()> {
         if !STEERS.contains(&command) || self.run.is_none() {
             return Ok(());
@@ -108,14 +107,12 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Tells a client what it can ask for in its role.
     fn send_capabilities(&mut self, id: ClientId) {
         let Some(run) = &self.run else { return };
         let capabilities = capabilities(self.operator == Some(id), run.target.is_recorded());
         self.event_to::<event::Capabilities>(id, &dapts::CapabilitiesEvent { capabilities });
     }
 
-    /// Who has which role, as a client sees it.
     fn roles(&self, to: ClientId) -> Value {
         let attached = self.clients.iter().filter(|(_, client)| client.attached);
         let clients: Vec<_> =
@@ -123,7 +120,7 @@ impl Adapter<'_> {
         json!({"operator": self.operator.map(ClientId::number), "you": to.number(), "clients": clients})
     }
 
-    /// Tells everybody who knows such events who has which role.
+    /// Sends all roles to clients that know AFP's events.
     pub(super) fn send_roles(&mut self) {
         let those = self.clients.iter().filter(|(_, client)| client.attached && client.ours);
         for to in those.map(|(id, _)| *id).collect::<Vec<_>>() {
@@ -132,7 +129,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// Nobody steers any more, since who did does so: what was held in place by who did is let go, and a step of its ends here.
+    /// Ends the operator's role: its forces are released, and its step ends here.
     pub(super) fn lose_operator(&mut self, why: &str) {
         let Some(lost) = self.operator.take() else { return };
         let why = format!("{} {why}", self.name_of(lost));
@@ -146,14 +143,14 @@ impl Adapter<'_> {
         self.output("important", &format!("{why}: nobody steers this run\n"));
         match steps {
             true => self.stopped(Reason::Pause, &why, Vec::new()),
-            // What is held stays so, what runs goes on.
+            // A stopped run stays stopped, and a running one continues.
             false => self.send_state(),
         }
         self.send_capabilities(lost);
         self.send_roles();
     }
 
-    /// Takes a client's breakpoints away and tells the others.
+    /// Removes a client's breakpoints and informs the other clients.
     pub(super) fn forget_breakpoints(&mut self, owner: ClientId) {
         let gone = self.breakpoints.forget(owner);
         let Some(program) = self.run.as_ref().map(|run| run.target.program().clone()) else {
@@ -162,7 +159,6 @@ impl Adapter<'_> {
         self.send_breakpoints(owner, Changed::Removed, &gone, &program);
     }
 
-    /// A client says that it is there.
     pub(super) fn on_lease_answer(&mut self, from: ClientId) {
         let client = self.clients.get_mut(&from);
         if let Some(lease) = client.and_then(|client| client.lease.as_mut()) {
@@ -170,8 +166,8 @@ impl Adapter<'_> {
         }
     }
 
-    /// Lets time pass in which who steers could answer: no longer than between two looks, since what has been said meanwhile
-    /// is heard after what takes long, whoever is slow.
+    /// Adds time in which the operator could answer. It is limited to the interval between two
+    /// checks, because a slow call delays answers that have already arrived.
     pub(super) fn listen_for_lease(&mut self, now: Wall) {
         let passed = now.saturating_sub(std::mem::replace(&mut self.called, now)).min(LOOK);
         let client = self.operator.and_then(|operator| self.clients.get_mut(&operator));
@@ -181,7 +177,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// Asks who steers whether it is there, and lets go of one that is not.
+    /// Asks the operator for its lease answer, and ends the role after a long silence.
     pub(super) fn check_lease(&mut self, now: Wall) {
         let Some(operator) = self.operator else { return };
         let steps = self.run.as_ref().is_some_and(|run| run.mode.is_step());
@@ -199,7 +195,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// When a lease has to be looked at again.
+    /// The time of the next check of a lease.
     pub(super) fn lease_due(&self) -> Option<Wall> {
         let client = self.clients.get(&self.operator?)?;
         client.lease.map(|_| LOOK)

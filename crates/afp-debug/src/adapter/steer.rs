@@ -1,4 +1,4 @@
-//! Lets time pass until a step is complete, a breakpoint is hit, or a client pauses the run.
+//! Advances time until a step is complete, a breakpoint is hit, or a client pauses the run.
 
 use std::time::Duration as Wall;
 
@@ -15,10 +15,10 @@ use crate::breakpoints::Hits;
 use crate::program::Program;
 use crate::target::{Advance, Happened};
 
-/// How many instants pass between two looks at the client, where nothing holds time back.
+/// The instants computed between two checks for messages at unlimited speed.
 pub(super) const BATCH: usize = 2_000;
 
-/// How much time on the wall lies between two messages about what is the case.
+/// The wall-clock time between two state messages.
 const STATES: Wall = Wall::from_millis(50);
 
 #[derive(Deserialize)]
@@ -35,7 +35,7 @@ pub(super) struct Subscribe {
 }
 
 impl Adapter<'_> {
-    /// Begins to tell the client that asks what is the case and what happens, or ends that.
+    /// Starts or ends the asking client's subscriptions.
     pub(super) fn subscribe(&mut self, asked: Subscribe) -> Answer<()> {
         self.run()?;
         if let Some(client) = self.clients.get_mut(&self.asker) {
@@ -47,7 +47,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// How long the run can wait until time has to pass again; none where it waits for the client.
+    /// Returns the time until the run must advance; `None` if it waits for a client.
     pub fn due(&self) -> Option<Wall> {
         let run = self.run.as_ref()?;
         let due = match run.mode {
@@ -100,7 +100,8 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Lets time pass until something holds the run, the time on the wall is reached, or enough was done for once.
+    /// Advances until something stops the run, it catches up with the wall clock, or the batch is
+    /// done.
     pub(super) fn drive(&mut self, now: Wall) {
         let Some(mut run) = self.run.take() else { return };
         match run.mode {
@@ -143,7 +144,7 @@ impl Adapter<'_> {
             match advance {
                 _ if held => return,
                 Advance::Ended if run.target.is_recorded() && run.target.steps() > begun => {
-                    // One who looks at a log goes back from here.
+                    // From the end of a log, a client can only go back.
                     return self.stopped_at(run, Reason::Pause, "the log ends", Vec::new());
                 }
                 Advance::Ended => return self.end(run, &By::Plan),
@@ -154,7 +155,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// Tells what happened in a step, and holds the run where something of it is waited for.
+    /// Reports the events of a step, and stops at a breakpoint.
     fn look_at(
         &mut self,
         run: &mut Run<'_>,
@@ -173,7 +174,7 @@ impl Adapter<'_> {
                 continue;
             }
             all.stop.extend(hits.stop);
-            // What follows from it goes wrong, too.
+            // Later faults in the step follow from the first one.
             if let Some(name) = hits.exception.filter(|_| all.exception.is_none()) {
                 all.exception = Some(name);
                 run.exception = Some((name, what.text.clone()));
@@ -188,7 +189,7 @@ impl Adapter<'_> {
         self.hold(run, &all, happened, steps > before)
     }
 
-    /// Holds the run where the robot has come to touch something, and somebody wants to see that.
+    /// Stops on a new contact of the robot, if a client asked for that.
     fn look_for_collision(&mut self, run: &mut Run<'_>) -> bool {
         if !self.breakpoints.looks_for_collisions() || run.launch.no_debug {
             return false;
@@ -233,14 +234,14 @@ impl Adapter<'_> {
 }
 
 impl Run<'_> {
-    /// Keeps in mind that a step made a transition.
+    /// Records that a step made a transition.
     pub(super) fn note(&mut self, step: u64) {
         if self.transitions.last().is_none_or(|last| *last < step) {
             self.transitions.push(step);
         }
     }
 
-    /// Whether a step of the client is over.
+    /// Whether a client's step is complete.
     fn is_through(&self, happened: &[Happened], stepped: bool) -> bool {
         let any =
             |plan| happened.iter().any(|what| is_transition(what, self.target.program(), plan));
@@ -264,7 +265,7 @@ impl Run<'_> {
     }
 }
 
-/// Whether an element of a plan, of any without one, became active or stopped being so.
+/// Whether an element started or ended, in the given plan or in any plan.
 pub(super) fn is_transition(what: &Happened, program: &Program, plan: Option<ComponentId>) -> bool {
     use afp_dsl::unfold::ComponentKind;
     let event = &what.event;

@@ -1,4 +1,4 @@
-//! What is sent to clients while a run goes on, and when it is paused.
+//! Messages during a run and at a stop.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::sensed::{Cone, Sensed};
 use crate::target::Happened;
 
 impl Kind {
-    /// Why a run stands still at such a breakpoint.
+    /// The reason for a stop at such a breakpoint.
     pub(super) fn reason(self) -> Reason {
         match self {
             Kind::Line => Reason::Breakpoint,
@@ -27,7 +27,7 @@ impl Kind {
 }
 
 impl Adapter<'_> {
-    /// Says what happened, with its place; what components read and see stands in their scopes.
+    /// Sends an event with its place; values that components read are shown in their scopes.
     pub(super) fn say(&mut self, run: &Run<'_>, what: &Happened) {
         if matches!(what.event.kind, EventKind::Input { .. } | EventKind::Polled(_)) {
             return;
@@ -54,13 +54,13 @@ impl Adapter<'_> {
         }
     }
 
-    /// Says what a log point says.
+    /// Sends the text of a log point.
     pub(super) fn log(&mut self, what: &Happened, text: &str) {
         let at = what.event.at.as_secs_f64();
         self.output("console", &format!("{at:>10.3}  {text}\n"));
     }
 
-    /// The run stands still.
+    /// Sends that the run has stopped.
     pub(super) fn stopped(&mut self, reason: Reason, why: &str, hits: Vec<u64>) {
         let Some(mut run) = self.run.take() else { return };
         self.stopped_at(&mut run, reason, why, hits);
@@ -80,7 +80,7 @@ impl Adapter<'_> {
         self.send_state_of(run);
     }
 
-    /// What went wrong last.
+    /// The last fault.
     pub(super) fn exception_info(
         &mut self,
         _: dapts::ExceptionInfoArguments,
@@ -94,7 +94,7 @@ impl Adapter<'_> {
         })
     }
 
-    /// The plan cannot start.
+    /// Ends a run that cannot start.
     pub(super) fn failed(&mut self, run: &mut Run<'_>, why: &str) {
         run.mode = Mode::Over;
         self.output("stderr", &format!("{why}\n"));
@@ -102,7 +102,7 @@ impl Adapter<'_> {
         self.event::<event::Terminated>(&dapts::TerminatedEvent::default());
     }
 
-    /// The plan has had its time.
+    /// Ends a run at its time limit.
     pub(super) fn time_up(&mut self, run: &mut Run<'_>) {
         let mut said = Vec::new();
         run.target.stop(&mut |happened, _| said.push(happened.clone()));
@@ -124,7 +124,6 @@ impl Adapter<'_> {
         self.run = Some(run);
     }
 
-    /// Tells clients that want it what is the case.
     pub(super) fn send_state_of(&mut self, run: &Run<'_>) {
         self.send_sensed_of(run);
         if !self.clients.values().any(|client| client.attached && client.state) {
@@ -153,7 +152,7 @@ impl Adapter<'_> {
         self.send_event_where(|client| client.attached && client.state, "afp/state", &body);
     }
 
-    /// Tells clients that want it what the robot's signals say.
+    /// Sends the robot's signals to their subscribers.
     fn send_sensed_of(&mut self, run: &Run<'_>) {
         let wanted = |client: &Client| client.attached && client.sensed;
         if self.clients.values().any(wanted) {
@@ -164,7 +163,6 @@ impl Adapter<'_> {
     }
 }
 
-/// That a run stands still.
 pub(super) fn stopped_event(
     reason: Reason,
     why: &str,
@@ -196,16 +194,16 @@ fn in_json(Sensed { signal, text, cone }: &Sensed) -> serde_json::Value {
     json!({"signal": signal, "text": text, "cone": cone})
 }
 
-/// Four digits behind the point: tenths of a millimetre are enough for pictures.
+/// Four decimals; a tenth of a millimetre is enough for pictures.
 fn rounded(number: f64) -> f64 {
     (number * 1e4).round() / 1e4
 }
 
-/// A file as the protocol names it.
+/// A file in the protocol's format.
 pub(super) fn source(program: &Program, file: usize) -> Option<dapts::Source> {
     let path = program.files.get(file)?;
     let name = path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
-    // A text that is not that of the file is asked for by its number.
+    // A text that differs from its file is requested by number.
     let source_reference = program.text_of(file).and(u32::try_from(file + 1).ok());
     let path = Some(path.clone());
     Some(dapts::Source { name: Some(name), path, source_reference, ..dapts::Source::default() })

@@ -1,4 +1,4 @@
-//! Seeking to another time: back, and ahead without stopping at breakpoints.
+//! Seeking to a different time: back, and ahead without breakpoints.
 
 use afp_core::{Duration, Instant};
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
@@ -16,7 +16,7 @@ pub(super) struct Seek {
 }
 
 impl Adapter<'_> {
-    /// To before the last transition, or the last step.
+    /// Goes back to before the last transition, or the last step.
     pub(super) fn back(&mut self, step: Step) -> Answer<()> {
         let run = self.run()?;
         let now = run.target.steps();
@@ -30,7 +30,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// To the last breakpoint before, or the start.
+    /// Goes back to the last breakpoint hit, or the start.
     pub(super) fn reverse(&mut self) -> Answer<()> {
         let (run, breakpoints) = (self.run.as_mut(), &mut self.breakpoints);
         let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
@@ -62,8 +62,8 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Goes to an instant. What lies behind is there at once, but for what is run again from a keyframe; what lies
-    /// ahead is run as fast as it can be computed, and `pause` holds it on its way.
+    /// Seeks to an instant. The past is restored from a keyframe, and the steps after it run again.
+    /// The future runs as fast as possible until `pause`.
     pub(super) fn seek(&mut self, seek: Seek) -> Answer<()> {
         if !(seek.at >= 0.0 && seek.at < 1e9) {
             return Err("'at' is a time in seconds from the start".into());
@@ -72,7 +72,7 @@ impl Adapter<'_> {
         let run = self.run()?;
         let now = run.target.now();
         match run.mode {
-            // Nothing comes after the end.
+            // The end is the last position.
             Mode::Over if at >= now => return Ok(()),
             _ if at > now => {
                 run.forces.clear();
@@ -86,7 +86,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Takes the run back: what came later has not been yet.
+    /// Moves the run back and forgets everything later.
     fn go_back(&mut self, to: Position) -> Answer<()> {
         let run = self.run()?;
         run.forces.clear();
@@ -97,7 +97,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Goes on to the instant that is looked for, or the end of the run.
+    /// Advances to the requested instant, or the end of the run.
     pub(super) fn seek_on(&mut self, run: &mut Run<'_>, at: Instant) {
         let limit = at.min(run.end);
         let program = run.target.program().clone();
@@ -105,7 +105,7 @@ impl Adapter<'_> {
             let (mut happened, before) = (Vec::new(), run.target.steps());
             let breakpoints = &mut self.breakpoints;
             let advance = run.target.advance(limit, &mut |what, state| {
-                // It does not stand still there, but they count.
+                // Hits during a seek count but do not stop the run.
                 breakpoints.hits(&what.event, before, &program, state);
                 happened.push(what.clone());
             });

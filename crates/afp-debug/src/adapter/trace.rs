@@ -1,4 +1,4 @@
-//! What happened as records, for timelines: in pieces, as it happens, or all of it at once for a run that is over.
+//! Trace records for timelines: in pieces during a run, or complete for a recorded run.
 
 use afp_core::Instant;
 use afp_dsl::unfold::ComponentKind;
@@ -9,14 +9,14 @@ use super::{Adapter, Run};
 use crate::program::Program;
 use crate::target::{Advance, Happened, Position};
 
-/// Records in one message.
+/// The most records in a message.
 const PIECE: usize = 2_000;
 
 impl Adapter<'_> {
-    /// Begins to tell the client that asks what happens, or ends that. Of a run that is over it is told everything.
+    /// Starts or ends the asking client's trace. For a recorded run it sends all records.
     pub(super) fn trace(&mut self, wanted: bool) -> Result<(), String> {
         let Some(mut run) = self.run.take() else { return Ok(()) };
-        // What has happened so far is for those who wanted it before.
+        // Earlier events go to the earlier subscribers.
         self.send_trace(&mut run);
         if let Some(client) = self.clients.get_mut(&self.asker) {
             client.trace = wanted;
@@ -36,7 +36,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Tells what has happened since the last time.
+    /// Sends the records since the last message.
     pub(super) fn send_trace(&mut self, run: &mut Run<'_>) {
         let Some(records) = run.traced.as_mut().filter(|records| !records.is_empty()) else {
             return;
@@ -48,7 +48,7 @@ impl Adapter<'_> {
 }
 
 impl Run<'_> {
-    /// Keeps in mind what happened in a step, where a client wants to know.
+    /// Records the events of a step, if a client subscribed to the trace.
     pub(super) fn keep_trace(&mut self, happened: &[Happened]) {
         let step = self.target.steps();
         let program = self.target.program();
@@ -58,7 +58,7 @@ impl Run<'_> {
     }
 }
 
-/// Everything of a run that is over, which stands where it stood afterwards.
+/// Returns all records of a recorded run, and restores its position.
 fn recorded(run: &mut Run<'_>) -> Result<Vec<Value>, String> {
     let here = run.target.steps();
     let program = &run.target.program().clone();
@@ -77,7 +77,7 @@ fn recorded(run: &mut Run<'_>) -> Result<Vec<Value>, String> {
     Ok(all)
 }
 
-/// A record; none of what components read and saw.
+/// Returns a record; `None` for inputs and polls of components.
 fn record(what: &Happened, step: u64, program: &Program) -> Option<Value> {
     let event = &what.event;
     let kind = match event.kind {

@@ -1,4 +1,4 @@
-//! Why an element runs, or does not: the edge that led to it, and what all edges to it wait for.
+//! Why an element is active or not: the edge that led to it, and the conditions of all edges to it.
 
 use afp_core::trace::{ComponentId, Outcome};
 use afp_core::{Duration, Instant};
@@ -12,15 +12,15 @@ use crate::state::State;
 
 #[derive(Deserialize)]
 pub(super) struct Why {
-    /// An element, or a supervisor: then it is about the element that it watches.
+    /// An element, or a supervisor, which means the element that it watches.
     path: String,
-    /// How it was at that time, in seconds; without it, how it is.
+    /// The time in question, in seconds; the default is now.
     at: Option<f64>,
 }
 
 impl Adapter<'_> {
-    /// When an element became active last and by which edge, and every edge that leads to it: when it was taken last,
-    /// whether its component looks now, and what that read.
+    /// Explains an element: its last start and the edge of it, and every edge to it, with its last
+    /// use, whether its component looks now, and the values read.
     pub(super) fn why(&mut self, why: Why) -> Answer<Value> {
         let run = self.run()?;
         let past = why.at.map(|at| run.past(at)).transpose()?;
@@ -44,7 +44,7 @@ impl Adapter<'_> {
         Ok(answer)
     }
 
-    /// The same as people read it, a line for each edge.
+    /// The explanation as text, a line for each edge.
     pub(super) fn why_in_words(&mut self, path: &str) -> Answer<String> {
         let told = self.why(Why { path: path.to_owned(), at: None })?;
         let word = |value: &Value, key: &str| value[key].as_str().unwrap_or_default().to_owned();
@@ -54,7 +54,7 @@ impl Adapter<'_> {
             (false, Some(since)) => {
                 format!("{} is not active; it started last at {since}", word(&told, "path"))
             }
-            // Since when a supervisor watches is not told.
+            // The start of a supervisor's watch is omitted.
             (true, None) => format!("{} watches", word(&told, "path")),
             (false, None) => format!("{} has not started yet", word(&told, "path")),
         };
@@ -82,7 +82,7 @@ fn in_words(values: &Value) -> String {
 }
 
 impl Run<'_> {
-    /// What was the case at a time that is over.
+    /// Returns the state at an earlier time.
     fn past(&mut self, at: f64) -> Answer<State> {
         if !(0.0..1e9).contains(&at) {
             return Err("'at' is a time in seconds from the start".into());
@@ -98,7 +98,6 @@ impl Run<'_> {
     }
 }
 
-/// All edges of a plan that lead to an element.
 fn edges(program: &Program, state: &State, plan: ComponentId, name: &str) -> Vec<Value> {
     let inside = program.parts().filter(|(_, unit)| unit.plan == plan);
     let mut edges = Vec::new();
@@ -126,7 +125,7 @@ fn edges(program: &Program, state: &State, plan: ComponentId, name: &str) -> Vec
     edges
 }
 
-/// What a component read when it started last.
+/// The inputs of a component at its last start.
 fn values(program: &Program, state: &State, id: ComponentId) -> Map<String, Value> {
     let ports = program.unit(id).map_or(&[][..], |unit| &unit.inputs);
     let unit = |name: &str| ports.iter().find(|port| port.0 == name).map_or("", |port| &*port.1);

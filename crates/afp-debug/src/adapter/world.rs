@@ -1,4 +1,4 @@
-//! The world of a run, as a picture shows it.
+//! The world of a run, for its picture.
 
 use afp_session::{Drawing, Pose2, Thing};
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::{Adapter, Answer, Launch, Surroundings};
 
 impl Adapter<'_> {
-    /// What a run would take place in: metres and radians, x forward from the start, y left.
+    /// Returns the world of a run: metres and radians, x forward from the start, y left.
     pub(super) fn world(&mut self, launch: Launch) -> Answer<Value> {
         let Surroundings { drawing, worlds, drops, camera, seed, cut_short } =
             self.host.world(&launch)?;
@@ -31,7 +31,7 @@ impl Adapter<'_> {
             "worlds": worlds,
             "drops": drops,
             "camera": camera,
-            // Numbers of clients are not that long.
+            // JavaScript numbers are too short for a seed.
             "seed": seed.map(|seed| seed.to_string()),
             "cutShort": cut_short,
         }))

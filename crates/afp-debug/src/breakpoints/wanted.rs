@@ -1,4 +1,4 @@
-//! Breakpoints that clients want, and where they are in a program.
+//! Requested breakpoints, and their places in a program.
 
 use std::collections::BTreeSet;
 
@@ -9,29 +9,29 @@ use crate::hit_count::HitCount;
 use crate::program::{Program, Spot};
 use crate::watched::Watched;
 
-/// A breakpoint that a client wants.
+/// A requested breakpoint.
 #[derive(Clone, Debug)]
 pub(crate) struct Wanted {
     pub at: At,
     pub condition: Option<String>,
     pub hits: Option<String>,
-    /// Says this in place of standing still.
+    /// A text to log instead of stopping.
     pub log: Option<String>,
 }
 
-/// Where a client wants a breakpoint.
+/// A requested place.
 #[derive(Clone, Debug)]
 pub(crate) enum At {
     /// At a line of a file, from 0.
     Line(String, u32),
-    /// At what a path means.
+    /// At a component, state or event, by its path.
     Path(String),
-    /// Where an entry is written.
     Entry(String),
 }
 
 impl At {
-    /// What happens there, and at which line where it is one; or why it is nowhere.
+    /// Finds the events at the place, and its line if it has one; or the reason why it has no
+    /// place.
     fn spots(&self, program: &Program) -> Result<(Vec<Spot>, Option<u32>), String> {
         match self {
             At::Line(path, line) => {
@@ -56,13 +56,13 @@ impl At {
 }
 
 impl Wanted {
-    /// The breakpoint of that number in a program, which may be nowhere in it.
+    /// Makes the numbered breakpoint for a program, with or without a place.
     pub(crate) fn made(self, id: u64, program: &Program) -> Breakpoint {
         Breakpoint { id, found: self.found(program), hits: Vec::new(), wanted: self }
     }
 
     /// # Errors
-    /// Why it is nowhere.
+    /// The reason why it has no place.
     fn found(&self, program: &Program) -> Result<Found, String> {
         let (spots, line) = self.at.spots(program)?;
         let text = self.condition.as_deref().filter(|text| !text.trim().is_empty());
@@ -76,7 +76,7 @@ impl Wanted {
         Ok(Found { spots, line, counted, conditions })
     }
 
-    /// The file that it is in, where it was set in one.
+    /// The file of a line breakpoint.
     pub(crate) fn file(&self) -> Option<&str> {
         match &self.at {
             At::Line(path, _) => Some(path),

@@ -1,6 +1,6 @@
 //! Clients of the adapter, and the plans that they debug.
 
-#![allow(dead_code)] // Each test file uses a part.
+#![allow(dead_code)] // Each test file uses only a part.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use afp_session::{AnySession, Loader};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};
 
-/// Plans from a text, on the Carbot in its own world.
+/// Plans from a text, for the Carbot in its own world.
 pub struct Texted(pub String);
 
 /// `FILE:Plan` of a text.
@@ -28,7 +28,7 @@ pub fn compiled(text: &str, program: &str) -> Result<(Graph, Program), String> {
     Ok((graph, program))
 }
 
-/// A session of a plan at its start.
+/// A session of a plan before its first step.
 pub fn session(graph: &Graph, launch: &Launch) -> Result<Box<dyn AnySession>, String> {
     let robot = afp_sim::carbot(|_| {});
     let world = robot.kind().world(robot.kind().default_world());
@@ -54,13 +54,13 @@ impl Host<'static> for Texted {
     }
 }
 
-/// Clients that share an adapter and are told things.
+/// Clients of a shared adapter.
 pub struct Clients {
     adapter: Adapter<'static>,
     all: Vec<ClientId>,
     said: i64,
     now: Duration,
-    /// What they were told, one line for each message: `<--`, from the second client on with its number, `<2-`.
+    /// Their messages, a line each: `<--`, and from the second client on with its number, `<2-`.
     pub told: String,
 }
 
@@ -69,12 +69,11 @@ impl Clients {
         Clients::of(Adapter::new(host))
     }
 
-    /// Clients of an adapter that nobody has joined yet.
     pub fn of(adapter: Adapter<'static>) -> Clients {
         Clients { adapter, all: Vec::new(), said: 0, now: Duration::ZERO, told: String::new() }
     }
 
-    /// The client of that number, from 1; it joins when it speaks for the first time.
+    /// The client with that number, from 1; it joins with its first request.
     fn client(&mut self, number: usize) -> ClientId {
         while self.all.len() < number {
             self.all.push(self.adapter.join());
@@ -86,7 +85,7 @@ impl Clients {
         self.say_as(1, line);
     }
 
-    /// A request; `answer` alone is the answer to a question of the adapter.
+    /// Sends a request; the word `answer` by itself answers a question of the adapter.
     pub fn say_as(&mut self, number: usize, line: &str) {
         let (command, arguments) = line.split_once(' ').unwrap_or((line, "null"));
         let arguments: Value = serde_json::from_str(arguments).expect("arguments are JSON");
@@ -100,7 +99,7 @@ impl Clients {
         self.hear(answers);
     }
 
-    /// A client's connection breaks.
+    /// Breaks a client's connection.
     pub fn lose(&mut self, number: usize) {
         let gone = self.client(number);
         let told = self.adapter.leave(gone);

@@ -1,4 +1,4 @@
-//! What is written for a template or plan: an element or supervisor with its body and exits.
+//! The text of an element or supervisor for a template or plan, with body and exits.
 
 use crate::View;
 use crate::describe::component_kind;
@@ -7,20 +7,19 @@ use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{ComponentKind, Plan};
 use afp_dsl::toolbox::Template;
 
-/// A piece of what is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece {
     Text(String),
-    /// A place to fill, with what stands there until then; may be empty.
+    /// A placeholder with its initial text, which may be empty.
     Hole(String),
 }
 
-/// Text without holes.
+/// Text without placeholders.
 pub fn plain(text: &str) -> Vec<Piece> {
     vec![Piece::Text(text.to_owned())]
 }
 
-/// Text with holes, which are written in `‹›`.
+/// Text with placeholders, marked by `‹›`.
 pub(crate) fn with_holes(text: &str) -> Vec<Piece> {
     let parts = text.split(['‹', '›']).enumerate();
     let parts = parts.filter(|(index, text)| index % 2 == 1 || !text.is_empty());
@@ -31,7 +30,7 @@ pub(crate) fn with_holes(text: &str) -> Vec<Piece> {
     parts.map(piece).collect()
 }
 
-/// What puts a component into a plan: its keyword, a hole with its name, what it is made from, and its body.
+/// The text of a component: keyword, a placeholder for its name, template and body.
 pub(crate) fn component(
     kind: ComponentKind,
     name: &str,
@@ -43,14 +42,14 @@ pub(crate) fn component(
     pieces
 }
 
-/// Bindings that must be there, and the exits.
+/// Required bindings, and exits.
 struct Parts<'a> {
     required: Vec<&'a str>,
     exits: Vec<&'a str>,
 }
 
-/// What follows the name of a template: the inputs that need a value, and a body with an edge for
-/// each exit. Lines below the first have no indentation but their own.
+/// The text after the name of a template: the required inputs, and a body with an edge for each
+/// exit. Later lines have only their relative indentation.
 pub(crate) fn body_of_template(template: &Template) -> Vec<Piece> {
     let required = template.inputs.iter().filter(|port| port.default.is_none());
     let parts = Parts {
@@ -60,7 +59,7 @@ pub(crate) fn body_of_template(template: &Template) -> Vec<Piece> {
     body(&parts, component_kind(template.kind))
 }
 
-/// The same for a plan.
+/// The same text for a plan.
 pub(crate) fn body_of_plan(view: &View, plan: &Plan) -> Vec<Piece> {
     let text = |name: &afp_syntax::ast::Name| view.text_of(name.span);
     let required = plan.entries.iter().filter(|it| it.kind == EntryKind::In && it.init.is_none());
@@ -84,8 +83,7 @@ fn body(parts: &Parts<'_>, kind: ComponentKind) -> Vec<Piece> {
     with_holes(&format!("{args}{open}{exits}{end}"))
 }
 
-/// A name for what is made from a template: its own with a small first letter, or with a number behind
-/// it where that is taken.
+/// A name for an instance: the template's in lower case, with a number if it is taken.
 pub(crate) fn instance_name(template: &str, taken: &Taken) -> String {
     let mut letters = template.chars();
     let first = letters.next().map(|first| first.to_lowercase().to_string()).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Where in the grammar a place is.
+//! The grammatical context of a place.
 
 use crate::View;
 use crate::view::{token, tokens};
@@ -7,16 +7,15 @@ use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 use afp_syntax::{Node, Token};
 
-/// A place in the grammar and the word that is being written there.
+/// A grammatical context and the word at it.
 #[derive(Debug)]
 pub(super) struct Context {
-    /// The word up to its end; empty where none is begun.
+    /// The whole word; empty if none has begun.
     pub word: Span,
-    /// What can stand there.
     pub place: Place,
 }
 
-/// What an edge belongs to, which decides where it can lead.
+/// The owner of an edge, which decides its targets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     Event,
@@ -25,69 +24,65 @@ pub(super) enum Origin {
     Other,
 }
 
-/// What can stand at a place.
+/// A grammatical context.
 #[derive(Debug)]
 pub(super) enum Place {
-    /// Nothing that could be foreseen.
     Nothing,
     File,
-    /// Toolboxes and files behind `use`.
+    /// Toolboxes and files after `use`.
     Uses,
     Plan(Node),
     /// Supervisors and edges of an element.
     Element(Node),
     Supervisor(Node),
-    /// Supervisors of the plan, behind `on`.
+    /// Supervisors of the plan, after `on`.
     Watchers(Node),
     /// Edges of reactions to a supervisor of the plan.
     Reactions(Node),
-    /// What an element or supervisor is made from; behind a point, from that toolbox.
+    /// The template of an element or supervisor; after a `.`, one of that toolbox.
     Made(Node, Option<DefinitionId>),
-    /// Times behind the template of a supervisor.
+    /// Times after the template of a supervisor.
     Times,
     /// Ports of an element or supervisor.
     Ports(Node),
-    /// Where an edge leads: the one of an event, a computation, or what ends by it.
+    /// The target of an edge: of an event, of a computation, or of a state.
     Target {
         from: Origin,
     },
     Start,
     Type,
-    /// The entry that an output goes to.
     Output {
         component: Node,
         port: String,
     },
     Value(Wanted),
-    /// The unit of a number.
     Unit(Wanted),
-    /// What belongs to something, behind a point.
+    /// A member, after a `.`.
     Member(Option<DefinitionId>),
     Scenario,
-    /// Lines of a scenario that count from one of its moments.
+    /// Lines of a scenario relative to one of its moments.
     Moment,
-    /// What a scenario names, behind a word of it.
+    /// A name in a scenario, after a keyword.
     Path(String),
-    /// What can end the element that a claim begins with.
+    /// The reason for the end of a claim's first element.
     Cause(Node),
-    /// Entries that a scenario sets: before the run, or while it goes on.
+    /// Entries that a scenario sets before or during the run.
     Set {
-        /// Whether the run goes on.
+        /// Whether the run has started.
         later: bool,
     },
-    /// The plan that a scenario is for.
     PlanName,
     /// Parts of a template or device of a toolbox.
     Toolbox(Kind),
 }
 
-/// What a value is for.
+/// The use of a value.
 #[derive(Debug)]
 pub(super) enum Wanted {
     /// A port of an element or supervisor.
     Port(Node, String),
     Entry(Node),
-    /// The entry that a path of a scenario names.
+    /// The entry named by a path of a scenario.
     Named(Node),
     Time,
     /// Something else.
@@ -120,7 +115,7 @@ impl Context {
     }
 }
 
-/// Whether a byte lies in a comment or in a text.
+/// Whether a byte is inside a comment or a string.
 fn is_closed_text(view: &View, touched: &Token, offset: u32) -> bool {
     let span = view.token_span(touched);
     match touched.kind() {
@@ -133,7 +128,6 @@ fn is_closed_text(view: &View, touched: &Token, offset: u32) -> bool {
     }
 }
 
-/// What an edge belongs to.
 fn origin(edge: &Node) -> Origin {
     let computes = |element: &Node| {
         token(element, Kind::Keyword).is_some_and(|keyword| keyword.text() == "computation")
@@ -145,7 +139,7 @@ fn origin(edge: &Node) -> Origin {
     }
 }
 
-/// What can stand behind a token; `at` is where it would begin.
+/// The context after a token; `at` is the start of the new word.
 fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32) -> Place {
     let parent = before.parent();
     let within = |kinds: &[Kind]| ancestor(before, kinds);
@@ -202,18 +196,18 @@ fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32
         | Kind::LessEqual
         | Kind::Greater
         | Kind::GreaterEqual => Place::Value(wanted(before)),
-        // The rest of the line is still to come.
+        // The rest of the line is not written yet.
         Kind::Name if same_line && before.text() == "on" && within(&[Kind::Edge]).is_some() => {
             within(&[Kind::Element]).map_or(Place::Nothing, Place::Watchers)
         }
-        // What has a name and no more yet.
+        // An item with only a name so far.
         Kind::Name if same_line && parent.as_ref().is_some_and(names_item) => Place::Nothing,
         _ if same_line && is_head(before) => Place::Times,
         _ => container(before, at),
     }
 }
 
-/// What follows a word of the grammar on its line.
+/// The context after a keyword on its line.
 fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
     let kind = parent?.kind();
     Some(match (word.text(), kind) {
@@ -240,12 +234,12 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
         ("from", Kind::Moment) => Place::Path("expect".to_owned()),
         ("from" | "to", Kind::Range) => Place::Value(wanted(word)),
         ("from" | "to" | "heading", _) => Place::Value(Wanted::Unknown),
-        // A name or a text of one's own.
+        // A new name or a string.
         _ => Place::Nothing,
     })
 }
 
-/// What belongs to the name before a point.
+/// The context after a name and a `.`.
 fn member(view: &View, dot: &Token) -> Place {
     let before = view.solid_before(view.token_span(dot).start);
     let name = before.as_ref().and_then(|name| view.index().name(view.token_span(name)));
@@ -267,8 +261,7 @@ fn member(view: &View, dot: &Token) -> Place {
     }
 }
 
-/// What a name before a point probably means, of which the check says nothing while nothing stands
-/// behind the point.
+/// The likely meaning of a name before a `.`; the check reports none while nothing follows the `.`.
 fn named(view: &View, name: &Token) -> Option<DefinitionId> {
     use DefinitionKind::{Alias, Component, Device, Enum, Toolbox};
 
@@ -283,7 +276,7 @@ fn named(view: &View, name: &Token) -> Option<DefinitionId> {
     aliases.chain(visible).chain(toolboxes).find(|id| view.name_of(*id) == name.text())
 }
 
-/// The ports of the component whose brackets a token stands in.
+/// The ports of the component whose parentheses contain a token.
 fn ports(token: &Token) -> Place {
     match ancestor(token, &[Kind::Element, Kind::Guard, Kind::Action]) {
         Some(node) if node.kind() != Kind::Action => Place::Ports(node),
@@ -291,13 +284,13 @@ fn ports(token: &Token) -> Place {
     }
 }
 
-/// Whether a token stands in the brackets of a formula, not in those of bindings.
+/// Whether a token is inside the parentheses of a formula, not of bindings.
 fn in_brackets(token: &Token) -> bool {
     let nearest = ancestor(token, &[Kind::Args, Kind::Brackets]);
     nearest.is_some_and(|node| node.kind() == Kind::Brackets)
 }
 
-/// What a value behind a token is for.
+/// The use of a value after a token.
 fn wanted(token: &Token) -> Wanted {
     let Some(node) = ancestor(
         token,
@@ -330,7 +323,7 @@ fn wanted(token: &Token) -> Wanted {
     }
 }
 
-/// Whether a word of the grammar stands directly in a node.
+/// Whether a keyword is a child of a node.
 fn has_word(node: &Node, word: &str) -> bool {
     tokens(node).any(|token| token.kind() == Kind::Keyword && token.text() == word)
 }
@@ -339,12 +332,11 @@ fn first_name(node: &Node) -> String {
     token(node, Kind::Name).map(|token| token.text().to_owned()).unwrap_or_default()
 }
 
-/// The nearest node of some kinds around a token.
+/// The nearest enclosing node of some kinds.
 fn ancestor(token: &Token, kinds: &[Kind]) -> Option<Node> {
     token.parent_ancestors().find(|node| kinds.contains(&node.kind()))
 }
 
-/// Whether a name directly in that node is the one that it goes by.
 fn names_item(node: &Node) -> bool {
     use Kind::{Element, Entry, Enum, Guard, Plan, Reactions, Table, Template, Toolbox, Use};
     matches!(
@@ -353,7 +345,7 @@ fn names_item(node: &Node) -> bool {
     )
 }
 
-/// Whether a token ends the head of a supervisor, whose body has not begun.
+/// Whether a token ends the head of a supervisor without a body.
 fn is_head(token: &Token) -> bool {
     let Some(guard) = ancestor(token, &[Kind::Guard]) else { return false };
     let inside = ancestor(token, &[Kind::Ref, Kind::Args, Kind::Timing, Kind::Guard]);
@@ -364,7 +356,7 @@ fn is_head(token: &Token) -> bool {
     ended && open.is_none_or(|open| open >= token.text_range().end())
 }
 
-/// What the body of the smallest open item around a place is made of.
+/// The context in the body of the smallest open item around a place.
 fn container(before: &Token, at: u32) -> Place {
     let at = rowan::TextSize::from(at);
     for node in before.parent_ancestors() {
@@ -387,7 +379,7 @@ fn container(before: &Token, at: u32) -> Place {
     Place::File
 }
 
-/// Whether a place lies between the brackets of a node, the closing one perhaps missing.
+/// Whether a place is between the brackets of a node; the closing one may be missing.
 fn holds(node: &Node, at: rowan::TextSize) -> bool {
     let (open, close) = match node.kind() {
         Kind::Args => (Kind::OpenParen, Kind::CloseParen),

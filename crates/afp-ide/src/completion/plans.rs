@@ -1,4 +1,4 @@
-//! Items of files and plans, edges and where they lead.
+//! Items of files and plans, edges and their targets.
 
 use super::List;
 use super::bodies::{
@@ -25,14 +25,14 @@ pub(super) fn of_file(list: &mut List) {
     list.keyword("scenario", with_holes(&format!("{head} {{\n    {body}\n}}")), 1);
 }
 
-/// Toolboxes behind `use`.
+/// Toolboxes after `use`.
 pub(super) fn uses(list: &mut List) {
     let all = list.view.index().definitions();
     let all = all.filter(|(_, known)| known.kind == DefinitionKind::Toolbox);
     list.definitions(all.map(|(id, _)| id), 0);
 }
 
-/// Items of a plan: words, and templates and plans with their whole bodies.
+/// Items of a plan: keywords, and templates and plans with complete bodies.
 pub(super) fn items(list: &mut List, plan: Option<&Plan>, node: &Node) {
     let started = plan.is_some_and(|plan| !plan.starts.is_empty());
     list.keywords(&["start"], if started { 4 } else { 0 });
@@ -50,7 +50,6 @@ pub(super) fn items(list: &mut List, plan: Option<&Plan>, node: &Node) {
     }
 }
 
-/// The names in a plan.
 fn names(plan: &Plan) -> Taken {
     let entries = plan.entries.iter().filter_map(|entry| entry.name.as_ref());
     let components = plan.supervisors.iter().chain(&plan.elements);
@@ -58,18 +57,18 @@ fn names(plan: &Plan) -> Taken {
     Taken::of(entries.chain(components).map(|name| name.text.as_str()))
 }
 
-/// A template or plan that components can be made from.
+/// A template or plan for components.
 struct Made {
     id: DefinitionId,
     kind: ComponentKind,
-    /// How it is written here.
+    /// Its name in this file.
     written: String,
     body: Vec<Piece>,
-    /// The toolbox that must be used first.
+    /// The toolbox to import first.
     missing: Option<String>,
 }
 
-/// All templates of all toolboxes, and the plans in view.
+/// All templates of all toolboxes, and the visible plans.
 fn all_made(list: &List, offset: u32) -> Vec<Made> {
     let view = list.view;
     let is_made = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
@@ -112,7 +111,6 @@ fn templates_of<'l>(list: &'l List) -> impl Iterator<Item = (&'l Toolbox, &'l Te
         .flat_map(|toolbox| toolbox.templates.iter().map(move |template| (&**toolbox, template)))
 }
 
-/// The short name of a toolbox in the file.
 fn alias(list: &List, toolbox: &Toolbox) -> Option<String> {
     let files = &list.view.outline().files;
     let file = files.iter().find(|file| file.file == list.view.file)?;
@@ -135,8 +133,8 @@ fn add_made(list: &mut List, made: &Made, insert: Vec<Piece>, rank: u8) {
     }
 }
 
-/// What a component can be made from, by its keyword; with a body where there is none yet. Behind the
-/// name of a toolbox and a point, from that alone.
+/// Adds the templates for a keyword, with a body if it is missing. After a toolbox and a `.`, only
+/// those of the toolbox.
 pub(super) fn templates(list: &mut List, node: &Node, home: Option<DefinitionId>) {
     let word = token(node, Kind::Keyword).map(|word| word.text().to_owned()).unwrap_or_default();
     let bare = token(node, Kind::OpenBrace).is_none();
@@ -155,12 +153,12 @@ pub(super) fn templates(list: &mut List, node: &Node, home: Option<DefinitionId>
     }
 }
 
-/// Times behind the template of a supervisor.
+/// Times after the template of a supervisor.
 pub(super) fn times(list: &mut List) {
     list.keywords(&["every", "deadline"], 0);
 }
 
-/// Edges that are not there yet, and in an element supervisors.
+/// Missing edges, and supervisors for an element.
 pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_element: bool) {
     let Some(component) = component else { return };
     for exit in component.exits.iter().filter(|exit| exit.known && exit.edge.is_none()) {
@@ -191,12 +189,11 @@ pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_el
     }
 }
 
-/// An edge whose target is still to come.
+/// An edge with a placeholder as its target.
 pub(super) fn edge(name: &str) -> Vec<Piece> {
     with_holes(&format!("{name} -> ‹›"))
 }
 
-/// Where an edge can lead.
 pub(super) fn targets(list: &mut List, offset: u32, from: Origin) {
     elements(list, offset);
     list.keyword("terminate", plain("terminate"), 1);
@@ -209,7 +206,6 @@ pub(super) fn targets(list: &mut List, offset: u32, from: Origin) {
     }
 }
 
-/// The elements of the plan.
 pub(super) fn elements(list: &mut List, offset: u32) {
     let Some(plan) = list.view.plan_at(offset) else { return };
     let names = plan.elements.iter().filter_map(|element| element.name.as_ref());
@@ -217,12 +213,10 @@ pub(super) fn elements(list: &mut List, offset: u32) {
     list.definitions(names.filter_map(|name| index.declared_at(name.span)), 0);
 }
 
-/// The plans in view.
 pub(super) fn plan_names(list: &mut List) {
     visible(list, 0, DefinitionKind::Plan);
 }
 
-/// The tables in view.
 pub(super) fn tables(list: &mut List, offset: u32) {
     visible(list, offset, DefinitionKind::Table);
 }

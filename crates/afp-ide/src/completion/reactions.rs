@@ -5,14 +5,14 @@ use super::bodies::with_holes;
 use super::plans::edge;
 use afp_dsl::outline::{Component, ComponentKind};
 
-/// Whole reactions, for each supervisor of the plan to which an element does not react yet.
+/// Complete reactions, for each supervisor of the plan without a reaction of the element.
 pub(super) fn whole(list: &mut List, element: Option<&Component>, offset: u32) {
     for name in free(list, element, offset) {
         list.keyword(&format!("on {name}"), with_holes(&format!("on {name} {{ ‹› }}")), 2);
     }
 }
 
-/// The names of those supervisors.
+/// The names of these supervisors.
 pub(super) fn watchers(list: &mut List, element: Option<&Component>, offset: u32) {
     let free = free(list, element, offset);
     let Some(plan) = list.view.plan_at(offset) else { return };
@@ -24,7 +24,7 @@ pub(super) fn watchers(list: &mut List, element: Option<&Component>, offset: u32
     }
 }
 
-/// The events of a supervisor of the plan to which there is no reaction yet.
+/// The events of a supervisor without a reaction.
 pub(super) fn events(list: &mut List, reactions: Option<&Component>, offset: u32) {
     let Some(reactions) = reactions else { return };
     let Some(watcher) = reactions.item.reacts_to() else { return };
@@ -43,7 +43,7 @@ pub(super) fn events(list: &mut List, reactions: Option<&Component>, offset: u32
     }
 }
 
-/// The supervisors of the plan to which an element does not react yet, by name.
+/// The supervisors of the plan without a reaction of the element, by name.
 fn free(list: &List, element: Option<&Component>, offset: u32) -> Vec<String> {
     let element = element.filter(|element| element.kind != ComponentKind::Computation);
     let (Some(element), Some(plan)) = (element, list.view.plan_at(offset)) else {

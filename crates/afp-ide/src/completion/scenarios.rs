@@ -1,4 +1,4 @@
-//! Lines of scenarios, what they name, and what belongs to something behind a point.
+//! Lines of scenarios, names in them, and members after a `.`.
 
 use super::List;
 use super::bodies::{plain, with_holes};
@@ -10,7 +10,7 @@ use afp_syntax::Node;
 use afp_syntax::ast::ENDS;
 use afp_syntax::kind::Kind;
 
-/// Lines of a scenario, or those of them that may count from one of its moments.
+/// Lines of a scenario, all or only those relative to one of its moments.
 pub(super) fn lines(list: &mut List, of_whole_run: bool) {
     list.keyword("at", with_holes("at ‹1 s›: "), 0);
     list.keywords(&["expect", "never"], 0);
@@ -27,7 +27,7 @@ pub(super) fn lines(list: &mut List, of_whole_run: bool) {
     list.keyword("robot", with_holes("robot at (‹0 m, 0 m›) heading 0 deg"), 1);
 }
 
-/// What can be named behind a word of a scenario.
+/// Names after a keyword of a scenario.
 pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
     match word {
         ":" => list.keywords(VERBS, 0),
@@ -56,7 +56,7 @@ pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
     }
 }
 
-/// Entries that can be set: before the run those that whoever starts the plan gives their values.
+/// Entries to set: before the run, those that need a value from outside.
 pub(super) fn entries(list: &mut List, later: bool, offset: u32) {
     match later {
         true => of_plan(list, offset, |kind| {
@@ -66,7 +66,8 @@ pub(super) fn entries(list: &mut List, later: bool, offset: u32) {
     }
 }
 
-/// What can end the element that a claim begins with: its states, its supervisors and those of its plan.
+/// Reasons for the end of a claim's first element: its states, its supervisors and those of its
+/// plan.
 pub(super) fn causes(list: &mut List, claim: &Node, offset: u32) {
     let view = list.view;
     let Some(element) = first_path(claim).and_then(|path| view.named_by(&path)) else {
@@ -89,18 +90,17 @@ pub(super) fn causes(list: &mut List, claim: &Node, offset: u32) {
     list.keywords_alone(&["Error"], 2);
 }
 
-/// The first path of a claim.
 fn first_path(claim: &Node) -> Option<Node> {
     claim.children().find(|child| child.kind() == Kind::Path)
 }
 
-/// Whether something is a supervisor, or else an element.
+/// Whether a definition is a supervisor, or else an element.
 fn is_component(kind: DefinitionKind, watches: bool) -> bool {
     let supervisor = DefinitionKind::Component(ComponentKind::Supervisor);
     matches!(kind, DefinitionKind::Component(_)) && (kind == supervisor) == watches
 }
 
-/// What the plan of the scenario at a place is made of.
+/// The items in the plan of the scenario at a place.
 fn of_plan(list: &mut List, offset: u32, fits: fn(DefinitionKind) -> bool) {
     let view = list.view;
     for id in view.index().visible(view.file, offset, fits) {
@@ -110,15 +110,15 @@ fn of_plan(list: &mut List, offset: u32, fits: fn(DefinitionKind) -> bool) {
     }
 }
 
-/// What the devices of all toolboxes have.
+/// The parts of all toolboxes' devices.
 fn devices(list: &mut List, kinds: &[DefinitionKind]) {
     let all = list.view.index().definitions();
     let all = all.filter(|(_, known)| kinds.contains(&known.kind));
     list.definitions(all.map(|(id, _)| id), 3);
 }
 
-/// What belongs to something: the templates of a toolbox, the values of an enum, the supervisors and
-/// exits of an element.
+/// Members: the templates of a toolbox, the values of an enum, the supervisors and exits of an
+/// element.
 pub(super) fn members(list: &mut List, home: Option<DefinitionId>) {
     let Some(home) = home else { return };
     let index = list.view.index();

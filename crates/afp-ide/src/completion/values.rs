@@ -15,11 +15,10 @@ use afp_syntax::Node;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
-/// What a value shall be.
+/// The requirements of a value.
 pub(super) struct Expected {
     ty: Type,
     default: Option<Constant>,
-    /// Whether only values of enums fit.
     of_enum: bool,
 }
 
@@ -29,7 +28,7 @@ impl From<Type> for Expected {
     }
 }
 
-/// What a value at a place shall be; `None` where that is not known.
+/// The requirements of a value at a place; `None` if unknown.
 pub(super) fn wanted(view: &View, wanted: &Wanted, offset: u32) -> Option<Expected> {
     match wanted {
         Wanted::Port(node, port) => {
@@ -53,13 +52,13 @@ pub(super) fn wanted(view: &View, wanted: &Wanted, offset: u32) -> Option<Expect
     }
 }
 
-/// The entry whose node that is, and its place among those of its plan.
+/// The entry of a node, and its index in its plan.
 fn entry_at<'a>(view: &View<'a>, node: &Node, offset: u32) -> Option<(usize, &'a Entry)> {
     let span = view.node_span(node);
     view.plan_at(offset)?.entries.iter().enumerate().find(|(_, entry)| entry.span == span)
 }
 
-/// Whether the states of a component are the values of what goes into a port.
+/// Whether a port's value is a state of a component.
 fn gives_states(component: &Component, port: &str) -> bool {
     let made = component.template.as_ref().and_then(|template| template.made_from.as_ref());
     let Some(MadeFrom::Template { toolbox, index }) = made else { return false };
@@ -70,7 +69,7 @@ fn gives_states(component: &Component, port: &str) -> bool {
     })
 }
 
-/// Which entries of a plan can be read at a place: what an entry begins with is known before the run.
+/// The readable entries of a plan at a place; an initial value is computed before the run.
 fn readable(view: &View, wanted: &Wanted, offset: u32) -> impl Fn(usize, &Entry) -> bool {
     let own = match wanted {
         Wanted::Entry(node) => entry_at(view, node, offset).map(|(at, own)| (at, own.kind)),
@@ -84,7 +83,7 @@ fn readable(view: &View, wanted: &Wanted, offset: u32) -> impl Fn(usize, &Entry)
     }
 }
 
-/// Whether a port takes a table, which is no value.
+/// Whether a port needs a table, which is not a value.
 pub(super) fn takes_table(view: &View, wanted: &Wanted) -> bool {
     let Wanted::Port(node, port) = wanted else { return false };
     let made =
@@ -94,7 +93,7 @@ pub(super) fn takes_table(view: &View, wanted: &Wanted) -> bool {
     reads.is_some_and(|reads| reads.port.name == *port)
 }
 
-/// Ports that are not bound yet, but by the word itself: those that need a value first.
+/// Unbound ports, required ones first; the current word does not count as a binding.
 pub(super) fn ports(list: &mut List, component: Option<&Component>) {
     let Some(component) = component else { return };
     let word = list.replaces;
@@ -126,7 +125,7 @@ fn port(
     }
 }
 
-/// What can be computed with: entries, those of the type that is wanted first, then values.
+/// Operands: entries of the wanted type, then other entries, then values.
 pub(super) fn formulas(list: &mut List, wanted: &Wanted, offset: u32) {
     let view = list.view;
     let expected = self::wanted(view, wanted, offset);
@@ -181,7 +180,7 @@ fn literals(list: &mut List, expected: &Expected) {
 }
 
 impl Expected {
-    /// Whether a value of a type becomes what is expected without much ado, or can be computed with for it.
+    /// Whether a value of a type fits the requirements with little or no computation.
     fn is_near(&self, ty: Option<&Type>) -> bool {
         match (ty, &self.ty) {
             (None, _) => true,
@@ -204,7 +203,6 @@ fn add_entry(list: &mut List, entry: &Entry, rank: u8) {
     }
 }
 
-/// The entries that an output can go to.
 pub(super) fn outputs(list: &mut List, component: Option<&Component>, port: &str, offset: u32) {
     let output = component.and_then(|it| it.outputs.iter().find(|output| *output.name == *port));
     let ty = output.and_then(|output| output.ty.as_ref());
@@ -217,7 +215,7 @@ pub(super) fn outputs(list: &mut List, component: Option<&Component>, port: &str
     }
 }
 
-/// The units of a number, those of what is wanted alone where that is known.
+/// The units of a number; if its dimension is known, only the units of that.
 pub(super) fn units(list: &mut List, expected: Option<&Expected>) {
     let dimension = match expected.map(|expected| &expected.ty) {
         Some(Type::Quantity(dimension)) => Some(*dimension),
@@ -237,7 +235,7 @@ pub(super) fn units(list: &mut List, expected: Option<&Expected>) {
     }
 }
 
-/// Types: the language's, enums and object types in view; in toolboxes also those of any type.
+/// Types: built-in ones, visible enums and object types; in toolboxes also generic types.
 pub(super) fn types(list: &mut List, offset: u32) {
     for name in ["bool", "int", "float", "string"].into_iter().chain(Dimension::names()) {
         list.add(name, CompletionKind::Type, plain(name), 1);

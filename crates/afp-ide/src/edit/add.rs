@@ -8,7 +8,7 @@ use super::{Refused, TextEdit, fragment};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Adds a `use` line below the others: of a toolbox, or of another plan file by its path in quotes.
+/// Adds a `use` line after the others: for a toolbox, or for a plan file with its path in quotes.
 pub(super) fn line_of_use(
     buffer: &mut TextBuffer,
     toolbox: &str,
@@ -29,20 +29,20 @@ pub(super) fn line_of_use(
     line(buffer, &format!("use {toolbox}{alias}"))
 }
 
-/// What stands between the quotes, of a text that is one literal.
+/// The contents of a text that is one string literal.
 fn path_in_quotes(text: &str) -> Option<&str> {
     let path = text.strip_prefix('"')?.strip_suffix('"')?;
     (!path.contains(['"', '\\', '\n', '\r'])).then_some(path)
 }
 
-/// The edit that brings a toolbox into view of a file; nothing where it is.
+/// Returns the edit that imports a toolbox into a file; `None` if it is imported.
 pub(crate) fn edit_of_use(text: &str, root: &Node, file: u16, toolbox: &str) -> Option<TextEdit> {
     let page = Page { text, root: root.clone() };
     let (range, text) = splice_of_line(&page, &format!("use {toolbox}")).ok()??;
     Some(TextEdit { span: buffer::span(file, range), text })
 }
 
-/// Adds a `use` line below the others, unless it is there.
+/// Adds a `use` line after the others, if it is missing.
 pub(super) fn line(buffer: &mut TextBuffer, line: &str) -> Result<(), Refused> {
     let page = Page { text: buffer.text(), root: buffer.root() };
     if let Some(splice) = splice_of_line(&page, line)? {
@@ -51,7 +51,7 @@ pub(super) fn line(buffer: &mut TextBuffer, line: &str) -> Result<(), Refused> {
     Ok(())
 }
 
-/// What puts a `use` line below the others; nothing where it is there.
+/// The splice that adds a `use` line after the others; `None` if it exists.
 pub(super) fn splice_of_line(page: &Page<'_>, line: &str) -> Result<Option<Splice>, Refused> {
     let root = &page.root;
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
@@ -72,7 +72,7 @@ pub(super) fn splice_of_line(page: &Page<'_>, line: &str) -> Result<Option<Splic
     page.insert_lines(root, place, line, apart).map(Some)
 }
 
-/// Adds plans below the last one.
+/// Adds plans after the last one.
 pub(super) fn plans(buffer: &mut TextBuffer, text: &str) -> Result<(), Refused> {
     let (lines, nodes) = fragment::plans(text)?;
     let root = buffer.root();
@@ -82,7 +82,7 @@ pub(super) fn plans(buffer: &mut TextBuffer, text: &str) -> Result<(), Refused> 
     below_plan(buffer, last.or_else(|| root.children().last()), &lines)
 }
 
-/// Puts a plan below an item of the file, or at the top.
+/// Adds a plan after an item of the file, or at the top.
 pub(super) fn below_plan(
     buffer: &mut TextBuffer,
     item: Option<Node>,
@@ -131,7 +131,7 @@ pub(super) fn can_be_supervised(element: &Node) -> Result<(), Refused> {
     }
 }
 
-/// Checks that the names of new items can be used, are free and differ.
+/// Checks that the names of new items are valid, free and different.
 fn new_names(nodes: &[Node], scope: &Scope) -> Result<(), Refused> {
     let mut seen: Vec<String> = Vec::new();
     for node in nodes {
@@ -149,7 +149,8 @@ fn new_names(nodes: &[Node], scope: &Scope) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Puts lines into a plan or element: above the item `before`, else below their like.
+/// Adds lines to a plan or element: before the item `before`, or else after the last item of their
+/// kind.
 pub(super) fn place(
     buffer: &mut TextBuffer,
     list: &Node,
@@ -178,7 +179,7 @@ pub(super) fn place(
     Ok(())
 }
 
-/// A named item of a list.
+/// Finds an item of a list by name.
 pub(super) fn sibling(list: &Node, name: &str) -> Result<Node, Refused> {
     let found = match list.kind() {
         Kind::Plan => tree::inner(list, name),
@@ -188,7 +189,7 @@ pub(super) fn sibling(list: &Node, name: &str) -> Result<Node, Refused> {
     found.ok_or_else(|| Refused::new(format!("there is no '{name}' to stand above")))
 }
 
-/// Below the last item of the kind, else below what usually stands above that kind.
+/// The place after the last item of the kind, or else after the kinds that usually precede it.
 fn usual_place(list: &Node, kind: Kind) -> Place {
     let above: &[Kind] = match (list.kind(), kind) {
         (Kind::Plan, Kind::Entry) => &[Kind::Entry],

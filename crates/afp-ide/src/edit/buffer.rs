@@ -1,7 +1,7 @@
-//! A text that is changed in steps, and the one list of edits that the steps come to.
+//! A text that changes in steps, and the combined edits of all steps.
 //!
-//! A change such as an extraction cuts here and inserts there, each time on the tree of the text
-//! so far. The pieces of the first text that are still there tell the edits at the end.
+//! A change such as an extraction cuts and inserts several times, each time on the tree of the
+//! current text. At the end the remaining pieces of the original text give the edits.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -11,12 +11,12 @@ use afp_syntax::diagnostics::{Diagnostics, Edit, Severity};
 use afp_syntax::source::Span;
 use afp_syntax::{Node, parse};
 
-/// A replacement of a range of bytes.
+/// A replacement of a byte range.
 pub(super) type Splice = (Range<usize>, String);
 
-/// A text in the making.
+/// A text during a change.
 pub(super) struct TextBuffer {
-    /// What its components can be made from, besides plans.
+    /// The templates, in addition to plans.
     pub toolboxes: Rc<Toolboxes>,
     text: String,
     root: Node,
@@ -60,17 +60,17 @@ impl TextBuffer {
         &self.text
     }
 
-    /// The tree of the text so far.
+    /// The tree of the current text.
     pub fn root(&self) -> Node {
         self.root.clone()
     }
 
-    /// How many syntax errors the text so far has.
+    /// The number of syntax errors in the current text.
     pub fn syntax_errors(&self) -> usize {
         self.syntax_errors
     }
 
-    /// Replaces ranges of the text so far; they must not overlap.
+    /// Replaces ranges of the current text, which must not overlap.
     pub fn splice(&mut self, mut splices: Vec<Splice>) {
         splices.sort_by_key(|(range, _)| (range.start, range.end));
         for (range, text) in splices.into_iter().rev() {
@@ -105,12 +105,12 @@ impl TextBuffer {
         self.pieces = before;
     }
 
-    /// Whether the text so far is in canonical form.
+    /// Whether the current text is in canonical form.
     pub fn is_canonical(&self) -> bool {
         afp_format::format(&self.text).is_ok_and(|formatted| formatted == self.text)
     }
 
-    /// Puts the text so far into canonical form, if it can be read.
+    /// Formats the current text, if it is valid.
     pub fn make_canonical(&mut self) {
         let formatted = afp_format::format(&self.text).ok();
         if let Some(edit) = formatted.and_then(|formatted| difference(&self.text, &formatted)) {
@@ -119,8 +119,8 @@ impl TextBuffer {
         }
     }
 
-    /// The edits that make the first text, of `length` bytes, into the present one, in order; their
-    /// spans are in `file`.
+    /// Returns the edits from the original text, of `length` bytes, to the current one, in order;
+    /// `file` is the file of their spans.
     pub fn edits(self, length: usize, file: u16) -> Vec<Edit> {
         let mut edits = Vec::new();
         let mut new = String::new();
@@ -146,8 +146,7 @@ pub(super) fn span(file: u16, range: Range<usize>) -> Span {
     Span { file, start: offset(range.start), end: offset(range.end) }
 }
 
-/// The one edit that makes a text another one; `None` where they are the same. It begins and ends at
-/// borders of lines.
+/// The edit between two texts, at line borders; `None` if they are equal.
 pub fn difference(before: &str, after: &str) -> Option<Edit> {
     if before == after {
         return None;
@@ -177,7 +176,7 @@ mod tests {
     use crate::edit::apply;
 
     #[test]
-    fn steps_come_to_one_list_of_edits() {
+    fn steps_combine_to_one_list_of_edits() {
         let text = "plan P { start a }";
         let mut buffer = TextBuffer::new(text, Rc::default());
         buffer.splice(vec![(5..6, "Q".into()), (15..16, "long".into())]);
@@ -189,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_leaves_an_edit() {
+    fn a_cut_leaves_an_edit() {
         let mut buffer = TextBuffer::new("abc", Rc::default());
         buffer.splice(vec![(1..3, String::new())]);
         buffer.splice(vec![(0..1, String::new())]);

@@ -7,7 +7,7 @@ use super::{Item, Refused, add, name};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Connects a state or event, or leads its edge elsewhere.
+/// Connects a state or event, or changes its target.
 pub(super) fn connect(
     buffer: &mut TextBuffer,
     from: &Item,
@@ -27,7 +27,7 @@ pub(super) fn connect(
         let all: Vec<_> = edges(&component).collect();
         let page = Page { text: buffer.text(), root };
         let mut splices = vec![page.append(&component, &all, &text)?];
-        // Where it led together with others, those still do.
+        // Outcomes that shared its edge keep it.
         splices.extend(leaves.map(|place| (place, String::new())));
         buffer.splice(splices);
         return Ok(());
@@ -46,7 +46,7 @@ pub(super) fn connect(
     Ok(())
 }
 
-/// The name of a new edge, as wide as those above it are made.
+/// The name of a new edge, padded like those above it.
 fn padded(component: &Node, outcome: &str, text: &str) -> String {
     let Some(last) = edges(component).last() else { return outcome.to_owned() };
     let arrow = tree::tokens(&last, Kind::Arrow).next().map(|arrow| range(&arrow).start);
@@ -73,7 +73,7 @@ fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> 
     }
 }
 
-/// Whether what stands behind `fail` is a text on one line, in quotes.
+/// Whether the text after `fail` is a string literal on one line.
 fn is_text(text: &str) -> bool {
     let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
     inner.is_some_and(|inner| {
@@ -108,7 +108,7 @@ pub(super) fn disconnect(
     Ok(())
 }
 
-/// Lets a plan start with an element.
+/// Sets the first element of a plan.
 pub(super) fn start(buffer: &mut TextBuffer, plan: &str, to: &str) -> Result<(), Refused> {
     let root = buffer.root();
     tree::element(&root, plan, to)?;

@@ -1,4 +1,4 @@
-//! Help text and notes above an item.
+//! Help text and notes before an item.
 
 use std::ops::Range;
 
@@ -9,8 +9,7 @@ use super::{Item, Refused};
 use afp_syntax::Token;
 use afp_syntax::kind::Kind;
 
-/// Sets or removes the lines of an item that are of a kind: `///` lines, or `//` lines, which stand
-/// above those.
+/// Sets or removes an item's lines of a kind: `///` lines, or the `//` lines before them.
 pub(super) fn set(
     buffer: &mut TextBuffer,
     item: &Item,
@@ -25,7 +24,7 @@ pub(super) fn set(
     let slashes = if kind == Kind::Doc { "///" } else { "//" };
     let lines: Vec<_> =
         text.lines().map(|line| format!("{slashes} {line}").trim_end().to_owned()).collect();
-    // What stands behind the item before is about that one.
+    // A comment after the previous item belongs to that one.
     let above = |token: &Token| {
         range(token).start < start && (kind == Kind::Doc || page.begins_line(range(token).start))
     };
@@ -47,7 +46,7 @@ pub(super) fn set(
     Ok(())
 }
 
-/// Lines without what they stand on.
+/// Removes lines together with their line breaks.
 fn removed(
     page: &Page<'_>,
     lines: impl Iterator<Item = Range<usize>>,

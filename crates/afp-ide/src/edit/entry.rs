@@ -14,7 +14,6 @@ fn find(buffer: &TextBuffer, entry: &Item) -> Result<Node, Refused> {
     }
 }
 
-/// Sets the keyword.
 pub(super) fn set_kind(
     buffer: &mut TextBuffer,
     entry: &Item,
@@ -30,7 +29,7 @@ pub(super) fn set_kind(
     if old.text() == keyword {
         return Ok(());
     }
-    // Only an 'in' is live. A padded 'in' keeps its column.
+    // Only an 'in' can be live. A padded 'in' keeps its column.
     let live = tree::tokens(&node, Kind::Keyword).nth(1);
     let (place, text) = (range(&old), buffer.text());
     let place = place.start..live.map_or(place.end, |live| range(&live).end);
@@ -43,7 +42,6 @@ pub(super) fn set_kind(
     Ok(())
 }
 
-/// Sets or removes the type.
 pub(super) fn set_type(
     buffer: &mut TextBuffer,
     entry: &Item,
@@ -72,7 +70,7 @@ pub(super) fn set_value(
     set_part(buffer, old, end, " =", " ", value)
 }
 
-/// Replaces, adds or removes what stands behind a sign.
+/// Replaces, adds or removes the part after a sign.
 fn set_part(
     buffer: &mut TextBuffer,
     old: Option<Node>,

@@ -1,7 +1,7 @@
-//! A plan made of some elements, and a sub-plan in their place.
+//! Moves elements into a new plan, with a sub-plan in their place.
 //!
-//! A sub-plan has one way in and two ways out: its states lead to `OK`, its events to
-//! `Interrupted`. A selection that needs more is refused with the reason.
+//! A sub-plan has one entry and two exits: its states lead to `OK`, its events to `Interrupted`. If
+//! a selection needs more, the change is refused with a reason.
 
 mod data;
 mod flow;
@@ -21,11 +21,10 @@ pub(super) use data::type_of;
 use data::Data;
 use flow::Flow;
 
-/// Elements of a plan that are to become a plan.
+/// Elements to move into a new plan.
 pub(super) struct Selection {
     pub plan: Node,
     pub elements: Vec<Node>,
-    /// The file that it stands in.
     project: Project,
 }
 
@@ -49,12 +48,10 @@ impl Selection {
         self.project.item(0, token).is_some_and(|(_, node)| self.elements.contains(&node))
     }
 
-    /// The name of the entry that a token means.
     pub fn entry(&self, token: &Token) -> Option<String> {
         self.project.entry(0, token)
     }
 
-    /// Whether a binding takes a value out of its component.
     pub fn is_output(&self, bind: &Node) -> bool {
         self.project.is_output(0, bind)
     }
@@ -65,7 +62,7 @@ impl Selection {
     }
 }
 
-/// Extracts elements of a plan into a plan of their own; scenarios of all files follow.
+/// Moves elements into a new plan and adapts the scenarios of all files.
 pub(super) fn run(
     workspace: &mut Workspace,
     plan: &str,
@@ -130,7 +127,7 @@ fn check_names(
     Ok(())
 }
 
-/// The new plan does not see the supervisors of the old one.
+/// Refuses reactions: the new plan does not see the supervisors of the old one.
 fn check_reactions(selection: &Selection) -> Result<(), Refused> {
     let mut elements = selection.elements.iter();
     let reacts = elements.find(|element| children(element, Kind::Reactions).next().is_some());
@@ -139,7 +136,7 @@ fn check_reactions(selection: &Selection) -> Result<(), Refused> {
     Err(Refused::new(format!("'{name}' reacts to a supervisor that stays in the plan")))
 }
 
-/// The selected elements in the text so far, without the sub-plan that stands for them.
+/// The selected elements in the current text, without the sub-plan that replaces them.
 fn chosen(root: &Node, plan: &str, selection: &Selection, new_plan: &str) -> Vec<Node> {
     let Ok(plan) = tree::plan(root, plan) else { return Vec::new() };
     let is_call = |element: &Node| {
@@ -151,8 +148,8 @@ fn chosen(root: &Node, plan: &str, selection: &Selection, new_plan: &str) -> Vec
         .collect()
 }
 
-/// Leads edges into the selection to the sub-plan, edges out of it to `terminate`, and scenarios
-/// through the sub-plan.
+/// Redirects edges into the selection to the sub-plan, edges out of it to `terminate`, and the
+/// paths of scenarios.
 fn lead_through(buffer: &mut TextBuffer, flow: &Flow, element: &str, scenarios: Vec<Splice>) {
     let mut splices: Vec<_> =
         flow.ways_in.iter().map(|token| (range(token), element.to_owned())).collect();

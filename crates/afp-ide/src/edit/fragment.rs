@@ -1,5 +1,5 @@
-//! Fragments of text that a change brings: each is read in its surroundings before it is used, so
-//! that none can say more than it should.
+//! Fragments of text in a change: each is parsed in its context first, so that it cannot contain
+//! more than expected.
 
 use super::Refused;
 use super::list::dedented;
@@ -9,7 +9,6 @@ use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Severity};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, parse};
 
-/// Checks a formula.
 pub(super) fn formula(text: &str) -> Result<(), Refused> {
     read("plan P { const x = ", text, " }", "a formula", |item| {
         item.children().find(|child| !matches!(child.kind(), Kind::Type | Kind::Error))
@@ -29,14 +28,14 @@ pub(super) fn time(text: &str) -> Result<(), Refused> {
     })
 }
 
-/// Checks the name of a template or plan, with or without a home.
+/// Checks the name of a template or plan, with or without a toolbox.
 pub(super) fn reference(text: &str) -> Result<(), Refused> {
     read("plan P { actor x: ", text, " {} }", "the name of a template", |item| {
         children(item, Kind::Ref).next()
     })
 }
 
-/// Reads a fragment between two texts; it must be exactly what `find` gives.
+/// Parses a fragment between two texts; it must be exactly the result of `find`.
 fn read(
     before: &str,
     text: &str,
@@ -124,7 +123,7 @@ fn unreadable(diags: &Diagnostics) -> Refused {
     Refused::new(format!("the text cannot be read: {message}"))
 }
 
-/// The only child, when it is of a kind.
+/// The child, if it is the only one and of that kind.
 fn only(node: &Node, kind: Kind) -> Option<Node> {
     let mut items = node.children().filter(|child| !matches!(child.kind(), Kind::Ref | Kind::Args));
     items.next().filter(|item| item.kind() == kind && items.next().is_none())

@@ -1,7 +1,7 @@
-//! The elements of a sub-plan in its place.
+//! Replaces a sub-plan by its elements.
 //!
-//! Only where nothing but the nesting goes: inputs must be what they are while the sub-plan runs,
-//! and its plan must begin without values of its own and have no supervisors of the whole.
+//! This needs inputs that stay constant during the sub-plan, and a plan without initial values and
+//! without global supervisors.
 
 mod data;
 mod text;
@@ -16,30 +16,30 @@ use afp_syntax::{Node, Token};
 
 use data::Data;
 
-/// A sub-plan that is to be replaced by its elements.
+/// A sub-plan to replace by its elements.
 struct Call {
     project: Project,
-    /// The file that the plan inside stands in.
+    /// The file of the inner plan.
     from: usize,
     /// The plan around it.
     outer: Node,
     /// The sub-plan.
     element: Node,
-    /// The plan that it is made from.
+    /// Its plan.
     inner: Node,
-    /// Where its states lead.
+    /// The target of its states.
     ok: String,
-    /// Where its events lead.
+    /// The target of its events.
     interrupted: Option<String>,
-    /// Where its faults lead.
+    /// The target of its faults.
     error: Option<String>,
-    /// The elements of the inner plan and their new names.
+    /// The elements of the inner plan with their new names.
     names: Vec<(String, String)>,
     /// The new name of the first one.
     first: String,
 }
 
-/// Puts the elements of a sub-plan in its place.
+/// Replaces a sub-plan by its elements.
 pub(super) fn run(workspace: &mut Workspace, plan: &str, element: &str) -> Result<(), Refused> {
     workspace.check_inside(&Item::inner(plan, element))?;
     let call = Call::of(workspace.project(), workspace.home, plan, element)?;
@@ -76,7 +76,7 @@ pub(super) fn run(workspace: &mut Workspace, plan: &str, element: &str) -> Resul
 }
 
 impl Call {
-    /// Finds the sub-plan, and the file that its plan stands in.
+    /// Finds the sub-plan, and the file of its plan.
     fn of(project: Project, home: usize, plan: &str, element: &str) -> Result<Call, Refused> {
         let root = &project.roots[home];
         let outer = tree::plan(root, plan)?;
@@ -133,7 +133,7 @@ impl Call {
     }
 }
 
-/// New names for the elements of a plan, that are free in the plan around it.
+/// New names for the elements of a plan, unused in the outer plan.
 fn new_names(outer: &Node, inner: &Node, element: &str) -> Vec<(String, String)> {
     let mut taken = Scope::Plan(outer.clone()).names();
     taken.retain(|name| name != element);
@@ -146,7 +146,7 @@ fn new_names(outer: &Node, inner: &Node, element: &str) -> Vec<(String, String)>
     names
 }
 
-/// Leads edges and scenarios to the elements in place of the sub-plan.
+/// Redirects edges and scenarios from the sub-plan to its elements.
 fn redirect(
     workspace: &mut Workspace,
     call: &Call,
@@ -192,7 +192,7 @@ fn redirect(
     Ok(())
 }
 
-/// Whether a name stands before the arrow of a claim.
+/// Whether a name is before the arrow of a claim.
 fn is_left(token: &Token) -> bool {
     let claim = token.parent().and_then(|path| path.parent());
     let arrow = claim.and_then(|claim| tree::tokens(&claim, Kind::Arrow).next());

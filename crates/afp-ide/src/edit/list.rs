@@ -1,4 +1,4 @@
-//! Putting items into lists and taking them out, in the style of their neighbours.
+//! Adding and removing items of lists, in the style of their neighbours.
 
 use std::ops::Range;
 
@@ -8,25 +8,21 @@ use super::tree::{is_comment, own_range, range, solid_after, solid_before};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// Where an item is put.
+/// The place of a new item.
 pub(super) enum Place {
-    /// Below an item.
     After(Node),
-    /// Above an item.
     Before(Node),
-    /// At the top of what the brackets hold, or of the file.
+    /// At the top of the body, or of the file.
     Top,
 }
 
 /// A text and its tree.
 pub(super) struct Page<'t> {
     pub text: &'t str,
-    /// Its tree.
     pub root: Node,
 }
 
 impl Page<'_> {
-    /// The blanks at the beginning of the line that a place is on.
     pub fn indent(&self, at: usize) -> &str {
         let line = &self.text[self.line_start(at)..];
         &line[..line.len() - line.trim_start_matches([' ', '\t']).len()]
@@ -40,7 +36,7 @@ impl Page<'_> {
         self.text[at..].find('\n').map_or(self.text.len(), |found| at + found)
     }
 
-    /// Whether only blanks stand before a place on its line.
+    /// Whether only spaces precede a place on its line.
     pub fn begins_line(&self, at: usize) -> bool {
         self.text[self.line_start(at)..at].trim().is_empty()
     }
@@ -49,8 +45,8 @@ impl Page<'_> {
         self.text[at..self.line_end(at)].trim().is_empty()
     }
 
-    /// Puts items, given as lines without indentation, into the list of a node; `apart` asks for
-    /// a blank line between them and their neighbour.
+    /// Adds items, given as lines without indentation, to the list of a node; `apart` asks for a
+    /// blank line next to their neighbour.
     pub fn insert_lines(
         &self,
         list: &Node,
@@ -97,7 +93,7 @@ impl Page<'_> {
         }
     }
 
-    /// Puts lines below a place, and what stands behind it on its line below them.
+    /// Adds lines after a place, and moves the rest of its line after them.
     fn below(&self, at: usize, text: &str, indent: &str) -> Splice {
         if self.ends_line(at) {
             return (at..at, text.to_owned());
@@ -107,7 +103,7 @@ impl Page<'_> {
         (at..at + blanks, format!("{text}\n{indent}"))
     }
 
-    /// The place behind a token and the comment on its line.
+    /// The place after a token and the comment on its line.
     fn behind_comment(&self, token: &Token) -> usize {
         let mut end = range(token).end;
         let mut next = token.next_token();
@@ -122,8 +118,8 @@ impl Page<'_> {
         end
     }
 
-    /// Puts an edge or binding below the last of `items`, on its line when the list is on one
-    /// line, else on a line of its own.
+    /// Adds an edge or binding after the last of `items`: on the same line if the list has one
+    /// line, else on a new line.
     pub fn append(&self, list: &Node, items: &[Node], text: &str) -> Result<Splice, Refused> {
         let (open, close) = (open_bracket(list)?, close_bracket(list)?);
         let inner = range(&open).end..range(&close).start;
@@ -167,7 +163,7 @@ impl Page<'_> {
         }
     }
 
-    /// Takes an item with its comments out of its list.
+    /// Removes an item and its comments from its list.
     pub fn remove(&self, node: &Node) -> Splice {
         let own = own_range(node);
         if self.begins_line(own.start) && self.ends_line(own.end) {
@@ -204,7 +200,7 @@ impl Page<'_> {
         }
     }
 
-    /// Whole lines, and a blank line too much above or below them.
+    /// Whole lines, with a superfluous blank line before or after them.
     fn whole_lines(&self, own: Range<usize>) -> Range<usize> {
         let start = self.line_start(own.start);
         let end = (self.line_end(own.end) + 1).min(self.text.len());
@@ -240,13 +236,13 @@ impl Page<'_> {
     }
 }
 
-/// Puts the same blanks before every line that is not empty.
+/// Indents every line that is not empty.
 pub(super) fn indented(lines: &str, indent: &str) -> String {
     let line = |line: &str| if line.is_empty() { String::new() } else { format!("{indent}{line}") };
     lines.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Takes blanks away before every line but the first, as far as they are there.
+/// Removes up to the given indentation from every line but the first.
 pub(super) fn dedented(text: &str, indent: &str) -> String {
     let line = |line: &str| {
         let common = line.bytes().zip(indent.bytes()).take_while(|(a, b)| a == b).count();
@@ -265,12 +261,10 @@ fn is_close(token: &Token) -> bool {
     matches!(token.kind(), Kind::CloseBrace | Kind::CloseParen)
 }
 
-/// The bracket that opens the list of a node.
 pub(super) fn open_bracket(list: &Node) -> Result<Token, Refused> {
     bracket(list, [Kind::OpenParen, Kind::OpenBrace])
 }
 
-/// The bracket that closes the list of a node.
 pub(super) fn close_bracket(list: &Node) -> Result<Token, Refused> {
     bracket(list, [Kind::CloseParen, Kind::CloseBrace])
 }

@@ -1,11 +1,11 @@
-//! Names that a change brings: can they be used, and are they free.
+//! Names in a change: whether they are valid and free.
 
 use std::collections::BTreeSet;
 
 use super::Refused;
 use super::tree::Scope;
 
-/// Words that cannot be a name anywhere.
+/// Words that are never names.
 const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false", "repeat"];
 
 /// Checks that a word can be a name.
@@ -29,7 +29,7 @@ pub(super) fn check_element(name: &str) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Checks that a name is not taken in a scope; `own` is a name there that does not count.
+/// Checks that a name is free in a scope, apart from the name `own`.
 pub(super) fn check_free(scope: &Scope, name: &str, own: Option<&str>) -> Result<(), Refused> {
     let taken = scope
         .names()
@@ -44,12 +44,12 @@ pub(super) fn check_free(scope: &Scope, name: &str, own: Option<&str>) -> Result
     }
 }
 
-/// The name itself, or with the least number behind it that makes it free.
+/// Returns the name, with the lowest free number if it is taken.
 pub(super) fn fresh(name: &str, taken: &[String]) -> String {
     Taken::of(taken.iter().map(String::as_str)).fresh(name)
 }
 
-/// Names that are taken, for whoever looks for many free ones.
+/// A set of taken names, for many free ones.
 #[derive(Debug, Default)]
 pub(crate) struct Taken(BTreeSet<String>);
 
@@ -58,7 +58,7 @@ impl Taken {
         Taken(names.map(key).collect())
     }
 
-    /// The name itself, or with the least number behind it that makes it free.
+    /// Returns the name, with the lowest free number if it is taken.
     pub fn fresh(&self, name: &str) -> String {
         let numbered = (2_u32..).map(|number| format!("{name}{number}"));
         let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
@@ -66,7 +66,7 @@ impl Taken {
     }
 }
 
-/// What is left of a name in every spelling of it.
+/// A name without its differences in spelling.
 fn key(name: &str) -> String {
     name.chars().filter(|each| *each != '_').collect::<String>().to_lowercase()
 }

@@ -1,4 +1,4 @@
-//! What stands in the head of an element or supervisor: template, bindings, times.
+//! The head of an element or supervisor: template, bindings, times.
 
 use super::buffer::{Splice, TextBuffer};
 use super::list::Page;
@@ -7,7 +7,6 @@ use super::{Binding, Item, Refused, fragment, name};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// Binds a port, or changes what it is bound to.
 pub(super) fn bind(
     buffer: &mut TextBuffer,
     component: &Item,
@@ -43,7 +42,7 @@ fn check_entry(plan: &Node, entry: &str) -> Result<(), Refused> {
     Err(Refused::new(format!("there is no entry '{entry}' in the plan")))
 }
 
-/// What is bound to a port: the formula, or the target.
+/// The formula or the target of a binding.
 pub(super) fn value(bind: &Node) -> Option<Node> {
     bind.children().find(|child| child.kind() != Kind::Error)
 }
@@ -81,14 +80,14 @@ fn new_binding(buffer: &TextBuffer, node: &Node, text: &str) -> Result<Option<Sp
     Ok(Some((end..end, format!("({text})"))))
 }
 
-/// The place behind the template's name.
+/// The place after the template's name.
 fn head_end(node: &Node) -> Result<usize, Refused> {
     let reference = children(node, Kind::Ref).next().and_then(|node| solid_range(&node));
     let refused = || Refused::new("it has no template yet");
     reference.map(|range| range.end).ok_or_else(refused)
 }
 
-/// Removes the binding of a port, and brackets that would be empty.
+/// Removes the binding of a port, and empty parentheses.
 pub(super) fn unbind(buffer: &mut TextBuffer, component: &Item, port: &str) -> Result<(), Refused> {
     let root = buffer.root();
     let node = tree::component(&root, component)?;
@@ -100,7 +99,6 @@ pub(super) fn unbind(buffer: &mut TextBuffer, component: &Item, port: &str) -> R
     Ok(())
 }
 
-/// How a binding is taken out of its component.
 pub(super) fn removal(buffer: &TextBuffer, component: &Node, bind: &Node) -> Splice {
     let page = Page { text: buffer.text(), root: buffer.root() };
     if let Some(args) =
@@ -114,7 +112,6 @@ pub(super) fn removal(buffer: &TextBuffer, component: &Node, bind: &Node) -> Spl
     page.remove(bind)
 }
 
-/// Makes a component from another template.
 pub(super) fn set_template(
     buffer: &mut TextBuffer,
     component: &Item,
@@ -171,7 +168,7 @@ pub(super) fn set_timing(
         (None, Some(value)) => {
             let args = children(&node, Kind::Args).next().and_then(|args| solid_range(&args));
             let timing = timings.last().and_then(solid_range);
-            // 'every' stands before 'deadline'.
+            // 'every' comes before 'deadline'.
             let first = timings.first().and_then(solid_range).filter(|_| keyword == "every");
             match first {
                 Some(first) => (first.start..first.start, format!("{keyword} {value} ")),
@@ -187,7 +184,7 @@ pub(super) fn set_timing(
     Ok(())
 }
 
-/// What a component and its supervisors are bound to and timed by.
+/// The bindings and times of a component and its supervisors.
 pub(super) fn data_of(component: &Node) -> impl Iterator<Item = Node> {
     let components =
         tree::below(component, Kind::Element).chain(tree::below(component, Kind::Guard));
@@ -201,7 +198,6 @@ pub(super) fn reads(formula: &Node) -> Vec<Token> {
     references.filter_map(|reference| tree::single(&reference)).collect()
 }
 
-/// The port that a binding is for.
 pub(super) fn port_of(bind: &Node) -> String {
     name_of(bind).unwrap_or_default()
 }

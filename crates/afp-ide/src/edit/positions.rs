@@ -1,13 +1,12 @@
-//! Positions of a drawing, carried along with changes of the text.
+//! Positions of a drawing after changes of the text.
 
 use super::{Change, Item};
 use afp_draw::layout_file::Layout;
 
-/// Gives items their new names, places and plans after a change of the text.
+/// Adapts names, places and plans of positions to a change of the text.
 ///
-/// What a change adds has no position. Elements that are extracted keep theirs in the new plan,
-/// the sub-plan stands where the first of them stood; elements that are inlined are left to the
-/// automatic layout.
+/// New items have no position. Extracted elements keep theirs in the new plan, and the sub-plan
+/// gets the position of the first of them. Inlined elements use the automatic layout.
 pub fn follow(layout: &mut Layout, change: &Change) {
     match change {
         Change::Remove { item } => layout.remove(item),

@@ -1,4 +1,4 @@
-//! The files of a project and what the names in them mean.
+//! The files of a project and the meaning of their names.
 
 use std::rc::Rc;
 
@@ -14,7 +14,7 @@ use afp_syntax::kind::Kind;
 use afp_syntax::source::{Source, Span};
 use afp_syntax::{Node, Token};
 
-/// The paths behind `use`, as written.
+/// The paths after `use`, as written.
 pub(super) fn paths_of_uses(root: &Node) -> impl Iterator<Item = String> {
     let lines = tree::children(root, Kind::Use);
     let texts = lines.filter_map(|line| tree::tokens(&line, Kind::Text).next());
@@ -27,15 +27,14 @@ pub fn used_files(file: &Source) -> Vec<String> {
     paths_of_uses(&root).map(|written| joined(&file.name, &written)).collect()
 }
 
-/// The trees of the files, and which files each of them sees.
+/// The trees of the files, and the files visible to each.
 pub(super) struct Project {
-    /// The trees.
     pub roots: Vec<Node>,
-    /// The places of the files whose plans and enums a file sees, its own first.
+    /// The files whose plans and enums a file sees, itself first.
     pub sees: Vec<Vec<usize>>,
-    /// What the names in them mean.
+    /// The meaning of their names.
     index: Index,
-    /// How many files of toolboxes stand before them in the index.
+    /// The number of toolbox files before them in the index.
     first: usize,
 }
 
@@ -56,39 +55,34 @@ impl Project {
         Project { sees, roots, index: index_files(&sources, &toolboxes), first }
     }
 
-    /// The place of a token, as the index says it.
     fn span(&self, file: usize, token: &Token) -> Option<Span> {
         let range = token.text_range();
         let (start, end) = (range.start().into(), range.end().into());
         Some(Span { file: u16::try_from(self.first + file).ok()?, start, end })
     }
 
-    /// The tokens that refer to what a name declares, with their files.
+    /// The tokens that refer to a declared name, with their files.
     pub fn references(&self, file: usize, name: &Token) -> Vec<(usize, Token)> {
         let declared = self.span(file, name).and_then(|span| self.index.declared_at(span));
         let spans = declared.into_iter().flat_map(|id| self.index.references(id));
         spans.filter_map(|span| self.token(span)).collect()
     }
 
-    /// The name, with its file, of what a token means.
     pub fn declaration(&self, file: usize, token: &Token) -> Option<(usize, Token)> {
         let meaning = self.index.name(self.span(file, token)?)?.meaning;
         self.token(self.index.definition(meaning.definition()?).name)
     }
 
-    /// The item, with its file, that a token means.
     pub fn item(&self, file: usize, token: &Token) -> Option<(usize, Node)> {
         let (file, name) = self.declaration(file, token)?;
         Some((file, name.parent()?))
     }
 
-    /// The name of the entry that a token means.
     pub fn entry(&self, file: usize, token: &Token) -> Option<String> {
         let (_, node) = self.item(file, token)?;
         tree::name_of(&node).filter(|_| node.kind() == Kind::Entry)
     }
 
-    /// Whether a binding takes a value out of its component.
     pub fn is_output(&self, file: usize, bind: &Node) -> bool {
         match bind.kind() {
             Kind::BindOut => true,
@@ -97,7 +91,7 @@ impl Project {
         }
     }
 
-    /// Whether a binding that is a name alone is for an output.
+    /// Whether a binding that is only a name is an output.
     fn is_out(&self, file: usize, name: &Token) -> bool {
         let meant = self.span(file, name).and_then(|span| self.index.name(span));
         let Some(Meaning::Both { port, .. }) = meant.map(|name| name.meaning) else { return false };
@@ -107,7 +101,7 @@ impl Project {
         )
     }
 
-    /// A binding that is a name alone as it is with its sign, around what stands in place of its entry.
+    /// A short binding in full, with another entry.
     pub fn spelled_out(&self, file: usize, bind: &Node, entry: &str) -> Option<Splice> {
         let name = tree::name_token(bind)?;
         let sign = if self.is_output(file, bind) { "=>" } else { "=" };
@@ -120,7 +114,7 @@ impl Project {
         Some((file, found.right_biased()?))
     }
 
-    /// What a name of a kind means in a file: the file that declares it, and the declaration.
+    /// The declaration of a name of some kind in a file, with its file.
     pub fn find(&self, file: usize, kind: Kind, name: &str) -> Option<(usize, Node)> {
         self.sees[file].iter().find_map(|seen| {
             let mut nodes = tree::children(&self.roots[*seen], kind);

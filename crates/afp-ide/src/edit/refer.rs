@@ -1,4 +1,4 @@
-//! Who refers to what in the files of a project, as the index says it.
+//! References in the files of a project, from the index.
 
 use super::project::Project;
 use super::tree::{self, name_token};
@@ -6,7 +6,7 @@ use afp_syntax::item::Item;
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// The tokens that mean an item of the file `home`, its declaration included, with their files.
+/// The tokens that mean an item of the file `home`, with their files and its declaration.
 pub(super) fn to(project: &Project, home: usize, item: &Item) -> Vec<(usize, Token)> {
     let declared = tree::find(&project.roots[home], item).ok();
     let Some(name) = declared.as_ref().and_then(name_token) else { return Vec::new() };
@@ -21,7 +21,7 @@ pub(super) fn to_element(project: &Project, home: usize, element: &Item) -> Vec<
     all.filter(|(file, token)| *file == home && leads(token)).map(|(_, token)| token).collect()
 }
 
-/// The formulas of a plan that read an entry of it.
+/// The formulas of a plan that read its entry.
 pub(super) fn reads_of(project: &Project, home: usize, entry: &Item) -> Vec<Token> {
     let all = to(project, home, entry).into_iter().skip(1);
     let reads = |(file, token): &(usize, Token)| {
@@ -33,14 +33,14 @@ pub(super) fn reads_of(project: &Project, home: usize, entry: &Item) -> Vec<Toke
     all.filter(reads).map(|(_, token)| token).collect()
 }
 
-/// The sub-plans of a file that are made from a plan of it.
+/// The sub-plans of a file that use a plan of it.
 pub(super) fn users_of(project: &Project, home: usize, plan: &Item) -> Vec<Node> {
     let all = to(project, home, plan).into_iter().filter(|(file, _)| *file == home);
     all.filter_map(|(_, token)| token.parent_ancestors().find(|n| n.kind() == Kind::Element))
         .collect()
 }
 
-/// The names in scenarios of a file that mean one of the items of the file `home`.
+/// The names in a file's scenarios that mean one of the items of the file `home`.
 pub(super) fn in_scenarios(
     project: &Project,
     home: usize,
@@ -52,12 +52,11 @@ pub(super) fn in_scenarios(
     own.map(|(_, token)| token).collect()
 }
 
-/// The scenario that a token stands in.
 pub(super) fn scenario(token: &Token) -> Option<Node> {
     token.parent_ancestors().find(|node| node.kind() == Kind::Scenario)
 }
 
-/// The binding that a name is by itself.
+/// The binding that consists only of a name.
 pub(super) fn alone(name: &Token) -> Option<Node> {
     name.parent()?.parent().filter(|node| node.kind() == Kind::BindSame)
 }

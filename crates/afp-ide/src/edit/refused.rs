@@ -1,11 +1,11 @@
-//! Why a change cannot be made.
+//! The reason why a change is refused.
 
 use std::fmt;
 
-/// Why a change cannot be made.
+/// The reason why a change is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refused {
-    /// The reason: lower case, no final period, names in single quotes.
+    /// Lower case, no final period, names in single quotes.
     pub reason: String,
 }
 

@@ -1,4 +1,4 @@
-//! Other places for items: within their list, in another plan, at another owner.
+//! New places of items: in their list, in another plan, at another owner.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use super::{Item, Refused, add, name, port, refer, remove};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Moves an item above another one of its list, or below its like.
+/// Moves an item before another one of its list, or after the last of its kind.
 pub(super) fn reorder(
     buffer: &mut TextBuffer,
     item: &Item,
@@ -46,7 +46,7 @@ pub(super) fn reorder(
     Ok(())
 }
 
-/// Whether an item stands where it should already.
+/// Whether an item already has that place.
 fn is_there(list: &Node, node: &Node, before: Option<&str>) -> Result<bool, Refused> {
     let next = node.next_sibling();
     Ok(match before {

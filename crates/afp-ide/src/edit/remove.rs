@@ -1,4 +1,4 @@
-//! Removing items, and what would be left hanging.
+//! Removing items and the references to them.
 
 use super::buffer::{Splice, TextBuffer};
 use super::list::Page;
@@ -9,7 +9,6 @@ use super::{Item, Refused, port};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// Removes an item.
 pub(super) fn item(buffer: &mut TextBuffer, item: &Item) -> Result<(), Refused> {
     let node = tree::find(&buffer.root(), item)?;
     let project = Project::alone(buffer);
@@ -31,7 +30,7 @@ pub(super) fn item(buffer: &mut TextBuffer, item: &Item) -> Result<(), Refused> 
     Ok(())
 }
 
-/// Takes out what elements do where a supervisor of their plan reports something.
+/// Removes the reactions of elements to a supervisor of their plan.
 fn drop_reactions(buffer: &mut TextBuffer, item: &Item) {
     let reaction = |buffer: &TextBuffer| {
         let project = Project::alone(buffer);
@@ -43,7 +42,7 @@ fn drop_reactions(buffer: &mut TextBuffer, item: &Item) {
     }
 }
 
-/// Takes a node out of its list.
+/// Removes a node from its list.
 pub(super) fn take_out(buffer: &mut TextBuffer, node: &Node) {
     let page = Page { text: buffer.text(), root: buffer.root() };
     let splice = page.remove(node);
@@ -93,7 +92,7 @@ fn unbind_all(buffer: &mut TextBuffer, project: &Project, item: &Item) {
     });
 }
 
-/// Removes the edges of others that lead to an element, and the `start` that names it.
+/// Removes the edges to an element from others, and the `start` that names it.
 pub(super) fn cut_edges_to(buffer: &mut TextBuffer, element: &Item) {
     let project = Project::alone(buffer);
     let own = tree::find(&project.roots[0], element).ok();
@@ -106,12 +105,12 @@ pub(super) fn cut_edges_to(buffer: &mut TextBuffer, element: &Item) {
     });
 }
 
-/// The innermost node of one of some kinds around a token.
+/// The innermost enclosing node of some kinds.
 fn around(token: &Token, kinds: &[Kind]) -> Option<Node> {
     token.parent_ancestors().find(|node| kinds.contains(&node.kind()))
 }
 
-/// Changes nodes from the last one to the first, so that those before stay where they are.
+/// Changes nodes from last to first, so that earlier places stay valid.
 fn backwards(
     buffer: &mut TextBuffer,
     nodes: impl Iterator<Item = Node>,
@@ -131,8 +130,7 @@ fn backwards(
     }
 }
 
-/// Removes the edges of a component that lead neither to itself nor to an element that the plan
-/// `there` has, too.
+/// Removes the edges of a component whose target is neither itself nor in the plan `there`.
 pub(super) fn cut_edges_from(buffer: &mut TextBuffer, component: &Item, there: &Node) {
     let project = Project::alone(buffer);
     let Ok(own) = tree::find(&project.roots[0], component) else { return };

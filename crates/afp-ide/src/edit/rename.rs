@@ -1,4 +1,4 @@
-//! Another name for an item, wherever the files refer to it.
+//! Renames an item wherever files refer to it.
 
 use super::project::Project;
 use super::tree::{self, Scope, name_token, range, scope_of};
@@ -8,7 +8,6 @@ use afp_dsl::types::is_built_in;
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// Renames an item.
 pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(), Refused> {
     let root = workspace.buffer().root();
     let node = tree::find(&root, item)?;
@@ -33,7 +32,8 @@ pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(
     everywhere(workspace, |project| all_to(refer::to(project, home, item), to))
 }
 
-/// Gives items of a file other names, all at once, in a part of it alone: so many bytes before and behind stay as they are.
+/// Renames items of a file at once, in only a part of it: the given numbers of bytes at start and
+/// end stay unchanged.
 pub(super) fn within(
     workspace: &mut Workspace,
     names: &[(Item, String)],
@@ -52,12 +52,11 @@ pub(super) fn within(
     everywhere(workspace, tokens)
 }
 
-/// The name that tokens get.
+/// The new name of each token.
 fn all_to(tokens: Vec<(usize, Token)>, to: &str) -> Vec<((usize, Token), &str)> {
     tokens.into_iter().map(|token| (token, to)).collect()
 }
 
-/// Renames a column of a table.
 pub(super) fn column(
     workspace: &mut Workspace,
     table: &str,
@@ -82,7 +81,7 @@ pub(super) fn value(
     inner(workspace, (&Item::enumeration(enumeration), Kind::Variant), value, to, &missing)
 }
 
-/// Renames a part of an item that is an item of no plan.
+/// Renames a part of an item outside plans.
 fn inner(
     workspace: &mut Workspace,
     (item, kind): (&Item, Kind),
@@ -112,7 +111,7 @@ fn inner(
     everywhere(workspace, tokens)
 }
 
-/// Writes names in the place of tokens, which go with their files.
+/// Replaces names, given with their files.
 fn everywhere<'n>(
     workspace: &mut Workspace,
     tokens: impl Fn(&Project) -> Vec<((usize, Token), &'n str)>,
@@ -133,7 +132,7 @@ fn everywhere<'n>(
     Ok(())
 }
 
-/// Tells apart the ports and the entries that one name stands for.
+/// Separates the ports and entries that share a name.
 fn spell_out(workspace: &mut Workspace, project: &Project, tokens: &[((usize, Token), &str)]) {
     for (file, buffer) in workspace.buffers.iter_mut().enumerate() {
         let own = tokens.iter().filter(|((home, _), _)| *home == file);
@@ -147,7 +146,7 @@ fn spell_out(workspace: &mut Workspace, project: &Project, tokens: &[((usize, To
     }
 }
 
-/// Checks that no file that sees the item's file sees something else of the new name.
+/// Checks that the new name is free in all files that see the item's file.
 fn check_free_elsewhere(workspace: &Workspace, kind: Kind, to: &str) -> Result<(), Refused> {
     let project = workspace.project();
     let seeing = project.sees.iter().enumerate().filter(|(_, seen)| seen.contains(&workspace.home));
@@ -169,7 +168,7 @@ fn check_free_elsewhere(workspace: &Workspace, kind: Kind, to: &str) -> Result<(
     }
 }
 
-/// The kinds of everything in a tree, which a name must not change.
+/// The kinds of all nodes, which a new name must not change.
 fn shape(root: &Node) -> Vec<Kind> {
     root.descendants_with_tokens().map(|element| element.kind()).collect()
 }

@@ -1,7 +1,7 @@
-//! Several changes as one: all of them or none.
+//! Several changes at once, applied all or none.
 //!
-//! What is added may wish for a name that is taken. It gets another one, and later changes mean it by
-//! the name that was wished for.
+//! If the name of a new item is taken, it gets a different one. Later changes refer to it by the
+//! requested name.
 
 mod given;
 mod translate;
@@ -17,23 +17,23 @@ use afp_syntax::source::Source;
 
 pub use given::Given;
 
-/// What several changes come to.
+/// The result of several changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Made {
     /// The edits, file by file, in order and without overlaps.
     pub edits: Vec<TextEdit>,
-    /// The changes as they were made, under the names that were given.
+    /// The changes with the assigned names.
     pub changes: Vec<Change>,
-    /// The names that were wished for and taken, with those given instead.
+    /// Requested names that were taken, with the assigned ones.
     pub given: Given,
     pub added: Vec<Item>,
 }
 
-/// The edits that make all changes of the file `home`, one after the other, as
-/// [`edit`](super::edit) makes one. The first element of a plan becomes its start.
+/// Returns the edits of all changes of the file `home`, each like [`edit`](super::edit). The first
+/// element of an empty plan becomes its start.
 ///
 /// # Errors
-/// One of the changes is refused; then none is made.
+/// A change is refused; no change is made.
 pub fn edit_all(
     files: &[Source],
     toolboxes: &Toolboxes,
@@ -61,7 +61,7 @@ pub fn edit_all(
     Ok(made)
 }
 
-/// Gives the items of a text names that are free where they are put, and what else the text names those that it means.
+/// Assigns free names to the items of a text, and adapts its references.
 fn add_free(
     workspace: &mut Workspace,
     given: &mut Given,
@@ -99,14 +99,13 @@ fn add_free(
     Ok(items)
 }
 
-/// The names of all nodes but one.
+/// The names of all nodes except one.
 fn wished_elsewhere(index: usize, nodes: &[afp_syntax::Node]) -> Vec<String> {
     let others = nodes.iter().enumerate().filter(|(other, _)| *other != index);
     others.filter_map(|(_, node)| name_of(node)).collect()
 }
 
-/// Lets a plan without a start begin with the first element that was added to it: it is the only one, or the start that
-/// was cut out comes back.
+/// Starts a plan without a start at its first new element: the only one, or the start that was cut.
 fn first_start(workspace: &mut Workspace, change: &Change) -> Option<Change> {
     let Change::Add { plan, owner: None, text, .. } = change else { return None };
     let node = tree::plan(&workspace.buffer().root(), plan).ok()?;

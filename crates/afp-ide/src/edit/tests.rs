@@ -1,4 +1,4 @@
-//! Each change on a small plan: what becomes of the text, to the byte.
+//! Each change on a small plan, with the exact resulting text.
 
 mod alone;
 mod data;
@@ -18,7 +18,7 @@ fn toolboxes() -> Toolboxes {
     afp_toolboxes::sources().collect()
 }
 
-/// The edits of a file by itself.
+/// The edits of a file without a project.
 fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
     super::edit(&[Source::new("case.afp", text)], &toolboxes(), 0, change)
 }
@@ -44,7 +44,6 @@ plan P {
         Error -> terminate
     }
 
-    /// Goes back.
     actor back: B(
         // why
         distance = -limit, // because
@@ -53,7 +52,6 @@ plan P {
 }
 ";
 
-/// The text after a change.
 #[track_caller]
 fn after(text: &str, change: Change) -> String {
     match edit(text, &change) {
@@ -62,7 +60,7 @@ fn after(text: &str, change: Change) -> String {
     }
 }
 
-/// Checks that a change replaces exactly some texts in the plan, each of which is there once.
+/// Checks that a change replaces exactly these unique texts in the plan.
 #[track_caller]
 fn replaces(change: Change, pairs: &[(&str, &str)]) {
     let mut expected = PLAN.to_owned();
@@ -75,7 +73,6 @@ fn replaces(change: Change, pairs: &[(&str, &str)]) {
     format(&changed).unwrap();
 }
 
-/// Checks that a change is refused for that reason.
 #[track_caller]
 fn refused(text: &str, change: Change, reason: &str) {
     assert_eq!(edit(text, &change).map_err(|refused| refused.reason), Err(reason.to_owned()));

@@ -6,13 +6,13 @@ use super::{Item, Refused};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// Where names of one kind must differ.
+/// A scope of distinct names.
 pub(super) enum Scope {
-    /// The plans of a file, which differ from its tables, too.
+    /// The plans of a file, which also differ from its tables.
     File(Node),
-    /// The enums of a file, which differ from its tables, too.
+    /// The enums of a file, which also differ from its tables.
     Enums(Node),
-    /// The tables of a file, which differ from its plans and enums, too.
+    /// The tables of a file, which also differ from its plans and enums.
     Tables(Node),
     /// Entries, elements and global supervisors of a plan.
     Plan(Node),
@@ -39,7 +39,6 @@ impl Scope {
     }
 }
 
-/// The scope that an item's name is in.
 pub(super) fn scope_of(root: &Node, item: &Item) -> Result<Scope, Refused> {
     Ok(match item {
         Item::Plan { .. } => Scope::File(root.clone()),
@@ -62,7 +61,6 @@ pub(super) fn element(root: &Node, plan: &str, name: &str) -> Result<Node, Refus
     found.ok_or_else(|| Refused::new(format!("'{plan}' has no element '{name}'")))
 }
 
-/// The node of an item.
 pub(super) fn find(root: &Node, item: &Item) -> Result<Node, Refused> {
     match item {
         Item::Plan { name } => plan(root, name),
@@ -103,8 +101,8 @@ pub(super) fn inner(plan: &Node, name: &str) -> Option<Node> {
     pick(plan.children().filter(|child| kinds.contains(&child.kind())), name)
 }
 
-/// The node that the name of an item's path means: `name`, or `name#2` for the second one of that
-/// name; `#1` is the first one without a name.
+/// Finds a node by a name of an item's path: `name`, `name#2` for the second one, `#1` for the
+/// first one without a name.
 fn pick(mut nodes: impl Iterator<Item = Node>, name: &str) -> Option<Node> {
     let Some((text, number)) = name.split_once('#') else {
         return nodes.find(|node| is_named(node, name));
@@ -131,12 +129,10 @@ pub(super) fn is_named(node: &Node, name: &str) -> bool {
     name_token(node).is_some_and(|token| token.text() == name)
 }
 
-/// The children of a kind.
 pub(super) fn children(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
     node.children().filter(move |child| child.kind() == kind)
 }
 
-/// All nodes of a kind below a node.
 pub(super) fn below(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
     node.descendants().filter(move |child| child.kind() == kind)
 }
@@ -150,7 +146,6 @@ fn all_tokens(node: &Node) -> impl Iterator<Item = Token> {
     node.children_with_tokens().filter_map(|element| element.into_token())
 }
 
-/// The keyword of an item.
 pub(super) fn keyword(node: &Node) -> Option<Token> {
     tokens(node, Kind::Keyword).next()
 }
@@ -160,23 +155,21 @@ pub(super) fn is_subplan(element: &Node) -> bool {
     keyword(element).is_some_and(|token| token.text() == "subplan")
 }
 
-/// Whether edges are of events.
 pub(super) fn has_events(component: &Node) -> bool {
     matches!(component.kind(), Kind::Guard | Kind::Reactions)
 }
 
-/// Whether an element is a computation.
 pub(super) fn is_computation(element: &Node) -> bool {
     keyword(element).is_some_and(|token| token.text() == "computation")
 }
 
-/// The name behind the colon of an element or supervisor, when it has no home.
+/// The template's name in an element or supervisor, if it has no toolbox.
 pub(super) fn template(component: &Node) -> Option<String> {
     let reference = children(component, Kind::Ref).next()?;
     single(&reference).map(|token| token.text().to_owned())
 }
 
-/// The only name of a reference; `None` with a point.
+/// The only name of a reference; `None` with a `.`.
 pub(super) fn single(reference: &Node) -> Option<Token> {
     let mut names = tokens(reference, Kind::Name);
     names.next().filter(|_| names.next().is_none())
@@ -205,7 +198,7 @@ pub(super) fn outcomes(edge: &Node) -> impl Iterator<Item = Token> {
     tokens(edge, Kind::Name)
 }
 
-/// How a state or event leaves an edge that it shares with others; `None` where it is alone.
+/// The range to delete for a state or event on a shared edge; `None` if the edge is not shared.
 pub(super) fn without_outcome(edge: &Node, outcome: &str) -> Option<std::ops::Range<usize>> {
     let names: Vec<_> = outcomes(edge).collect();
     let index = names.iter().position(|name| name.text() == outcome)?;
@@ -216,7 +209,6 @@ pub(super) fn without_outcome(edge: &Node, outcome: &str) -> Option<std::ops::Ra
     }
 }
 
-/// The bindings of a component.
 pub(super) fn binds(component: &Node) -> Vec<Node> {
     let args = children(component, Kind::Args);
     args.flat_map(|args| args.children())
@@ -230,12 +222,11 @@ pub(super) fn init(entry: &Node) -> Option<Node> {
     entry.children().find(|child| !other(child.kind()))
 }
 
-/// The bytes of a token.
 pub(super) fn range(token: &Token) -> Range<usize> {
     token.text_range().into()
 }
 
-/// The bytes from the first to the last token that means something; `None` when there is none.
+/// The range from the first to the last solid token; `None` if there is none.
 pub(super) fn solid_range(node: &Node) -> Option<Range<usize>> {
     let solid = |token: &Token| !token.kind().is_trivia();
     let mut tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
@@ -244,7 +235,7 @@ pub(super) fn solid_range(node: &Node) -> Option<Range<usize>> {
     Some(range(&first).start..end)
 }
 
-/// Whether a comment stands inside a node, between its first and last token.
+/// Whether a comment is between the first and last token of a node.
 pub(super) fn holds_comment(node: &Node) -> bool {
     let Some(solid) = solid_range(node) else { return false };
     let mut tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
@@ -256,9 +247,9 @@ pub(super) fn is_comment(token: &Token) -> bool {
     token.kind().is_trivia() && token.kind() != Kind::Whitespace
 }
 
-/// The bytes of an item with the comments that belong to it.
+/// The bytes of an item with its comments.
 ///
-/// A comment on the line of the token before it stays there.
+/// A comment on the line of the previous token stays there.
 pub(super) fn own_range(node: &Node) -> Range<usize> {
     let all = Range::<usize>::from(node.text_range());
     let mut on_new_line = node.first_token().is_none_or(|first| is_below(&first));
@@ -273,7 +264,7 @@ pub(super) fn own_range(node: &Node) -> Range<usize> {
     all
 }
 
-/// Whether a line break, or nothing at all, stands between a token and the solid one before it.
+/// Whether only a line break or nothing separates a token from the previous solid one.
 fn is_below(token: &Token) -> bool {
     let mut before = std::iter::successors(token.prev_token(), Token::prev_token);
     let found = before.find(|token| !token.kind().is_trivia() || token.text().contains('\n'));
@@ -287,7 +278,7 @@ pub(super) fn solid_before(root: &Node, at: usize) -> Option<Token> {
     all.find(|token| !token.kind().is_trivia() && range(token).end <= at)
 }
 
-/// The first solid token behind a place.
+/// The first solid token after a place.
 pub(super) fn solid_after(root: &Node, at: usize) -> Option<Token> {
     let first = root.token_at_offset(offset(at)).right_biased();
     let mut all = std::iter::successors(first, Token::next_token);

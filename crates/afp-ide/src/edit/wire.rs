@@ -1,12 +1,11 @@
-//! Items in messages: their paths as text.
+//! Items in messages, with paths as strings.
 //!
-//! `Plan`, `Plan.element` and `Plan.element.supervisor` as [`Item`] shows them; an enum is `enum Side`, so
-//! that it is told from a plan.
+//! `Plan`, `Plan.element` and `Plan.element.supervisor` as [`Item`] displays them; an enum is `enum
+//! Side`, to differ from a plan.
 
 use super::Item;
 use serde::{Deserialize, Deserializer, Serializer};
 
-/// The item of a path.
 pub fn item(path: &str) -> Option<Item> {
     if let Some(name) = path.strip_prefix("enum ") {
         return Some(Item::enumeration(name));
@@ -24,7 +23,6 @@ pub fn item(path: &str) -> Option<Item> {
     }
 }
 
-/// The path of an item.
 pub fn path(item: &Item) -> String {
     match item {
         Item::Enum { name } => format!("enum {name}"),

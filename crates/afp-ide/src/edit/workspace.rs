@@ -1,4 +1,4 @@
-//! The files that a change may edit, with a buffer of each.
+//! The files of a change, each with a buffer.
 
 use std::rc::Rc;
 
@@ -12,16 +12,14 @@ use afp_syntax::source::Source;
 
 /// The files that a change may edit.
 pub(super) struct Workspace {
-    /// Their normalised paths.
     pub paths: Vec<String>,
-    /// Their texts in the making.
     pub buffers: Vec<TextBuffer>,
-    /// The file that the change names its items in.
+    /// The file of the change's items.
     pub home: usize,
 }
 
 impl Workspace {
-    /// Begins with files, of which `home` must be one.
+    /// A workspace with files, one of which is `home`.
     pub fn new(files: &[Source], toolboxes: &Rc<Toolboxes>, home: usize) -> Workspace {
         let paths = files.iter().map(|file| normalised(&file.name)).collect();
         let buffers =
@@ -29,17 +27,17 @@ impl Workspace {
         Workspace { paths, buffers, home }
     }
 
-    /// The buffer of the file that the change is about.
+    /// The buffer of the home file.
     pub fn buffer(&mut self) -> &mut TextBuffer {
         &mut self.buffers[self.home]
     }
 
-    /// How many syntax errors the files have.
+    /// The number of syntax errors in all files.
     pub fn syntax_errors(&self) -> usize {
         self.buffers.iter().map(TextBuffer::syntax_errors).sum()
     }
 
-    /// What the files say now.
+    /// The meaning of the current texts.
     pub fn project(&self) -> Project {
         let roots: Vec<_> = self.buffers.iter().map(TextBuffer::root).collect();
         let sees = roots.iter().enumerate().map(|(index, root)| {
@@ -60,7 +58,8 @@ impl Workspace {
         self.check_unnamed(item, |_| true)
     }
 
-    /// Checks that no other file names an item in what a plan does: the check marks scenarios of one that is gone.
+    /// Checks that no plan of another file names an item; a scenario may, since the check then
+    /// marks it.
     pub fn check_unused(&self, item: &Item) -> Result<(), Refused> {
         self.check_unnamed(item, |name| refer::scenario(name).is_none())
     }

@@ -1,8 +1,8 @@
-//! What the words of the grammar do.
+//! Descriptions of keywords.
 
 use afp_syntax::kind::Kind;
 
-/// The help for a keyword in a node; `None` where the word speaks for itself.
+/// Returns the description of a keyword in a node; `None` for self-explanatory words.
 pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
     let in_toolbox = matches!(within, Kind::Template | Kind::InPort | Kind::OutPort);
     Some(match word {

@@ -1,4 +1,4 @@
-//! Changes of a file, and what the file says afterwards.
+//! Changes of a file, and its expected content afterwards.
 
 use afp_ide::edit::{Binding, Change};
 use afp_syntax::item::Item;
@@ -6,11 +6,11 @@ use proptest::sample::Index;
 
 use crate::model::{Model, Place, Plan};
 
-/// What chooses a change: which one, the plan, the component, a part of it, another component.
+/// A random choice: change, plan, component, part of it, other component.
 pub type Pick = (u8, Index, Index, Index, Index);
 
-/// A change and the file after it; `None` inside when the change must be refused, `None` outside
-/// when the picks fit nothing.
+/// A change and the file after it; the inner `None` means a refused change, the outer one an
+/// impossible choice.
 pub fn change(model: &Model, pick: &Pick) -> Option<(Change, Option<Model>)> {
     let (which, plan, component, part, other) = pick;
     let plan = plan.get(&model.plans);

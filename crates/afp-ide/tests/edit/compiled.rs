@@ -1,4 +1,4 @@
-//! Extracting and inlining on plans that compile: the result compiles too.
+//! Extracting and inlining on plans that compile: the result compiles.
 
 use afp_dsl::Toolboxes;
 use afp_dsl::compile;
@@ -25,7 +25,7 @@ fn changed(text: &str, change: &Change) -> String {
     apply(text, &edit(text, change).unwrap_or_else(|refused| panic!("{change:?}: {refused}")))
 }
 
-/// The lines of a dump in order, since elements may have changed places.
+/// The lines of a dump in order, since elements may have moved.
 fn sorted(dump: &str) -> Vec<&str> {
     let mut lines: Vec<_> = dump.lines().collect();
     lines.sort_unstable();
@@ -33,7 +33,7 @@ fn sorted(dump: &str) -> Vec<&str> {
 }
 
 #[test]
-fn every_selection_that_can_be_extracted_compiles_and_comes_back() {
+fn every_extracted_selection_compiles_and_can_be_inlined() {
     let cases: [(&str, &str, &[&str]); 2] = [
         (
             WALL_FOLLOWING,
@@ -81,7 +81,7 @@ fn a_renamed_plan_means_the_same() {
         let item = Item::inner("WallFollowing", name);
         let renamed = changed(WALL_FOLLOWING, &Change::Rename { item, to: "another".into() });
         let expected = dump(WALL_FOLLOWING);
-        // A port has the name of an entry here, which it keeps.
+        // The port has an entry's name here and keeps it.
         let same = dump(&renamed).replace("another", name);
         assert_eq!(same, expected);
     }

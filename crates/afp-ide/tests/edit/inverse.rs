@@ -1,4 +1,4 @@
-//! A change and then its inverse give the first bytes: over everything that the shipped plans hold.
+//! A change and its inverse restore the bytes, for every item of the shipped plans.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use afp_syntax::source::Source;
 
 use crate::TOOLBOXES;
 
-/// The plan files of the repository's `plans` and `examples`, with those below.
+/// The plan files below the repository's `plans` and `examples`.
 fn shipped() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut open = vec![root.join("plans"), root.join("examples")];
@@ -46,7 +46,8 @@ fn there_and_back(text: &str, change: &Change, inverse: &Change) {
     assert_eq!(alone(&changed(&after, inverse)), alone(text), "{change:?} and back");
 }
 
-/// The text with `goal` for each `goal = goal` and `goal => goal`: a name alone, once it has been spelled out, stays so.
+/// The text with `goal` for `goal = goal` and `goal => goal`, since an inverse does not restore the
+/// long form.
 fn alone(text: &str) -> String {
     let mut short = text.to_owned();
     for sign in [" = ", " => "] {
@@ -87,7 +88,7 @@ fn items(outline: &Outline) -> Vec<Item> {
     let enums = first.enums.iter().map(|each| each.item.clone());
     let plans = first.plans.iter().map(|plan| outline.plan(*plan)).flat_map(|plan| {
         let entries = plan.entries.iter().map(|entry| entry.item.clone());
-        // Reactions go by the name of the supervisor that they are to.
+        // A reaction has the name of its supervisor.
         let named = plan.components().filter(|it| it.kind != ComponentKind::Reactions);
         let components = named.map(|component| component.item.clone());
         std::iter::once(plan.item.clone()).chain(entries).chain(components).collect::<Vec<_>>()
@@ -96,7 +97,7 @@ fn items(outline: &Outline) -> Vec<Item> {
     enums.chain(tables).chain(plans).collect()
 }
 
-/// Where all edges of a text lead, by element and name.
+/// The target of every edge of a text, by element and name.
 fn targets(text: &str) -> Vec<String> {
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled = compile(&Source::new("case.afp", text), &toolboxes, &Texts::default());
@@ -113,7 +114,7 @@ fn targets(text: &str) -> Vec<String> {
     targets
 }
 
-/// Each edge of a component led to `terminate`, each formula doubled, and back.
+/// Redirects each edge of a component to `terminate`, doubles each formula, and reverts both.
 fn of_component(text: &str, component: &Component) -> usize {
     let mut tried = 0;
     let item = &component.item;
@@ -128,7 +129,7 @@ fn of_component(text: &str, component: &Component) -> usize {
         let edges = component.exits.iter().filter_map(|exit| exit.edge.as_ref());
         let same_line = edges.filter_map(|edge| edge.target.as_ref());
         if same_line.filter(|other| other.span == target.span).count() > 1 {
-            // What has left a line that it shared comes back on a line of its own.
+            // An outcome that left a shared line returns on a separate line.
             let back = changed(&changed(text, &to("terminate")), &to(&target.text));
             assert_eq!(targets(&back), targets(text), "{item}.{}", exit.name);
         } else {
@@ -187,7 +188,7 @@ fn a_change_and_its_inverse_give_the_first_bytes() {
 }
 
 #[test]
-fn items_of_one_name_are_told_apart() {
+fn items_with_the_same_name_are_distinct() {
     let text = "plan P {\n    start a\n    actor a: A { Done -> a }\n    actor a: B { Done -> a }\n    actor : C { Done -> a }\n}\n";
     let rename = |name: &str| Change::Rename { item: Item::inner("P", name), to: "b".into() };
     let second = changed(text, &rename("a#2"));

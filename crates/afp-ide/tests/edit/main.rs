@@ -1,5 +1,5 @@
-//! Whatever is changed: the text then says exactly that, and no comment is lost but those of what
-//! is removed.
+//! Random changes: the text has exactly the expected content, and only comments of removed items
+//! disappear.
 
 mod changes;
 mod compiled;
@@ -20,10 +20,10 @@ use proptest::prelude::*;
 use changes::{Pick, change};
 use model::{Model, comments};
 
-/// The built-in ones.
+/// The built-in toolboxes.
 static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(|| afp_toolboxes::sources().collect());
 
-/// The edits of a file by itself.
+/// The edits of a file without a project.
 fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
     afp_ide::edit::edit(&[Source::new("case.afp", text)], &TOOLBOXES, 0, change)
 }
@@ -37,14 +37,14 @@ const PLANS: &[&str] = &[
      actor y: Y { S -> z } computation z: Z(p = b) { S -> terminate U -> x } }",
 ];
 
-/// One of the plans in another form; `None` when the form has syntax errors.
+/// A plan in a random format; `None` if that has syntax errors.
 fn text(base: prop::sample::Index, seeds: &[u8]) -> Option<String> {
     let plan = PLANS[base.index(PLANS.len())].split("\n// Graph:").next().unwrap_or_default();
     let text = mutate::mutated(plan, seeds);
     afp_format::format(&text).is_ok().then_some(text)
 }
 
-/// How often each comment occurs.
+/// The number of occurrences of each comment.
 fn counted(text: &str) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     for (_, comment) in comments(text) {
@@ -53,7 +53,7 @@ fn counted(text: &str) -> BTreeMap<String, usize> {
     counts
 }
 
-/// Checks that the comments that are gone belong to what was removed.
+/// Checks that missing comments belong to removed items.
 fn check_comments(before: &str, after: &str, change: &Change) -> Result<(), TestCaseError> {
     let removed = Model::of(before).removed_by(change);
     let kept = counted(after);
@@ -92,7 +92,7 @@ proptest! {
             Ok(edits) => edits,
             Err(refused) => {
                 prop_assert!(!refused.reason.is_empty());
-                // A comment in what is replaced stands in the way.
+                // A comment inside a replaced part is a reason to refuse.
                 let commented = refused.reason.contains("comment");
                 prop_assert!(commented || expected.is_none(), "{}: {:?}\n{}", refused, change, before);
                 return Ok(());
@@ -118,7 +118,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
     #[test]
-    fn what_is_extracted_can_be_inlined(
+    fn an_extracted_plan_can_be_inlined(
         base in any::<prop::sample::Index>(),
         seeds in prop::collection::vec(any::<u8>(), 1..300),
         plan in any::<prop::sample::Index>(),
@@ -149,7 +149,7 @@ proptest! {
     }
 }
 
-/// Words that fit many changes and texts.
+/// Words for changes and texts.
 const WORDS: &[&str] = &[
     "P",
     "x",
@@ -171,7 +171,7 @@ const WORDS: &[&str] = &[
     "",
 ];
 
-/// A change of any kind, about items that may be there.
+/// A change of any kind, of items that may exist.
 fn any_change(which: u8, words: [&str; 4]) -> Change {
     let [one, two, three, four] = words.map(str::to_owned);
     let some = |word: String| (!word.is_empty()).then_some(word);
@@ -213,7 +213,7 @@ fn any_change(which: u8, words: [&str; 4]) -> Change {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1024))]
 
-    /// A broken text is changed, or the change is refused; a whole one stays whole.
+    /// A text with errors is changed, or the change is refused; a valid text stays valid.
     #[test]
     fn any_change_of_any_patchwork_is_answered(
         base in any::<prop::sample::Index>(),

@@ -1,4 +1,4 @@
-//! What a text says, without its form.
+//! The content of a text, without its format.
 
 use std::ops::Range;
 
@@ -49,7 +49,7 @@ pub struct Component {
 /// The words of a formula or output.
 pub type Text = Vec<String>;
 
-/// Where something stands; never a difference.
+/// The place of a part; all places are equal.
 #[derive(Clone, Debug, Default)]
 pub struct Place(pub Range<usize>);
 
@@ -59,7 +59,6 @@ impl PartialEq for Place {
     }
 }
 
-/// The comments of a text and their places.
 pub fn comments(text: &str) -> Vec<(usize, String)> {
     let root = parse(text, 0, &mut Diagnostics::default()).root();
     let tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
@@ -84,7 +83,7 @@ impl Model {
         Model { plans: plans.map(|plan| self::plan(&plan, &words)).collect() }
     }
 
-    /// The same with elements and entries in the order of their names.
+    /// The model with elements and entries sorted by name.
     pub fn sorted(mut self) -> Model {
         for plan in &mut self.plans {
             plan.elements.sort_by(|a, b| a.name.cmp(&b.name));
@@ -111,7 +110,7 @@ impl Model {
         }
     }
 
-    /// The places of what a change removes.
+    /// The places of the parts that a change removes.
     pub fn removed_by(mut self, change: &Change) -> Vec<Range<usize>> {
         let mut places = Vec::new();
         match change {
@@ -160,7 +159,7 @@ impl Plan {
         outer.flat_map(|one| std::iter::once(one).chain(&one.guards)).collect()
     }
 
-    /// All components, local supervisors included, to be changed.
+    /// Changes all components, including local supervisors.
     pub fn change_all(&mut self, mut change: impl FnMut(&mut Component)) {
         for one in self.elements.iter_mut().chain(&mut self.guards) {
             change(one);
@@ -243,11 +242,11 @@ fn place(span: Span) -> Place {
     Place(span.start as usize..span.end as usize)
 }
 
-/// The tokens that mean something, each with its place.
+/// The solid tokens, with their places.
 struct Words(Vec<(u32, String)>);
 
 impl Words {
-    /// Those in a place.
+    /// The tokens in a place.
     fn of(&self, span: Span) -> Text {
         let start = self.0.partition_point(|(place, _)| *place < span.start);
         let rest = self.0[start..].iter();

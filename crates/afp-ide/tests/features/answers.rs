@@ -1,4 +1,4 @@
-//! What each feature answers, as lines.
+//! The answers of each feature as lines.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use afp_syntax::source::Span;
 
 use crate::support::Case;
 
-/// So many completions of a place are shown.
+/// The most completions shown for a place.
 const SHOWN: usize = 14;
 
 /// One answer for each mark, below its place.
@@ -110,7 +110,7 @@ pub fn signature(case: &Case) -> String {
     })
 }
 
-/// Between two marks lies a selection; a single one is empty.
+/// The actions for the selection between two marks; a single mark is an empty selection.
 pub fn actions(case: &Case) -> String {
     let view = case.view();
     let (Some(start), Some(end)) = (case.marks.first(), case.marks.last()) else {
@@ -127,7 +127,6 @@ pub fn actions(case: &Case) -> String {
     if text.is_empty() { "nothing\n".to_owned() } else { text }
 }
 
-/// What the lines that edits touch become.
 fn after(case: &Case, edits: &[TextEdit]) -> String {
     let text = case.view().text();
     let own: Vec<_> = edits.iter().filter(|edit| edit.span.file == case.file).cloned().collect();

@@ -1,5 +1,4 @@
-//! What editors ask, case by case: texts with marks `$0` where the cursor is, and behind each text
-//! the answers.
+//! Features case by case: texts with cursor marks `$0`, and the answers after each text.
 //!
 //! `AFP_BLESS=1` rewrites the answers; read the diff like code.
 
@@ -10,10 +9,9 @@ mod support;
 
 use support::{Case, cases, compare};
 
-/// What a feature answers to a case.
 type Answer = fn(&Case) -> String;
 
-/// What each feature answers, by the folder of its cases.
+/// The features, by the folder of their cases.
 const FEATURES: &[(&str, Answer)] = &[
     ("actions", answers::actions),
     ("colours", answers::colours),

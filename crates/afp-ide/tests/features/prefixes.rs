@@ -1,4 +1,4 @@
-//! Whatever is typed so far: every question has an answer, and what it names lies in the text.
+//! Every prefix of a text: each query has an answer with spans inside the text.
 
 use std::path::Path;
 use std::{env, fs};
@@ -12,7 +12,7 @@ use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::parse;
 use afp_syntax::source::{Source, Span};
 
-/// Asks everything about a place; every answer must lie in its file.
+/// Makes all queries about a place; every span must be inside its file.
 fn ask(compiled: &Compiled, toolboxes: &Toolboxes, file: u16, at: u32) {
     let view = View::new(compiled, toolboxes, file);
     let inside = |span: Span| {
@@ -44,7 +44,7 @@ fn ask(compiled: &Compiled, toolboxes: &Toolboxes, file: u16, at: u32) {
     }
 }
 
-/// Asks everything about a file.
+/// Makes all queries about a file.
 fn ask_all(compiled: &Compiled, toolboxes: &Toolboxes, file: u16) {
     let view = View::new(compiled, toolboxes, file);
     let text = view.text();
@@ -61,7 +61,7 @@ fn ask_all(compiled: &Compiled, toolboxes: &Toolboxes, file: u16) {
     assert!(colours.windows(2).all(|pair| pair[0].span.end <= pair[1].span.start), "{colours:?}");
 }
 
-/// Where a text can be broken off: at the borders of its words and in their middles.
+/// The borders and middles of a text's words.
 fn borders(text: &str) -> Vec<usize> {
     let root = parse(text, 0, &mut Diagnostics::default()).root();
     let tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
@@ -71,7 +71,7 @@ fn borders(text: &str) -> Vec<usize> {
         .collect()
 }
 
-/// One prefix in so many is asked about by day; `AFP_BY_NIGHT` asks about all.
+/// By day the test samples one prefix in so many; `AFP_BY_NIGHT` tests all.
 const STEP: usize = 23;
 
 #[test]

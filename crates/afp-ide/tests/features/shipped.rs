@@ -1,4 +1,4 @@
-//! What actions make of the plans that are shipped, which are in canonical form: that they stay so.
+//! Actions keep the shipped plans in canonical form.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,7 +11,7 @@ use afp_ide::edit::apply;
 use afp_ide::{View, actions};
 use afp_syntax::source::{Source, Span};
 
-/// The plan files of a folder and of those in it.
+/// Collects the plan files below a folder.
 fn plans(folder: &Path, to: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

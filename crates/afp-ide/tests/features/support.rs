@@ -13,22 +13,18 @@ const MARK: &str = "$0";
 const ANSWERS: &str = "\n// Answers:\n";
 const TOOLBOX: &str = "// toolbox\n";
 
-/// A text with places that are asked about.
+/// A text with marked places.
 pub struct Case {
-    /// The text with its marks, as it is written.
+    /// The text with its marks.
     pub written: String,
-    /// What was compiled.
     pub compiled: Compiled,
-    /// With these toolboxes.
     pub toolboxes: Toolboxes,
-    /// The file with the marks.
     pub file: u16,
-    /// The places of the marks.
     pub marks: Vec<u32>,
 }
 
 impl Case {
-    /// Reads a case; one whose first line says so is a toolbox.
+    /// Parses a case; its first line can declare a toolbox.
     pub fn new(written: &str) -> Case {
         let marks = written.match_indices(MARK).enumerate();
         let marks = marks.map(|(nth, (at, _))| (at - nth * MARK.len()) as u32).collect();
@@ -46,24 +42,23 @@ impl Case {
         Case { written: written.to_owned(), compiled, toolboxes, file, marks }
     }
 
-    /// The file that is asked about.
+    /// The view of the file with the marks.
     pub fn view(&self) -> View<'_> {
         View::new(&self.compiled, &self.toolboxes, self.file)
     }
 
-    /// A place for people: line and column, of another file its name before.
+    /// A readable place: line and column, with the file name for other files.
     pub fn place(&self, span: Span) -> String {
         let source = self.compiled.sources.get(span.file).unwrap();
         let (line, column) = source.line_column(span.start);
         match span.file == self.file {
             true => format!("{line}:{column}"),
-            // Built-in toolboxes change; where in them does not matter.
+            // Built-in toolboxes change, so the place in them is omitted.
             false if usize::from(span.file) < self.compiled.plan_files.start => source.name.clone(),
             false => format!("{}:{line}:{column}", source.name),
         }
     }
 
-    /// From the first to the last place of a span.
     pub fn range(&self, span: Span) -> String {
         let source = self.compiled.sources.get(span.file).unwrap();
         let (line, column) = source.line_column(span.end);
@@ -86,8 +81,8 @@ pub fn cases(folder: &str) -> Vec<(PathBuf, Case)> {
     paths.into_iter().map(read).collect()
 }
 
-/// Compares a case with what it should be; with `AFP_BLESS=1` rewrites it instead. Gives what
-/// differs.
+/// Compares a case with its expected answers, or rewrites it with `AFP_BLESS=1`. Returns the
+/// difference.
 pub fn compare(path: &Path, case: &Case, answers: &str) -> Option<String> {
     let answers: String = answers
         .lines()

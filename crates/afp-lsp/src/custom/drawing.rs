@@ -1,4 +1,4 @@
-//! The drawing of a plan, and what changes of it.
+//! The drawing of a plan and its changes.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -26,16 +26,16 @@ use crate::workspace::{Analysis, Reads, Workspace};
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Drawing {
     text_document: Document,
-    /// Without one, the first plan.
+    /// Default: the first plan.
     plan: Option<String>,
-    /// What is drawn without its details: elements, or the start tag, `Plan.start`. What is not there is none of it.
+    /// Elements drawn without details, or the start tag `Plan.start`. Unknown names are ignored.
     #[serde(default)]
     folded: Vec<String>,
-    /// Whether the client wants to hear what changes; `false` ends that.
+    /// Whether the server sends later changes; `false` ends the subscription.
     subscribe: Option<bool>,
 }
 
-/// The whole drawing. Where there is none, the client goes on to hear of the one that it has.
+/// Returns the whole drawing. If the plan cannot be drawn, an older subscription continues.
 pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     let path = uri::path(&params.text_document.uri);
     let known = server.subscriptions.remove(&path);
@@ -107,12 +107,12 @@ fn draw(
     Ok(Drawn { scene, facts, plan, plans, analysis, reads })
 }
 
-/// The refusal if a document is no plan file.
+/// The error for a document that is not a plan file.
 pub(super) fn no_file() -> Failure {
     Failure::Refused("there is no such plan file".to_owned())
 }
 
-/// A plan of a file by name, its first one without a name.
+/// Finds a plan of a file by name; the default is the first one.
 pub(super) fn find(
     outline: &Outline,
     file: u16,
@@ -130,7 +130,7 @@ pub(super) fn find(
 }
 
 impl Workspace {
-    /// The positions of the plans of a compilation, by file.
+    /// Returns the positions of a compilation's plans, by file.
     pub(crate) fn positions(&self, analysis: &Analysis, reads: &mut Reads) -> Vec<Layout> {
         let plan_files = analysis.compiled.plan_files.clone();
         let read = |(file, source): (usize, &afp_syntax::source::Source)| match plan_files
@@ -145,7 +145,6 @@ impl Workspace {
 }
 
 impl Server {
-    /// What has changed of the drawings that the client wants to hear of.
     pub(crate) fn changed_drawings(&mut self) -> Vec<Message> {
         let workspace = &mut self.workspace;
         let stale = |(path, known): (&String, &Subscription)| {
@@ -162,7 +161,7 @@ impl Server {
         }
         let drawn =
             draw(self, path, known.plan.as_deref(), &known.folded, Some(&known.drawn.scene));
-        // A plan that is gone while its name is typed comes back.
+        // A plan disappears while its name is being edited, and returns afterwards.
         let Ok(drawn) = drawn else {
             self.subscriptions.insert(path.to_owned(), known);
             return None;

@@ -1,4 +1,4 @@
-//! What was drawn last.
+//! A cache of recent drawings.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -6,13 +6,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use afp_draw::Scene;
 
-/// Scenes that are kept; who enters more plans than this comes back to a drawing from scratch.
+/// The most plans kept; a plan beyond this is drawn from scratch.
 const MOST: usize = 32;
 
-/// The scenes that were drawn last, of each plan of each document.
+/// The last scene of each plan of each document.
 ///
-/// The part that a new drawing shares with the last one takes no time; no box moves because of it. Servers share these
-/// drawings: a page that reloads, a second page, a plan that is shown again.
+/// A new drawing reuses the unchanged part of the last one, which also keeps its boxes in place.
+/// All servers of a process share these scenes, for reloads, second pages and repeated views.
 #[derive(Clone, Default)]
 pub struct Drawings(Arc<Mutex<VecDeque<Kept>>>);
 
@@ -29,7 +29,6 @@ impl Drawings {
         all.iter().find(|kept| kept.is(path, plan)).map(|kept| Arc::clone(&kept.scene))
     }
 
-    /// Keeps a drawing in place of the one before.
     pub(super) fn keep(&self, path: &str, plan: &str, scene: &Arc<Scene>) {
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         all.retain(|kept| !kept.is(path, plan));

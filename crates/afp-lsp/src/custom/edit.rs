@@ -1,4 +1,4 @@
-//! Changes of meaning and of places, answered with the edits that make them.
+//! Changes of meaning and of places, answered with text edits.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,10 +21,10 @@ use crate::file_edits::{FileEdits, by_file};
 use crate::server::Server;
 use crate::uri;
 
-/// Where items are put; `null` gives them back to the automatic layout.
+/// New places of items; `null` restores the automatic layout.
 type Places = BTreeMap<String, Option<[f64; 2]>>;
 
-/// Changes of a document, all or none.
+/// Changes of a document, applied all or none.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Edit {
@@ -34,8 +34,8 @@ pub(crate) struct Edit {
     places: Places,
 }
 
-/// The edits that make the changes of the document as the server has it, whatever version the client
-/// names: the answer says on which version they are made.
+/// Returns the edits for changes of the server's current version of a document. The answer names
+/// that version.
 pub(crate) fn edit(server: &mut Server, params: Edit) -> Answer {
     changed(server, &params.text_document, &params.changes, &params.places)
 }
@@ -77,7 +77,7 @@ fn changed(
     }))
 }
 
-/// Items with their places, under the names that they were given.
+/// Resolves the items' names and returns them with their places.
 fn positions(places: &Places, given: &Given) -> Result<Vec<(Item, Option<Position>)>, Failure> {
     let place = |(path, at): (&String, &Option<[f64; 2]>)| {
         let item = given.item(item(path).ok_or_else(|| no_item(path))?);
@@ -96,7 +96,7 @@ fn put(layout: &mut afp_draw::layout_file::Layout, places: &[(Item, Option<Posit
     }
 }
 
-/// What the history of an editor calls changes.
+/// The label of changes in an editor's history.
 fn label(changes: &[Change]) -> String {
     let Some(last) = changes.iter().find(|change| !matches!(change, Change::AddUse { .. })) else {
         return "change".to_owned();
@@ -128,7 +128,7 @@ fn label(changes: &[Change]) -> String {
     }
 }
 
-/// Edits with the files that must be there first.
+/// Returns edits together with the new files that they need.
 fn whole(server: &Server, files: &[FileEdits]) -> lsp::WorkspaceEdit {
     let mut edit = server.edit(files);
     let new = files.iter().filter(|file| server.workspace.text(&file.path).is_err());
@@ -149,7 +149,8 @@ pub(crate) struct Place {
     places: Places,
 }
 
-/// The edit of the file of positions. Where something is put somewhere, all other boxes are written where they stand.
+/// Returns the edit of the file of positions. If an item gets a place, the current places of all
+/// other boxes are written, too.
 pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
     let placed = positions(&params.places, &Given::default())?;
     let analysis = server.analysis(&params.text_document.uri);
@@ -163,7 +164,7 @@ pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
     ok(whole(server, &file.into_iter().collect::<Vec<_>>()))
 }
 
-/// Items that are put into a plan, or supervisors put onto an element.
+/// Items to insert into a plan, or supervisors to insert at an element.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Paste {
@@ -175,8 +176,8 @@ pub(crate) struct Paste {
     at: Option<[f64; 2]>,
 }
 
-/// The edits that put in a text of items, with the `use` lines above it and names of their own. A plan that has no start
-/// begins with the item that a `start` line of the text names.
+/// Returns the edits that insert a text of items, with its `use` lines and unused names. In a plan
+/// without a start, the item named by the text's `start` line becomes the start.
 pub(crate) fn paste(server: &mut Server, params: Paste) -> Answer {
     let Paste { text_document, plan, owner, text, at } = params;
     let (mut changes, rest) = uses(&text);
@@ -189,7 +190,7 @@ pub(crate) fn paste(server: &mut Server, params: Paste) -> Answer {
     match (first, at) {
         (Some(first), Some(at)) => {
             let name = item(&first).map(|item| item.name().to_owned()).unwrap_or_default();
-            // Under the name that was wished for, as clients say it.
+            // The answer lists each new name under the name in the text.
             let wished = answer["names"].as_object().into_iter().flatten();
             let wished = wished.into_iter().find(|(_, given)| **given == json!(name));
             let wished = wished.map_or(name.clone(), |(wanted, _)| wanted.clone());
@@ -200,7 +201,7 @@ pub(crate) fn paste(server: &mut Server, params: Paste) -> Answer {
     }
 }
 
-/// The `use` lines of a text as changes, and what stands below them.
+/// Splits a text into its `use` lines, as changes, and the rest.
 fn uses(text: &str) -> (Vec<Change>, String) {
     let items = afp_syntax::parse(text, 0, &mut Diagnostics::default()).file().items();
     let mut changes = Vec::new();
@@ -215,7 +216,7 @@ fn uses(text: &str) -> (Vec<Change>, String) {
     (changes, text.get(end..).unwrap_or_default().to_owned())
 }
 
-/// The element of a text of items that its `start` line names, and the text without that line.
+/// Splits off the `start` line of a text of items, and returns the element that it names.
 fn start(text: String) -> (Option<String>, String) {
     let (before, after) = ("plan P {\n", "\n}\n");
     let whole = format!("{before}{text}{after}");
@@ -232,7 +233,6 @@ fn start(text: String) -> (Option<String>, String) {
 }
 
 impl Server {
-    /// Whether a plan of a document says what it starts with.
     fn starts(&mut self, document: &Document, plan: &str) -> bool {
         let Ok(analysis) = self.analysis(&document.uri) else { return false };
         let outline = &analysis.compiled.outline;

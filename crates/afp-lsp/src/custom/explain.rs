@@ -1,4 +1,4 @@
-//! What the book says of a code.
+//! The book's page of an error code.
 
 use afp_syntax::diagnostics::Code;
 use serde::Deserialize;
@@ -13,7 +13,7 @@ pub(crate) struct Explain {
     code: String,
 }
 
-/// The page of a code, as `afpc explain` prints it.
+/// Returns the page of a code, as `afpc explain` prints it.
 pub(crate) fn explain(_: &mut Server, params: Explain) -> Answer {
     let none = || Failure::Refused(format!("there is no error code '{}'", params.code));
     let code = Code::parse(&params.code).ok_or_else(none)?;

@@ -1,4 +1,4 @@
-//! What is known of time, and pictures of plans.
+//! Timing bounds, and pictures of plans.
 
 use std::cell::RefCell;
 
@@ -15,26 +15,26 @@ use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 use crate::workspace::Reads;
 
-/// The bounds of the first plan and of all that it uses, as `afpc check --timing --json` has them; while there are
-/// errors, of what is without.
+/// Returns the bounds of the first plan and its sub-plans, like `afpc check --timing --json`. If
+/// the file has errors, the bounds cover the valid part.
 pub(crate) fn timing(server: &mut Server, params: WholeDocument) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     ok(analysis.compiled.timing().map(|timing| timing.json()))
 }
 
-/// A picture of a plan, of the first one without a name.
+/// A request for a picture of a plan; the default is the first one.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Export {
     text_document: Document,
     plan: Option<String>,
     format: String,
-    /// Without one, that of the reader's system.
+    /// Default: the colour scheme of the reader's system.
     #[serde(default)]
     theme: Colours,
 }
 
-/// On what a picture stands.
+/// The background of a picture.
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 enum Colours {
@@ -44,8 +44,8 @@ enum Colours {
     Dark,
 }
 
-/// A plan of a document as a picture or for another program; as `css` the style sheet of what `afp/drawing`
-/// answers.
+/// Returns a plan as a picture or for another program. The format `css` returns the style sheet of
+/// `afp/drawing`.
 pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let reads = RefCell::new(Reads::default());
@@ -73,7 +73,7 @@ pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
     let text = match params.format.as_str() {
         "svg" => afp_draw::svg(outline, &options),
         "png" => {
-            // Pixels cannot ask for the colours of who looks at them.
+            // A bitmap cannot adapt to the reader's colour scheme.
             let theme = if theme == Theme::Auto { Theme::Light } else { theme };
             let svg = afp_draw::svg(outline, &Options { theme, ..options });
             let bytes = server.workspace.host.png(&svg).map_err(Failure::Refused)?;

@@ -1,4 +1,4 @@
-//! From places in the text to items and back, so that selection and cursor follow each other.
+//! From text positions to items and back, so that selection and cursor follow each other.
 
 use afp_dsl::Compiled;
 use afp_dsl::outline::{Identity, Part};
@@ -12,7 +12,7 @@ use super::scene::part;
 use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 
-/// The smallest item, or part of one, at a place of the text.
+/// Returns the smallest item, or part of one, at a text position.
 pub(crate) fn item_at(server: &mut Server, params: lsp::TextDocumentPositionParams) -> Answer {
     let (analysis, offset) = server.at(&params)?;
     let found = analysis.compiled.outline.identity_at(analysis.file, offset);
@@ -26,12 +26,12 @@ pub(crate) struct SpanOf {
     text_document: Document,
     item: String,
     part: Option<PartOf>,
-    /// The comments that belong to the item, too, as whoever copies it wants them.
+    /// Whether the span includes the item's comments, as for copying.
     #[serde(default)]
     comments: bool,
 }
 
-/// A part of an item, as [`part`] says it.
+/// A part of an item, in the format of [`part`].
 #[derive(Clone, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct PartOf {
@@ -46,7 +46,6 @@ fn first() -> u16 {
     1
 }
 
-/// The place of an item or part.
 pub(crate) fn span_of(server: &mut Server, params: SpanOf) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
@@ -69,7 +68,7 @@ pub(crate) struct Uses {
     item: String,
 }
 
-/// What of the document reads or writes an entry, each once, in the order of the text.
+/// Lists the places in a document that read or write an entry, each once, in source order.
 pub(crate) fn uses(server: &mut Server, params: Uses) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;

@@ -1,4 +1,4 @@
-//! What a plan can be made of, and what fits an exit or port.
+//! The templates for a plan, and the candidates for an exit or a port.
 
 use afp_ide::candidates::{of_exit, of_port};
 use afp_ide::edit::item;
@@ -12,7 +12,7 @@ use crate::server::Server;
 use crate::standard::completion::snippet;
 use crate::workspace::Reads;
 
-/// What is looked for among templates.
+/// A search among templates.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Palette {
@@ -21,7 +21,7 @@ pub(crate) struct Palette {
     query: String,
 }
 
-/// Templates and plans, best first.
+/// Returns templates and plans, best match first.
 pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let offers = afp_ide::palette::palette(&analysis.view(), &params.query);
@@ -57,7 +57,7 @@ pub(crate) struct Candidates {
     port: Option<String>,
 }
 
-/// What fits, best first, and what does not with the reason.
+/// Returns candidates, best first, followed by the others with a reason.
 pub(crate) fn candidates(server: &mut Server, params: Candidates) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let view = analysis.view();

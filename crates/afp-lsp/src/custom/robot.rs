@@ -1,6 +1,6 @@
-//! The robot of a plan: what can be pressed and broken, and what it signals.
+//! The robot of a plan: its controls, faults and signals.
 //!
-//! All of a robot's words come from the toolbox that declares it, so nothing need be built or linked to show them.
+//! All names come from the toolbox that declares the robot, so nothing has to be built or linked.
 
 use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::Device;
@@ -10,7 +10,7 @@ use super::WholeDocument;
 use crate::answer::{Answer, ok};
 use crate::server::Server;
 
-/// Its devices by the words of scenarios, without what only a judge may know.
+/// Describes the robot's devices in the words of scenarios, without ground truth for judges.
 pub(crate) fn robot(server: &mut Server, params: WholeDocument) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     ok(described(&analysis.set.toolboxes))
@@ -30,7 +30,7 @@ fn device(device: &Device) -> Value {
     let signals = device.signals.iter().filter(|it| !it.truth);
     let signals = signals.map(|it| json!({ "words": words(&it.name), "help": it.doc }));
     let faults = device.faults.iter().map(|it| {
-        // A bound that is infinite is `null`.
+        // An infinite bound becomes `null`.
         let amount = it.amount.as_ref().map(|of| {
             let (unit, range) = (of.dimension.si_unit(), [of.from, of.to]);
             json!({ "name": of.name, "unit": unit, "default": of.default, "range": range })
@@ -53,7 +53,7 @@ mod tests {
 
     const VACUUM: &str = include_str!("../../../../examples/vacuum/vacuum.afp");
 
-    /// The words of a list of all devices.
+    /// Collects one list over all devices.
     fn words(robot: &Value, list: &str, wanted: impl Fn(&Value) -> bool) -> String {
         let devices = robot["devices"].as_array().into_iter().flatten();
         let all = devices.flat_map(|device| device[list].as_array().into_iter().flatten());

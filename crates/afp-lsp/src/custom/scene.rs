@@ -1,4 +1,4 @@
-//! A scene in messages, piece by piece; after a change, what is new or different alone.
+//! Scenes in messages: elements and edges by id; after a change only those that differ.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,19 +11,19 @@ use afp_syntax::item::Item;
 use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
 
-/// What a client is told of a plan beside what is drawn.
+/// Facts about a plan that its drawing does not show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Facts {
     elements: FxHashMap<Item, Fact>,
     entries: Vec<Value>,
 }
 
-/// What a client is told of an element beside how it is drawn.
+/// Facts about an element that its drawing does not show.
 #[derive(Clone, Debug, PartialEq)]
 struct Fact {
     kind: &'static str,
     template: Option<String>,
-    /// The plan behind a sub-plan, and the address of its file where that is another one.
+    /// The plan of a sub-plan, and the address of its file if it is a different one.
     plan: Option<String>,
     file: Option<String>,
     help: String,
@@ -66,7 +66,7 @@ impl Fact {
     }
 }
 
-/// A plan as it is shown: nothing is drawn where there is none.
+/// A plan with its drawing, if it has one.
 #[derive(Clone, Copy)]
 pub(super) struct Shown<'a> {
     pub scene: Option<&'a PlanScene>,
@@ -105,8 +105,8 @@ impl<'a> Shown<'a> {
         })
     }
 
-    /// What is new or different, and the ids of what is gone; `None` where all is as it was, and what is told beside it
-    /// `is_same`, too.
+    /// Returns new or different parts and the ids of removed ones. `None` means no difference, if
+    /// `is_same` confirms it for the other facts.
     pub fn since(self, before: Shown<'_>, is_same: bool) -> Option<Value> {
         let (old, new) = (before.elements(), self.elements());
         let same = |one: &ElementScene| {
@@ -146,7 +146,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// Whether a client would be told the same of an element: places are told in tenths.
+/// Whether two elements give the same message; places are rounded to tenths.
 fn is_same_element(one: &ElementScene, other: &ElementScene) -> bool {
     let same = |(one, other): (&PieceScene, &PieceScene)| {
         (&one.item, &one.part, one.severity) == (&other.item, &other.part, other.severity)
@@ -158,7 +158,7 @@ fn is_same_element(one: &ElementScene, other: &ElementScene) -> bool {
         && one.pieces.iter().zip(&other.pieces).all(same)
 }
 
-/// Whether a client would be told the same of an edge.
+/// Whether two edges give the same message.
 fn is_same_edge(one: &EdgeScene, other: &EdgeScene) -> bool {
     let told = |edge: &EdgeScene| {
         edge.points.iter().map(|(x, y)| [tenth(*x), tenth(*y)]).collect::<Vec<_>>()
@@ -168,17 +168,16 @@ fn is_same_edge(one: &EdgeScene, other: &EdgeScene) -> bool {
         && (one.points == other.points || told(one) == told(other))
 }
 
-/// Whether two fragments are the same: most are that of the scene before.
+/// Whether two fragments are equal; most share the memory of the last scene.
 fn is_same_svg(one: &Arc<str>, other: &Arc<str>) -> bool {
     Arc::ptr_eq(one, other) || one == other
 }
 
-/// In the order of their ids.
 fn sorted(all: impl IntoIterator<Item = (String, Value)>) -> Vec<Value> {
     all.into_iter().collect::<BTreeMap<_, _>>().into_values().collect()
 }
 
-/// An edge goes by what it leaves.
+/// An edge's id comes from its source.
 fn id(edge: &EdgeScene) -> String {
     let item = path(&edge.item);
     match &edge.part {
@@ -189,7 +188,7 @@ fn id(edge: &EdgeScene) -> String {
     }
 }
 
-/// An element; the start has no facts.
+/// Describes an element; the start has no facts.
 fn element(one: &ElementScene, fact: Option<&Fact>) -> Value {
     json!({
         "item": path(&one.item),
@@ -251,12 +250,12 @@ fn tenths(rect: Rect) -> [f64; 4] {
     [rect.x, rect.y, rect.width, rect.height].map(tenth)
 }
 
-/// Rounded to a tenth of a pixel; no zero has a sign.
+/// Rounds to a tenth of a pixel, without a negative zero.
 fn tenth(value: f64) -> f64 {
     (value * 10.0).round() / 10.0 + 0.0
 }
 
-/// A part of an item in messages: what it is, and under which name.
+/// Describes a part of an item: its kind and name.
 pub(crate) fn part(part: &Part) -> Value {
     match part {
         Part::Whole => json!({ "kind": "whole" }),

@@ -1,4 +1,4 @@
-//! A drawing that a client follows.
+//! A drawing with a subscribed client.
 
 use std::sync::Arc;
 
@@ -10,28 +10,26 @@ use serde_json::{Value, json};
 use super::scene::{Facts, Shown};
 use crate::workspace::{Analysis, Reads, Workspace};
 
-/// A drawing that a client has and hears the changes of.
+/// A drawing that a client has subscribed to.
 #[derive(Debug)]
 pub(crate) struct Subscription {
-    /// The plan that is wanted: without one, the first of the file.
+    /// The requested plan; the default is the first one.
     pub(super) plan: Option<String>,
     pub(super) folded: Vec<Item>,
     pub(super) drawn: Drawn,
 }
 
-/// A drawing that the server has sent.
+/// The last drawing sent.
 #[derive(Debug)]
 pub(super) struct Drawn {
-    /// The scene, from which the next one is made.
+    /// The scene, the base of the next one.
     pub(super) scene: Arc<Scene>,
     pub(super) facts: Facts,
-    /// The name of its plan.
     pub(super) plan: Option<String>,
-    /// The plans of the file.
     pub(super) plans: Vec<String>,
-    /// The texts that it was made from.
+    /// The texts that it shows.
     pub(super) analysis: Arc<Analysis>,
-    /// The positions and icons that it was made from.
+    /// The positions and icons that it shows.
     pub(super) reads: Reads,
 }
 
@@ -49,26 +47,26 @@ impl Drawn {
         message["symbols"] = symbols.collect();
     }
 
-    /// Whether the drawing of a document would be the same again.
+    /// Whether a new drawing of the document would be the same.
     pub(super) fn is_current(&self, workspace: &mut Workspace, path: &str) -> bool {
         let analysis = workspace.analysis(path);
         analysis.is_some_and(|now| Arc::ptr_eq(&now, &self.analysis)) && self.reads.hold(workspace)
     }
 }
 
-/// The names of the plans of a file, as they stand in it.
+/// The names of a file's plans, in source order.
 pub(super) fn plans(analysis: &Analysis) -> Vec<String> {
     let own = analysis.compiled.outline.plans.iter().filter(|plan| plan.file() == analysis.file);
     own.map(|plan| plan.item.name().to_owned()).collect()
 }
 
 impl Subscription {
-    /// Goes on with what has come in place of a plan that is gone: the one that stands where it did and has another name, or
-    /// the first one. While the text cannot be read, or its name is another plan's, it may come back.
+    /// Continues with the plan that replaced a missing one: a renamed plan at the same place, or
+    /// the first one. If the text is unreadable or the name is taken, the plan may return.
     pub(super) fn follow(&mut self, analysis: &Analysis) {
         let Some(gone) = &self.plan else { return };
         let now = plans(analysis);
-        // Two of one name are told apart by numbers, which say nothing of which was which.
+        // Equal names get numbers, and these do not tell which plan was which.
         if now.contains(gone) || now.iter().any(|name| name.contains('#')) {
             return;
         }

@@ -1,4 +1,4 @@
-//! What can be done about a place at once.
+//! Code actions.
 
 use afp_ide::actions::{Action, ActionKind, actions as of_place};
 use afp_syntax::source::Span;
@@ -10,7 +10,7 @@ use crate::file_edits::by_file;
 use crate::server::Server;
 use crate::workspace::Analysis;
 
-/// Everything that can be done about a selection, of the kinds that the client wants.
+/// Returns all code actions for a selection, of the requested kinds.
 pub(crate) fn actions(server: &mut Server, params: lsp::CodeActionParams) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let places = server.places(&analysis);

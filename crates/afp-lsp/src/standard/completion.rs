@@ -9,7 +9,7 @@ use crate::convert::{Places, text_edit};
 use crate::server::Server;
 use crate::standard::project;
 
-/// Everything that can be written at a place.
+/// Returns everything that can be written at a position.
 pub(crate) fn completion(server: &mut Server, params: lsp::CompletionParams) -> Answer {
     let at = &params.text_document_position_params;
     if let Some(text) = project::text(server, &at.text_document.uri) {
@@ -47,7 +47,7 @@ fn item(one: &Completion, places: &Places<'_>, snippets: bool) -> lsp::Completio
     }
 }
 
-/// With holes numbered in order, as the protocol writes them.
+/// Writes placeholders with numbers, in the protocol's format.
 pub(crate) fn snippet(pieces: &[Piece]) -> String {
     if !pieces.iter().any(|piece| matches!(piece, Piece::Hole(_))) {
         return plain(pieces);
@@ -66,7 +66,7 @@ pub(crate) fn snippet(pieces: &[Piece]) -> String {
     pieces.iter().map(piece).collect()
 }
 
-/// With what stands in the holes.
+/// Replaces placeholders by their contents.
 fn plain(pieces: &[Piece]) -> String {
     pieces
         .iter()
@@ -102,7 +102,7 @@ fn kind(kind: CompletionKind) -> lsp::CompletionItemKind {
     }
 }
 
-/// The ports of what is being bound.
+/// Returns the ports of the template whose port is being bound.
 pub(crate) fn signature(server: &mut Server, params: lsp::SignatureHelpParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let found = afp_ide::signature::signature(&analysis.view(), offset);
@@ -118,7 +118,7 @@ pub(crate) fn signature(server: &mut Server, params: lsp::SignatureHelpParams) -
         )),
         documentation: Some(lsp::Documentation::String(port.doc.clone())),
     };
-    // Where no port is meant, the number behind the last one says so to every client.
+    // Every client reads a number past the last port as "no active port".
     let active = found.active.unwrap_or(found.ports.len());
     let active = lsp::ActiveParameter::Int(u32::try_from(active).unwrap_or(u32::MAX));
     let one = lsp::SignatureInformation {

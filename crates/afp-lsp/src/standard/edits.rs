@@ -16,7 +16,6 @@ use crate::server::Server;
 use crate::uri;
 use crate::workspace::Analysis;
 
-/// The word that would be renamed.
 pub(crate) fn prepare_rename(server: &mut Server, params: lsp::PrepareRenameParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     renamed(&analysis, offset, String::new())?;
@@ -25,7 +24,8 @@ pub(crate) fn prepare_rename(server: &mut Server, params: lsp::PrepareRenamePara
     ok(json!({ "range": server.places(&analysis).range(name.span), "placeholder": placeholder }))
 }
 
-/// The change that renames the definition of the name at a byte, and the path of the file with that definition.
+/// Returns the change that renames the definition at a byte offset, and the path of the file with
+/// that definition.
 fn renamed(analysis: &Analysis, offset: u32, to: String) -> Result<(Change, String), Failure> {
     let index = &analysis.compiled.index;
     let refused = |reason: &str| Failure::Refused(reason.to_owned());
@@ -66,7 +66,7 @@ fn change(analysis: &Analysis, id: DefinitionId, to: String) -> Option<Change> {
     (found.part == Part::Whole).then_some(Change::Rename { item: found.item, to })
 }
 
-/// Gives something another name, in all plan files that the client works on and in the positions.
+/// Renames a definition in all plan files of the workspace and in the positions.
 pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let (change, path) = renamed(&analysis, offset, params.new_name)?;
@@ -80,8 +80,8 @@ pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
 }
 
 impl Server {
-    /// The plan files that changes of `home` may edit or have to look at: those of a compilation and, where others may be
-    /// concerned, those that use it.
+    /// Returns the plan files that changes of `home` may edit or read: those of a compilation and,
+    /// if others may be affected, the files that use it.
     pub(crate) fn sources(
         &self,
         analysis: &Analysis,
@@ -95,13 +95,14 @@ impl Server {
         files
     }
 
-    /// Adds the files that use one, and those that use these, where a path may lead down to it; and what they use besides.
+    /// Adds the direct and indirect users of a file that a path may cross, and the files that these
+    /// use.
     fn add_users(&self, home: &str, files: &mut Vec<Source>) {
         let known: Vec<_> =
             files.iter().map(|file| (normalised(&file.name), used_files(file))).collect();
         let others = self.workspace.afp_files().into_iter();
         let others = others.filter(|path| files.iter().all(|file| file.name != *path));
-        // Each is read once.
+        // Each file is read once.
         let read = |path: String| Some(Source::new(path.clone(), self.workspace.text(&path).ok()?));
         let mut others: Vec<_> = others.filter_map(read).collect();
         let (mut homes, mut done) = (vec![normalised(home)], 0);
@@ -111,7 +112,7 @@ impl Server {
             let users = known.iter().filter(|(_, used)| used.contains(&home));
             let mut users: Vec<_> = users.map(|(path, _)| path.clone()).collect();
             let name = home.rsplit('/').next().unwrap_or_default();
-            // Few name it at all, and only those are read as plans.
+            // Few files name it, and only those are parsed.
             let uses = |file: &mut Source| {
                 let used = if file.text.contains(name) { used_files(file) } else { Vec::new() };
                 let uses = used.contains(&home);
@@ -134,7 +135,7 @@ impl Server {
         }
     }
 
-    /// The edit that changes the positions of a file; `None` where it changes nothing.
+    /// Returns the edit of a file's positions; `None` if nothing changes.
     pub(crate) fn placed(&self, path: &str, change: impl FnOnce(&mut Layout)) -> Option<FileEdits> {
         let path = format!("{path}.layout");
         let text = self.workspace.text(&path).unwrap_or_default();
@@ -148,7 +149,7 @@ impl Server {
         Some(FileEdits { path, text, edits })
     }
 
-    /// Edits as the client takes them: with versions, or as a plain list.
+    /// Converts edits to versioned edits or a plain list, depending on the client.
     pub(crate) fn edit(&self, files: &[FileEdits]) -> lsp::WorkspaceEdit {
         let workspace = &self.workspace;
         let change = |file: &FileEdits| {
@@ -174,7 +175,7 @@ impl Server {
     }
 }
 
-/// Puts a document into canonical form; one with syntax errors stays as it is.
+/// Formats a document; a document with syntax errors stays unchanged.
 pub(crate) fn formatting(server: &mut Server, params: lsp::DocumentFormattingParams) -> Answer {
     let path = uri::path(&params.text_document.uri);
     let text = server.workspace.text(&path).map_err(Failure::Refused)?;

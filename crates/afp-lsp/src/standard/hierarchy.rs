@@ -1,4 +1,4 @@
-//! Which plans use which.
+//! Calls between plans.
 
 use afp_dsl::outline::{Component, Plan};
 use gen_lsp_types as lsp;
@@ -7,7 +7,7 @@ use crate::answer::{Answer, ok};
 use crate::server::Server;
 use crate::workspace::Analysis;
 
-/// The plan that a name means, or that a place lies in.
+/// Returns the plan that a name means, or that contains the position.
 pub(crate) fn prepare(server: &mut Server, params: lsp::CallHierarchyPrepareParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let outline = &analysis.compiled.outline;
@@ -38,7 +38,7 @@ fn item(server: &Server, analysis: &Analysis, plan: &Plan) -> Option<lsp::CallHi
     })
 }
 
-/// The plans that use a plan, with the places at which they do.
+/// Returns the plans that use a plan, with the positions of these uses.
 pub(crate) fn incoming(
     server: &mut Server,
     params: lsp::CallHierarchyIncomingCallsParams,
@@ -60,7 +60,7 @@ pub(crate) fn incoming(
     ok(calls)
 }
 
-/// The plans that a plan uses.
+/// Returns the plans that a plan uses.
 pub(crate) fn outgoing(
     server: &mut Server,
     params: lsp::CallHierarchyOutgoingCallsParams,
@@ -83,7 +83,7 @@ fn is_same(a: &lsp::CallHierarchyItem, b: &lsp::CallHierarchyItem) -> bool {
     (&a.uri, &a.name) == (&b.uri, &b.name)
 }
 
-/// Each use of a plan as a sub-plan: by which plan, where, and of which one.
+/// Each use of a plan as a sub-plan: the using plan, the position and the used plan.
 fn uses(
     server: &Server,
     analysis: &Analysis,

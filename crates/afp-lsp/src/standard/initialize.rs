@@ -1,4 +1,4 @@
-//! What the client can do, and what the server offers.
+//! Capabilities of client and server.
 
 use afp_ide::tokens::ColourKind;
 use afp_syntax::source::Encoding;
@@ -9,9 +9,9 @@ use crate::answer::Answer;
 use crate::server::{Client, Server};
 use crate::uri;
 
-/// Takes note of the client and says what the server can do.
+/// Stores the client's capabilities and returns the server's.
 pub(crate) fn initialize(server: &mut Server, params: Value) -> Answer {
-    // Clients leave out and add much; what cannot be read counts as not there.
+    // Clients omit and add much; an unreadable capability counts as missing.
     let can = |path: &str| params.pointer(&format!("/capabilities/{path}"));
     let is = |path: &str| can(path).and_then(Value::as_bool).unwrap_or(false);
     let commands = params.pointer("/initializationOptions/commands").and_then(Value::as_array);

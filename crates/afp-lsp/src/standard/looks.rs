@@ -1,4 +1,4 @@
-//! How a text looks: hover, colours, folds, selections, hints and lenses.
+//! The appearance of a text: hover, colours, folds, selections, hints and lenses.
 
 use afp_ide::folding::{FoldKind, folds};
 use afp_ide::lenses::{Lens, LensAction};
@@ -11,7 +11,7 @@ use crate::convert::Places;
 use crate::server::Server;
 use crate::standard::project;
 
-/// What is to be said of a word.
+/// Returns the description of a word.
 pub(crate) fn hover(server: &mut Server, params: lsp::HoverParams) -> Answer {
     let at = &params.text_document_position_params;
     if let Some(text) = project::text(server, &at.text_document.uri) {
@@ -25,14 +25,13 @@ pub(crate) fn hover(server: &mut Server, params: lsp::HoverParams) -> Answer {
     ok(lsp::Hover { contents: lsp::Contents::MarkupContent(contents), range: Some(range) })
 }
 
-/// What can be folded away.
 pub(crate) fn folding(server: &mut Server, params: lsp::FoldingRangeParams) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let view = analysis.view();
     let places = server.places(&analysis);
     let range = |fold: &afp_ide::folding::Fold| {
         let (start, end) = (places.position(fold.span.start), places.position(fold.span.end));
-        // The line with the closing bracket stays.
+        // The line with the closing bracket stays visible.
         let last = if fold.kind == FoldKind::Body { end.line.saturating_sub(1) } else { end.line };
         (last > start.line).then_some(lsp::FoldingRange {
             start_line: start.line,
@@ -48,7 +47,6 @@ pub(crate) fn folding(server: &mut Server, params: lsp::FoldingRangeParams) -> A
     ok(folds(&view).iter().filter_map(range).collect::<Vec<_>>())
 }
 
-/// What selections grow to.
 pub(crate) fn selection(server: &mut Server, params: lsp::SelectionRangeParams) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let view = analysis.view();
@@ -63,7 +61,6 @@ pub(crate) fn selection(server: &mut Server, params: lsp::SelectionRangeParams) 
     ok(params.positions.iter().filter_map(around).collect::<Vec<_>>())
 }
 
-/// Colours by meaning.
 pub(crate) fn tokens(server: &mut Server, params: lsp::SemanticTokensParams) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let places = server.places(&analysis);
@@ -86,7 +83,7 @@ pub(crate) fn tokens(server: &mut Server, params: lsp::SemanticTokensParams) -> 
     ok(lsp::SemanticTokens { result_id: None, data })
 }
 
-/// The bound of each supervisor.
+/// Returns the timing bound of each supervisor.
 pub(crate) fn hints(server: &mut Server, params: lsp::InlayHintParams) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let places = server.places(&analysis);
@@ -108,7 +105,7 @@ pub(crate) fn hints(server: &mut Server, params: lsp::InlayHintParams) -> Answer
     ok(shown.collect::<Vec<_>>())
 }
 
-/// What can be done with plans and scenarios, of what the client has commands for.
+/// Returns commands for plans and scenarios, if the client has them.
 pub(crate) fn lenses(server: &mut Server, params: lsp::CodeLensParams) -> Answer {
     let uri = &params.text_document.uri;
     let analysis = server.analysis(uri)?;

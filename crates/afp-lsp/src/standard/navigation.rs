@@ -1,4 +1,4 @@
-//! From names to what they mean, and to who uses them.
+//! From names to their definitions and uses.
 
 use std::collections::BTreeSet;
 
@@ -15,13 +15,13 @@ use crate::server::Server;
 use crate::standard::project;
 use crate::workspace::Analysis;
 
-/// Where a name is declared.
+/// Returns the declaration of a name.
 pub(crate) fn definition(server: &mut Server, params: lsp::DefinitionParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     locations(server, &analysis, afp_ide::definition::definition(&analysis.view(), offset))
 }
 
-/// What it is made from.
+/// Returns the template or type of a name.
 pub(crate) fn type_definition(server: &mut Server, params: lsp::TypeDefinitionParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     locations(server, &analysis, afp_ide::definition::type_definition(&analysis.view(), offset))
@@ -35,7 +35,7 @@ fn locations(server: &Server, analysis: &Analysis, found: Option<Definitions>) -
     ok(found.targets.iter().filter_map(location).collect::<Vec<_>>())
 }
 
-/// Who refers to what a name means, in all plan files that the client works on.
+/// Returns all references to a name in the plan files of the workspace.
 pub(crate) fn references(server: &mut Server, params: lsp::ReferenceParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let view = analysis.view();
@@ -68,7 +68,7 @@ pub(crate) fn references(server: &mut Server, params: lsp::ReferenceParams) -> A
     ok(all.into_iter().map(location).collect::<Vec<_>>())
 }
 
-/// Who refers to it in the document.
+/// Returns the references within the document.
 pub(crate) fn highlights(server: &mut Server, params: lsp::DocumentHighlightParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let places = server.places(&analysis);
@@ -77,7 +77,6 @@ pub(crate) fn highlights(server: &mut Server, params: lsp::DocumentHighlightPara
     ok(all.into_iter().map(highlight).collect::<Vec<_>>())
 }
 
-/// What a document is made of.
 pub(crate) fn symbols(server: &mut Server, params: lsp::DocumentSymbolParams) -> Answer {
     let uri = params.text_document.uri;
     if let Some(text) = project::text(server, &uri) {
@@ -105,7 +104,7 @@ fn nested(one: &Symbol, places: &Places<'_>) -> Value {
     })
 }
 
-/// Clients refuse symbols without a name.
+/// Clients reject symbols without a name.
 fn name(one: &Symbol) -> String {
     if one.name.is_empty() { "?".to_owned() } else { one.name.clone() }
 }
@@ -126,7 +125,7 @@ fn information(one: &Symbol, owner: Option<&str>, uri: &lsp::Uri, places: &Place
     })
 }
 
-/// The symbols of all plan files that the client works on whose names contain a text.
+/// Returns the symbols of all plan files in the workspace whose names contain a text.
 pub(crate) fn workspace_symbols(server: &mut Server, params: lsp::WorkspaceSymbolParams) -> Answer {
     let wanted = params.query.to_lowercase();
     let mut list = Vec::new();

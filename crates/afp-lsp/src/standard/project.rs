@@ -1,4 +1,4 @@
-//! The project file `afp.toml`: what can be written there, what it means, what it is made of.
+//! The project file `afp.toml`: completion, hover and outline.
 
 use std::ops::Range;
 
@@ -13,13 +13,13 @@ use crate::server::Server;
 use crate::uri;
 use crate::workspace::is_project;
 
-/// The text of a document that is a project file.
+/// Returns the text of a document if it is a project file.
 pub(super) fn text(server: &Server, uri: &lsp::Uri) -> Option<String> {
     let path = uri::path(uri);
     is_project(&path).then(|| server.workspace.text(&path).ok()).flatten()
 }
 
-/// The keys of the table in which a place is, and headings.
+/// Returns headings, and the keys of the table at a position.
 pub(super) fn completion(server: &Server, text: &str, position: lsp::Position) -> Answer {
     let places = Places::new(text, server.workspace.encoding);
     let found = spot(text, places.offset(position) as usize);
@@ -28,7 +28,7 @@ pub(super) fn completion(server: &Server, text: &str, position: lsp::Position) -
         SpotKind::Value => Vec::new(),
         SpotKind::Heading | SpotKind::Key => keys(&found.table),
     };
-    // A line may begin another table; the first ones do anyway.
+    // A line can begin another table; the first lines always can.
     let line = text[..found.word.start].rsplit('\n').next().unwrap_or_default();
     let may_begin =
         found.kind == SpotKind::Key && line.trim().is_empty() && !found.table.is_empty();
@@ -57,7 +57,7 @@ pub(super) fn completion(server: &Server, text: &str, position: lsp::Position) -
     ok(lsp::CompletionList { is_incomplete: false, items, ..lsp::CompletionList::default() })
 }
 
-/// What a key says.
+/// Describes a key.
 pub(super) fn hover(server: &Server, text: &str, position: lsp::Position) -> Answer {
     let places = Places::new(text, server.workspace.encoding);
     let found = spot(text, places.offset(position) as usize);
@@ -70,7 +70,7 @@ pub(super) fn hover(server: &Server, text: &str, position: lsp::Position) -> Ans
     ok(lsp::Hover { contents: lsp::Contents::MarkupContent(contents), range })
 }
 
-/// The headings.
+/// Returns the headings.
 pub(super) fn symbols(server: &Server, text: &str, uri: &lsp::Uri) -> Answer {
     let places = Places::new(text, server.workspace.encoding);
     let all: Vec<_> = headings(text);

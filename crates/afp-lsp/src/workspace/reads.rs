@@ -1,4 +1,4 @@
-//! What was read, so that what was made from it is made again only when it says something else.
+//! The inputs of a result, so that it is recomputed only after one of them changed.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,16 +12,16 @@ pub(crate) struct Reads(Vec<Read>);
 #[derive(Debug)]
 struct Read {
     path: String,
-    /// The stamp at which it was last seen to say the same.
+    /// The stamp of the last comparison without a difference.
     stamp: AtomicU64,
     said: u64,
 }
 
 impl Reads {
-    /// Reads a text, and remembers what it said; also that there was none.
+    /// Reads a text and remembers it, also if it is missing.
     ///
     /// # Errors
-    /// Why there is no text.
+    /// The reason if there is no text.
     pub fn text(&mut self, workspace: &Workspace, path: &str) -> Result<String, String> {
         let text = workspace.text(path);
         self.0.push(Read {
@@ -32,7 +32,7 @@ impl Reads {
         text
     }
 
-    /// Whether all of them say what they said. A file that was saved as it stood in the editor does.
+    /// Whether all texts are unchanged, for example after a save without a change.
     pub fn hold(&self, workspace: &Workspace) -> bool {
         self.0.iter().all(|read| {
             let stamp = workspace.documents.stamp(&read.path);
@@ -59,7 +59,6 @@ mod tests {
     use crate::host::Host;
     use crate::workspace::Workspace;
 
-    /// A disk with one file.
     struct Disk(Arc<Mutex<String>>);
 
     impl Host for Disk {
@@ -77,9 +76,9 @@ mod tests {
         }
     }
 
-    /// A save compiled and drew everything again.
+    /// Previously a save compiled and drew everything again.
     #[test]
-    fn a_file_that_says_the_same_is_not_compiled_again() -> Result<(), &'static str> {
+    fn an_unchanged_file_is_not_compiled_again() -> Result<(), &'static str> {
         let plan = "use std\nplan B { start rest actor rest: Wait(duration = 1 s) { Elapsed -> terminate } }\n";
         let file = Arc::new(Mutex::new(plan.to_owned()));
         let mut workspace = Workspace::new(Box::new(Disk(Arc::clone(&file))));

@@ -1,8 +1,9 @@
-//! Conversations as data: what the client says behind `-->`, what the server says behind `<--`.
+//! Conversations as data: client messages after `-->`, server messages after `<--`.
 //!
-//! `file PATH` begins a file that the server finds, up to a line `end`; `open PATH` opens it. `ask METHOD
-//! PARAMS` is a request, `tell METHOD PARAMS` a notification; both may go on over indented lines. In
-//! parameters `@` stands for `file:///w/`. `AFP_BLESS=1` rewrites what the server says; read the diff like code.
+//! `file PATH` begins a file for the server, up to a line `end`; `open PATH` opens it. `ask METHOD
+//! PARAMS` is a request and `tell METHOD PARAMS` a notification. Both may continue over indented
+//! lines. In parameters `@` means `file:///w/`. `AFP_BLESS=1` rewrites the server's messages; read
+//! the diff like code.
 
 use std::fmt::Write;
 use std::fs;
@@ -13,7 +14,7 @@ use serde_json::Value;
 use crate::client::{Client, Files};
 
 #[test]
-fn every_conversation_goes_as_it_is_written() {
+fn every_conversation_matches_its_file() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
     let mut paths: Vec<_> =
         fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -34,7 +35,7 @@ fn every_conversation_goes_as_it_is_written() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The conversation with what the server says now.
+/// Returns the conversation with the server's current messages.
 fn conversation(written: &str) -> String {
     let mut files = Files::default();
     let mut lines = written.lines().filter(|line| !line.starts_with("<-- ")).peekable();
@@ -62,7 +63,6 @@ fn conversation(written: &str) -> String {
     text
 }
 
-/// The files of a case, and what is said in it.
 pub fn steps(written: &str) -> (Files, Vec<String>) {
     let (mut files, mut said) = (Files::default(), Vec::<String>::new());
     let mut lines = written.lines();
@@ -81,7 +81,7 @@ pub fn steps(written: &str) -> (Files, Vec<String>) {
     (files, said)
 }
 
-/// What the server says to a step.
+/// Performs a step and returns the server's messages.
 pub fn say(client: &mut Client, files: &Files, said: &str) -> Vec<Value> {
     let mut words = said.splitn(3, ' ');
     let (what, name) = (words.next().unwrap(), words.next().unwrap());
@@ -97,7 +97,7 @@ pub fn say(client: &mut Client, files: &Files, said: &str) -> Vec<Value> {
     }
 }
 
-/// A message in one line, as short as it says the same: pictures are left out.
+/// A message in one line, without pictures.
 fn shown(mut message: Value) -> String {
     message.as_object_mut().unwrap().remove("jsonrpc");
     leave_out_pictures(&mut message);

@@ -1,4 +1,4 @@
-//! A client of the server for tests: it numbers requests and keeps what it is told.
+//! A test client that numbers its requests and records the server's messages.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,6 @@ use afp_lsp::{Host, Message, Server};
 use lsp_server::{Notification, Request};
 use serde_json::{Value, json};
 
-/// Files in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Files(pub BTreeMap<String, String>);
 
@@ -25,19 +24,18 @@ impl Host for Files {
     }
 }
 
-/// A client with its server.
 pub struct Client {
     pub server: Server,
     asked: i32,
 }
 
 impl Client {
-    /// A client that has not said anything yet.
+    /// A client before its first message.
     pub fn new(host: impl Host + 'static) -> Client {
         Client { server: Server::new(Box::new(host)), asked: 0 }
     }
 
-    /// A client that can do much and works in `/w`.
+    /// An initialized client with many capabilities and the workspace `/w`.
     pub fn ready(host: impl Host + 'static) -> Client {
         let mut client = Client::new(host);
         let commands = json!({ "commands": ["afp.run", "afp.debug"] });
@@ -50,14 +48,14 @@ impl Client {
         client
     }
 
-    /// Everything that the server says to a request.
+    /// Sends a request and returns all messages of the server.
     pub fn request(&mut self, method: &str, params: Value) -> Vec<Value> {
         self.asked += 1;
         let request = Request { id: self.asked.into(), method: method.to_owned(), params };
         self.say(request.into())
     }
 
-    /// Everything that the server says to a notification.
+    /// Sends a notification and returns all messages of the server.
     pub fn notify(&mut self, method: &str, params: Value) -> Vec<Value> {
         self.say(Notification { method: method.to_owned(), params }.into())
     }
@@ -68,7 +66,6 @@ impl Client {
         said.iter().map(|message| serde_json::to_value(message).unwrap()).collect()
     }
 
-    /// Opens a document.
     pub fn open(&mut self, uri: &str, text: &str) -> Vec<Value> {
         let document = json!({ "uri": uri, "languageId": "afp", "version": 1, "text": text });
         self.notify("textDocument/didOpen", json!({ "textDocument": document }))

@@ -1,4 +1,4 @@
-//! Errors elsewhere in a file: what is sound is answered as if they were not there.
+//! Errors elsewhere in a file do not change the answers about its valid parts.
 
 use serde_json::{Value, json};
 
@@ -31,7 +31,7 @@ plan Q {
 }
 ";
 
-/// A plan with ten errors, of every stage of the compiler.
+/// A plan with ten errors, from every stage of the compiler.
 const WRONG: &str = "
 plan Wrong {
     in  far: lenght = 3
@@ -46,13 +46,13 @@ plan Wrong {
 }
 ";
 
-/// How many errors a document has, by what the server says of it.
+/// Counts the errors of a document in the server's messages.
 fn errors_in(said: &[Value]) -> usize {
     let found = said[0]["params"]["diagnostics"].as_array().unwrap();
     found.iter().filter(|each| each["severity"] == 1).count()
 }
 
-/// What is asked about a place.
+/// Requests about a position.
 fn about(line: u32, character: u32) -> Vec<(&'static str, Value)> {
     let document = json!({ "uri": URI });
     let position = json!({ "line": line, "character": character });
@@ -89,7 +89,7 @@ fn about(line: u32, character: u32) -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// What is asked about a whole file.
+/// Requests about a whole file.
 fn about_all(lines: u32) -> Vec<(&'static str, Value)> {
     let document = json!({ "uri": URI });
     let whole = json!({ "textDocument": document });
@@ -104,7 +104,6 @@ fn about_all(lines: u32) -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// What is asked about items.
 fn about_items() -> Vec<(&'static str, Value)> {
     let document = json!({ "uri": URI });
     let of = |item: &str, key: &str, value: &str| json!({ "textDocument": document, "item": item, key: value });
@@ -118,7 +117,7 @@ fn about_items() -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// Drops what stands in the last line and behind it; around everything stands the file, which is longer.
+/// Drops everything from the last line on, and ranges that enclose the whole file, which is longer.
 fn in_the_first_lines(mut answer: Value, lines: u32) -> Value {
     fn cut(value: &mut Value, lines: u32) {
         match value {
@@ -132,7 +131,7 @@ fn in_the_first_lines(mut answer: Value, lines: u32) -> Value {
             }
             Value::Array(list) => {
                 list.iter_mut().for_each(|each| cut(each, lines));
-                // What is wrong uses the same templates.
+                // The erroneous part uses the same templates.
                 let is_behind = |each: &Value| each["range"]["start"]["line"] == Value::Null;
                 list.retain(|each| each.get("range").is_none() || !is_behind(each));
             }
@@ -144,7 +143,7 @@ fn in_the_first_lines(mut answer: Value, lines: u32) -> Value {
 }
 
 #[test]
-fn what_is_sound_is_answered_alike_beside_ten_errors() {
+fn ten_errors_do_not_change_answers_elsewhere() {
     let mut sound = Client::ready(Files::default());
     let mut wrong = Client::ready(Files::default());
     let said = sound.open(URI, SOUND);
@@ -163,7 +162,7 @@ fn what_is_sound_is_answered_alike_beside_ten_errors() {
             for (method, params) in about(line, character) {
                 let [mut one, other] = ask(method, &params);
                 if method == "textDocument/completion" {
-                    // Where plans can be named, the other one can be named, too.
+                    // Completions of plan names include the other plan.
                     let [few, more] = [&one, &other].map(|it| it["result"]["items"].as_array());
                     let more = more.map(Vec::as_slice).unwrap_or_default();
                     let named = |item: &Value| more.iter().any(|it| it["label"] == item["label"]);
@@ -181,7 +180,7 @@ fn what_is_sound_is_answered_alike_beside_ten_errors() {
         let [one, other] = ask(method, &params);
         assert_eq!(one, other, "{method} of {params}");
     }
-    // Of the others the answers of the file with errors are longer.
+    // The other answers are longer in the file with errors.
     let all = about_all(lines);
     let (method, params) = all.iter().find(|(name, _)| name.ends_with("inlayHint")).unwrap();
     let [one, other] = ask(method, params);
@@ -199,7 +198,7 @@ fn what_is_sound_is_answered_alike_beside_ten_errors() {
     assert!(asked > 700, "asked {asked} times");
 }
 
-/// A plan, and the same lines with an error of some stage of the compiler in each of some of them.
+/// A plan, and an erroneous version of some of its lines, from various stages of the compiler.
 const LINES: &[(&str, Option<&str>)] = &[
     ("use carbot", None),
     ("use std", None),
@@ -280,13 +279,13 @@ const LINES: &[(&str, Option<&str>)] = &[
     ("}", None),
 ];
 
-/// The line of an answer's part, by which such parts are told apart.
+/// The line of a part of an answer, for matching parts.
 fn line_of(part: &Value) -> Option<u64> {
     let at = ["/range/start/line", "/location/range/start/line", "/position/line", "/startLine"];
     at.iter().find_map(|at| part.pointer(at)?.as_u64())
 }
 
-/// Whether a completion names what is declared in a line with an error.
+/// Whether a completion names a declaration of an erroneous line.
 fn names_wrong(part: &Value) -> bool {
     let Some(label) = part["label"].as_str() else { return false };
     let declares = |line: &str| line.split([' ', ':']).any(|word| word == label);
@@ -296,7 +295,7 @@ fn names_wrong(part: &Value) -> bool {
     })
 }
 
-/// Drops what stands in lines with errors, and says in which line each colour stands.
+/// Drops the parts in erroneous lines, and adds the line to each colour.
 fn in_sound_lines(mut answer: Value) -> Value {
     fn cut(value: &mut Value) {
         let is_wrong = |part: &Value| {
@@ -325,7 +324,7 @@ fn in_sound_lines(mut answer: Value) -> Value {
 }
 
 #[test]
-fn what_is_sound_is_answered_alike_among_ten_errors_of_its_plan() {
+fn ten_errors_do_not_change_other_answers_of_their_plan() {
     let text = |wrong: bool| {
         let line = |(right, other): &(&'static str, Option<&'static str>)| match other {
             Some(other) if wrong => *other,

@@ -1,11 +1,11 @@
-//! What pages need beside a drawing: its style sheet, and the book's words.
+//! Data for pages in addition to a drawing: its style sheet, and the book's pages.
 
 use afp_syntax::diagnostics::Code;
 use serde_json::json;
 
 use crate::client::{Client, Files};
 
-/// What a page on that ground is told to draw with.
+/// The style sheet for a page with that background.
 fn sheet(theme: &str) -> String {
     let mut client = Client::ready(Files::default());
     client.open("file:///w/a.afp", "plan P {}\n");

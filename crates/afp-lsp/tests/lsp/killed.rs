@@ -1,4 +1,5 @@
-//! A server that is killed at any message: who starts another one, and opens what was open, misses nothing.
+//! A server killed at any message: a new server with the same open documents gives the same
+//! answers.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +10,7 @@ use serde_json::{Value, json};
 use crate::cases::{say, steps};
 use crate::client::{Client, Files};
 
-/// The address of a document that a client opens or closes, and whether it is open then.
+/// The address of a document that a message opens or closes, and whether it opens.
 fn moved(said: &str) -> Option<(String, bool)> {
     let (what, rest) = said.split_once(' ')?;
     if what == "open" {
@@ -25,7 +26,7 @@ fn moved(said: &str) -> Option<(String, bool)> {
     Some((params["textDocument"]["uri"].as_str()?.to_owned(), open))
 }
 
-/// What a server answers to each message from one on: responses alone, without their numbers.
+/// The server's responses from one message on, without their numbers.
 fn answers(client: &mut Client, files: &Files, all: &[String]) -> Vec<Vec<Value>> {
     let one = |said: &String| {
         let said = say(client, files, said);
@@ -40,7 +41,7 @@ fn answers(client: &mut Client, files: &Files, all: &[String]) -> Vec<Vec<Value>
     all.iter().map(one).collect()
 }
 
-/// A server in the place of one that was killed: it is told what is open.
+/// A replacement of a killed server, with the open documents.
 fn started(killed: &Client, files: &Files, hello: &str, open: &BTreeSet<String>) -> Client {
     let mut client = Client::new(files.clone());
     say(&mut client, files, hello);
@@ -53,7 +54,7 @@ fn started(killed: &Client, files: &Files, hello: &str, open: &BTreeSet<String>)
 }
 
 #[test]
-fn nothing_is_lost_with_a_server_that_is_killed_at_any_message() {
+fn a_new_server_after_a_kill_gives_the_same_answers() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
     let mut killed_at = 0;
     for entry in fs::read_dir(folder).unwrap() {

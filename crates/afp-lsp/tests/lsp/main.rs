@@ -1,4 +1,4 @@
-//! Conversations with the server: as data, in random order, and made of anything.
+//! Conversations with the server: as data, in random order, and from random JSON.
 
 mod cases;
 mod client;

@@ -1,4 +1,4 @@
-//! Which files a change looks at: large folders must not slow down the drawing of one plan.
+//! The files that a change reads: a large folder must not slow down the drawing of one plan.
 
 use std::sync::{Arc, Mutex};
 
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::client::{Client, Files};
 
-/// Files that note which of them are read.
+/// Files that record each read.
 struct Noted {
     files: Files,
     read: Arc<Mutex<Vec<String>>>,
@@ -31,7 +31,7 @@ impl Host for Noted {
 
 const PLAN: &str = "use std\n\nplan P {\n    start a\n    actor a: Wait { Elapsed -> b }\n    actor b: Wait { Elapsed -> terminate }\n}\n";
 
-/// A plan, what uses it, and much else.
+/// A plan, its users, and many other files.
 fn files() -> Files {
     let mut files = Files::default();
     let mut add = |name: &str, text: &str| files.0.insert(format!("/w/{name}"), text.to_owned());
@@ -41,13 +41,13 @@ fn files() -> Files {
         "tests/s.afp",
         "use \"../plan.afp\"\nuse \"../lib.afp\"\nscenario \"s\" for P {\n    from b\n}\n",
     );
-    // A path leads down to it through another file.
+    // Another file connects this one to the plan.
     add(
         "route.afp",
         "use \"plan.afp\"\nuse std\nplan R {\n    start p\n    subplan p: P { OK -> terminate }\n}\n",
     );
     add("tests/r.afp", "use \"../route.afp\"\nscenario \"r\" for R {\n    expect p.b active\n}\n");
-    // The same name elsewhere is another file.
+    // The same name in a different file.
     add("other/plan.afp", PLAN);
     add("other/s.afp", "use \"plan.afp\"\nscenario \"s\" for P {\n    from b\n}\n");
     for number in 0..30 {
@@ -56,7 +56,7 @@ fn files() -> Files {
     files
 }
 
-/// What an edit answers with, and which files were read for it.
+/// Returns the answer to an edit, and the files read for it.
 fn edited(change: Value) -> (Value, Vec<String>) {
     let read = Arc::default();
     let mut client = Client::ready(Noted { files: files(), read: Arc::clone(&read) });
@@ -69,7 +69,7 @@ fn edited(change: Value) -> (Value, Vec<String>) {
 }
 
 #[test]
-fn what_concerns_one_file_reads_no_other() {
+fn a_change_of_one_file_reads_only_that_file() {
     for change in [
         json!({ "connect": { "from": "P.a", "outcome": "Elapsed", "to": "terminate" } }),
         json!({ "bind": { "component": "P.a", "port": "duration", "to": { "in": "2 s" } } }),
@@ -82,13 +82,13 @@ fn what_concerns_one_file_reads_no_other() {
 }
 
 #[test]
-fn what_uses_a_file_follows_its_names() {
+fn users_of_a_file_follow_its_names() {
     let edits = |change: Value| {
         let said = edited(change).0;
         let changes = said["result"]["edit"]["changes"].as_object().cloned();
         changes.ok_or(said).map(|files| files.keys().cloned().collect::<Vec<_>>())
     };
-    // The first edit writes all positions, too.
+    // The first edit also writes all positions.
     let own = ["file:///w/plan.afp", "file:///w/plan.afp.layout"];
     let below = [own[0], own[1], "file:///w/tests/r.afp", "file:///w/tests/s.afp"];
     let with_route = [own[0], own[1], "file:///w/route.afp", "file:///w/tests/s.afp"];
@@ -98,7 +98,7 @@ fn what_uses_a_file_follows_its_names() {
     }
     let found = edits(json!({ "rename": { "item": "P.b", "to": "c" } }));
     assert_eq!(found.as_deref(), Ok(&below.map(str::to_owned)[..]));
-    // What uses it sees another plan of that name.
+    // A user of the plan sees another plan of that name.
     let refused = edits(json!({ "rename": { "item": "P", "to": "L" } })).unwrap_err();
     assert!(refused["error"]["message"].as_str().unwrap().contains("lib.afp"), "{refused}");
 }

@@ -1,4 +1,4 @@
-//! The drawing of a plan that gets another name, or goes.
+//! The drawing of a plan that is renamed or removed.
 
 use serde_json::{Value, json};
 
@@ -6,13 +6,13 @@ use crate::client::{Client, Files};
 
 const URI: &str = "file:///w/a.afp";
 
-/// A file with plans of these names, each with what follows its name.
+/// A file with these plans: each name and the text after it.
 fn text(plans: &[&str]) -> String {
     let body = "{\n    start go\n    actor go: Wait { Elapsed -> terminate }\n}\n";
     plans.iter().fold("use std\n".to_owned(), |text, name| format!("{text}\nplan {name} {body}"))
 }
 
-/// A client that has entered the plan `B` of a file with `A` and `B`.
+/// A client that shows the plan `B` of a file with `A` and `B`.
 struct Page {
     client: Client,
     version: i32,
@@ -33,7 +33,8 @@ impl Page {
         self.client.request("afp/drawing", params).swap_remove(0)
     }
 
-    /// The plan that is drawn after a change, and the plans that there are; none where nothing is told of the drawing.
+    /// Changes the text and returns the drawn plan and all plans; `None` without a message about
+    /// the drawing.
     fn types(&mut self, plans: &[&str]) -> Option<(String, Vec<String>)> {
         self.version += 1;
         let document = json!({ "uri": URI, "version": self.version });
@@ -54,21 +55,21 @@ fn drawn(plan: &str, plans: &[&str]) -> Option<(String, Vec<String>)> {
 }
 
 #[test]
-fn a_plan_that_is_renamed_goes_on_to_be_drawn() {
+fn a_renamed_plan_is_still_drawn() {
     let mut page = Page::new();
     assert_eq!(page.types(&["A", "C"]), drawn("C", &["A", "C"]));
     assert!(page.ask("B")["error"].is_object());
     assert_eq!(page.types(&["A", "B"]), drawn("B", &["A", "B"]), "who is refused hears on");
-    // Letter by letter, without a name between.
+    // The name is typed letter by letter and empty in between.
     assert_eq!(page.types(&["A", ""]), None);
     assert_eq!(page.types(&["A", "D"]), drawn("D", &["A", "D"]));
-    // On the way to its name it is called as another one.
+    // An intermediate name is another plan's name.
     assert_eq!(page.types(&["A", "A"]), None);
     assert_eq!(page.types(&["A", "Ab"]), drawn("Ab", &["A", "Ab"]));
 }
 
 #[test]
-fn other_plans_of_the_file_are_told_though_none_of_them_is_drawn() {
+fn plans_without_a_drawing_are_listed() {
     let mut page = Page::new();
     assert_eq!(page.types(&["Z", "B"]), drawn("B", &["Z", "B"]));
     assert_eq!(page.types(&["Z", "B", "C"]), drawn("B", &["Z", "B", "C"]));
@@ -76,11 +77,11 @@ fn other_plans_of_the_file_are_told_though_none_of_them_is_drawn() {
 }
 
 #[test]
-fn in_place_of_a_plan_that_is_gone_the_first_one_is_drawn() {
+fn the_first_plan_replaces_a_missing_one() {
     let mut page = Page::new();
     assert_eq!(page.types(&["A"]), drawn("A", &["A"]));
     let mut page = Page::new();
-    // While it is being written nobody knows that it is gone.
+    // While the file is unreadable, the plan counts as present.
     assert_eq!(page.types(&["A", "1"]), None);
     assert_eq!(page.types(&["A", "B"]), None, "it is drawn as it is");
 }

@@ -1,4 +1,4 @@
-//! What holds for any conversation.
+//! Properties of any conversation.
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -8,12 +8,12 @@ use crate::client::{Client, Files};
 const URI: &str = "file:///w/plan.afp";
 const PLAN: &str = "use carbot\n\n// ä𝄞\nplan P {\n    start go\n    actor go: Forward {\n        ForwardSuccessful -> go\n    }\n}\n";
 
-/// So many conversations by day; `AFP_BY_NIGHT` holds forty times as many.
+/// The number of cases by day; `AFP_BY_NIGHT` multiplies it by forty.
 fn cases(by_day: u32) -> u32 {
     if std::env::var_os("AFP_BY_NIGHT").is_some() { by_day * 40 } else { by_day }
 }
 
-/// Texts that are typed.
+/// Texts to type.
 const WORDS: &[&str] = &[
     "",
     "a",
@@ -46,7 +46,7 @@ fn typed() -> impl Strategy<Value = Typed> {
     (0..12_u32, 0..30_u32, 0..3_u32, 0..12_u32, 0..WORDS.len())
 }
 
-/// What a document has by the protocol's own rules, computed line by line in units of UTF-16.
+/// Returns a document after an edit by the protocol's rules, line by line in UTF-16 units.
 fn after(text: &str, (line, column, lines, columns, word): Typed) -> String {
     let units: Vec<u16> = text.encode_utf16().collect();
     let offset = |line: u32, column: u32| {
@@ -64,7 +64,7 @@ fn after(text: &str, (line, column, lines, columns, word): Typed) -> String {
         let rest = &units[at..];
         let length = rest.iter().position(|unit| *unit == 10 || *unit == 13).unwrap_or(rest.len());
         let within = (column as usize).min(length);
-        // The second half of a pair stands for the first one.
+        // The second half of a surrogate pair means its first half.
         let half = rest.get(within).is_some_and(|unit| (0xdc00..0xe000).contains(unit));
         at + within - usize::from(half)
     };
@@ -77,7 +77,7 @@ fn after(text: &str, (line, column, lines, columns, word): Typed) -> String {
     String::from_utf16(&all).unwrap()
 }
 
-/// What can be asked about a document and a place of it.
+/// Requests about a document and a position.
 fn questions(line: u32, character: u32) -> Vec<(&'static str, Value)> {
     let document = json!({ "uri": URI });
     let position = json!({ "line": line, "character": character });
@@ -118,7 +118,7 @@ fn questions(line: u32, character: u32) -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// The last diagnostics that the client was told.
+/// The last published diagnostics.
 fn last(said: &[Value]) -> Option<Value> {
     let mut published =
         said.iter().filter(|message| message["method"] == "textDocument/publishDiagnostics");
@@ -128,9 +128,9 @@ fn last(said: &[Value]) -> Option<Value> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(cases(48)))]
 
-    /// However a text came about: the server says what one says that has just been started on it.
+    /// A server after any edits answers like a new server with the same text.
     #[test]
-    fn changes_lead_to_what_a_fresh_server_says(
+    fn a_changed_text_gives_the_answers_of_a_new_server(
         all in prop::collection::vec(typed(), 1..12),
         (line, character) in (0..12_u32, 0..30_u32),
     ) {
@@ -148,7 +148,7 @@ proptest! {
         let first = last(&fresh.open(URI, &text));
         prop_assert_eq!(&diagnostics, &first, "{}", text);
         for (method, params) in questions(line, character) {
-            // A drawing keeps its boxes where they were.
+            // A drawing keeps its boxes in place.
             if method == "afp/drawing" {
                 continue;
             }
@@ -159,7 +159,7 @@ proptest! {
     }
 }
 
-/// Names of fields that mean something to the server.
+/// Field names that the server knows.
 const KEYS: &[&str] = &[
     "textDocument",
     "uri",
@@ -193,7 +193,7 @@ const KEYS: &[&str] = &[
     "subscribe",
 ];
 
-/// JSON of any shape, often with keys that parameters have.
+/// JSON of any shape, often with known keys.
 fn any_json() -> impl Strategy<Value = Value> {
     let leaf = prop_oneof![
         Just(Value::Null),
@@ -225,7 +225,7 @@ fn any_json() -> impl Strategy<Value = Value> {
     })
 }
 
-/// Methods that mean something, and some that do not.
+/// Known and unknown methods.
 const METHODS: &[&str] = &[
     "textDocument/didOpen",
     "textDocument/didChange",
@@ -255,9 +255,9 @@ const METHODS: &[&str] = &[
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(cases(192)))]
 
-    /// Every request has exactly one response, whatever it says.
+    /// Every request has exactly one response.
     #[test]
-    fn nonsense_is_answered(
+    fn invalid_messages_are_answered(
         said in prop::collection::vec((prop::sample::select(METHODS.to_vec()), any_json(), any::<bool>()), 1..12),
     ) {
         let mut client = Client::ready(Files::default());

@@ -9,7 +9,7 @@ use crate::client::{Client, Files};
 const URI: &str = "file:///w/plan.afp";
 const PLAN: &str = include_str!("../../../../plans/wall_following.afp");
 
-/// The area of a box, left, top, right and bottom, and the corner that has its position.
+/// A box's area, left, top, right and bottom, and the corner with its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Shown {
     outer: [f64; 4],
@@ -17,14 +17,14 @@ struct Shown {
 }
 
 impl Shown {
-    /// Whether the other one is nearer than an arrow's tip needs.
+    /// Whether another box is closer than the length of an arrow's tip.
     fn covers(&self, other: &Shown) -> bool {
         let ([a, b, c, d], [e, f, g, h]) = (self.outer, other.outer);
         a < g + 13.0 && e < c + 13.0 && b < h + 37.0 && f < d + 37.0
     }
 }
 
-/// A page on a plan: it makes the edits that it asks for, and can take them back.
+/// A page with a plan, which applies its edits and can undo them.
 struct Page {
     client: Client,
     texts: BTreeMap<String, String>,
@@ -53,7 +53,7 @@ impl Page {
         answer["result"]["elements"].as_array().unwrap().iter().map(shown).collect()
     }
 
-    /// Makes a change; false where it is refused.
+    /// Makes a change; returns false if the server rejects it.
     fn edit(&mut self, change: &Value) -> bool {
         let params = json!({ "textDocument": { "uri": URI }, "changes": [change] });
         let answer = self.client.request("afp/edit", params).swap_remove(0);
@@ -80,7 +80,7 @@ impl Page {
     }
 }
 
-/// The byte of a position; the plan has no letters beyond ASCII.
+/// The byte of a position; the plan is ASCII.
 fn offset(text: &str, position: &Value) -> usize {
     let line = position["line"].as_u64().unwrap() as usize;
     let before: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
@@ -105,7 +105,7 @@ fn change(next: &mut impl FnMut(usize) -> usize, names: &[String]) -> Value {
 }
 
 #[test]
-fn no_box_moves_but_what_a_grown_one_covers() {
+fn only_boxes_under_a_grown_one_move() {
     let mut page = Page::new();
     let (first, start) = (page.texts.clone(), page.boxes());
     let mut state = 7_u64;
@@ -139,7 +139,7 @@ fn no_box_moves_but_what_a_grown_one_covers() {
         before = after;
     }
     assert!(made.len() > rounds / 3, "{} of {rounds} were made", made.len());
-    // One after the other is taken back.
+    // The changes are undone one after the other.
     for (texts, boxes) in made.into_iter().rev() {
         texts.into_iter().for_each(|(uri, text)| page.put(&uri, text));
         assert_eq!(page.boxes(), boxes);

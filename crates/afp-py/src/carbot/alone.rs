@@ -1,4 +1,4 @@
-//! `Carbot`: the simulated robot without a plan, driven from Python step by step.
+//! `Carbot`: the simulated robot without a plan, driven step by step from Python.
 
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
@@ -15,7 +15,7 @@ use crate::pause::{Halt, Pause};
 use crate::value::{measured, no_pickle, seed_of};
 use crate::world::World;
 
-/// Commands are repeated this often, well within the robot's dead-man time.
+/// The interval of repeated commands, well within the robot's dead-man time.
 const AGAIN: Duration = Duration::from_millis(100);
 
 /// The simulated robot in its world, without a plan.
@@ -38,19 +38,20 @@ impl Carbot {
         Ok(Carbot { sim: Mutex::new(sim), obstacles })
     }
 
-    /// Half of the robot's length, metres.
+    /// Half of the robot's length, in metres.
     #[classattr]
     fn half_length() -> f64 {
         HALF_LENGTH
     }
 
-    /// Half of the robot's width, metres.
+    /// Half of the robot's width, in metres.
     #[classattr]
     fn half_width() -> f64 {
         HALF_WIDTH
     }
 
-    /// Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C interrupts it.
+    /// Drive at a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C
+    /// interrupts it.
     fn drive(
         &self,
         py: Python<'_>,
@@ -71,7 +72,7 @@ impl Carbot {
         py.detach(|| drive(sim, speed, turn, Duration::from_secs_f64(time)))
     }
 
-    /// Stops the wheels.
+    /// Stop the wheels.
     fn stop(&self) -> PyResult<()> {
         let mut sim = self.lock()?;
         let now = sim.now();
@@ -79,20 +80,20 @@ impl Carbot {
         Ok(())
     }
 
-    /// The time, seconds.
+    /// The time in seconds.
     #[getter]
     fn time(&self) -> PyResult<f64> {
         Ok(self.lock()?.now().as_secs_f64())
     }
 
-    /// Where the robot truly is: x, y in metres, heading in radians.
+    /// The robot's true pose: x and y in metres, heading in radians.
     #[getter]
     fn pose(&self) -> PyResult<(f64, f64, f64)> {
         let pose = self.lock()?.truth().pose();
         Ok((pose.x, pose.y, pose.heading))
     }
 
-    /// What the robot has run into, in order of time; what it touches at different times counts each time.
+    /// The robot's contacts in order of time; repeated contacts count separately.
     #[getter]
     fn touched(&self) -> PyResult<Vec<String>> {
         let sim = self.lock()?;
@@ -102,7 +103,7 @@ impl Carbot {
         Ok(names.map(|name| name.cloned().unwrap_or_default()).collect())
     }
 
-    /// What a sensor says: see `Robot`.
+    /// The value of a sensor; see `Robot`.
     fn sense<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let sensed = link().sense(&*self.lock()?, name, true)?;
         sensed.into_bound(py)

@@ -1,7 +1,7 @@
-//! Episodes of the Carbot for whoever learns to drive it: what a policy sees, what it does and what that is worth.
+//! Episodes of the Carbot for learning: observations, actions and rewards.
 //!
-//! Many episodes are stepped at once, on all cores, without Python between them. A [`Courses`] of one and of many compute the
-//! same: an episode knows nothing of its neighbours.
+//! Many episodes advance at once on all cores, without Python in between. The results do not depend
+//! on the number of episodes in a [`Courses`], since episodes are independent.
 
 mod batch;
 mod course;

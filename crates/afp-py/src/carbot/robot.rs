@@ -1,4 +1,4 @@
-//! `Robot` of the Carbot: its devices by names of their own, for components in Python.
+//! `Robot` of the Carbot for components in Python, with its own names for devices.
 
 use afp_carbot::devices::{Navigator, Rotator};
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
@@ -9,21 +9,21 @@ use pyo3::prelude::*;
 use crate::robot::Robot;
 use crate::value::measured;
 
-/// The robot as a component in Python has it: devices and time, not the truth.
+/// The robot of a component: devices and time, without ground truth.
 ///
-/// It can be used while a component is being called and not between calls.
+/// Use it only while a component is being called.
 #[pyclass(module = "afp", name = "Robot", frozen, extends = Robot)]
 pub struct CarbotRobot;
 
 impl CarbotRobot {
-    /// A robot with these names.
+    /// Wraps a robot with these names.
     pub fn around(py: Python<'_>, robot: Robot) -> PyResult<Py<Robot>> {
         let robot = Bound::new(py, PyClassInitializer::from(robot).add_subclass(CarbotRobot))?;
         Ok(robot.into_super().unbind())
     }
 }
 
-/// Commands a device, without a call of Python meanwhile.
+/// Commands a device, without calling Python in between.
 fn command(
     robot: &Bound<'_, CarbotRobot>,
     device: &str,
@@ -38,7 +38,8 @@ fn sensed<'py>(robot: &Bound<'py, CarbotRobot>, name: &str) -> PyResult<Bound<'p
 
 #[pymethods]
 impl CarbotRobot {
-    /// Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for a fifth of a second at most: ask again.
+    /// Request a speed (m/s) and a turn rate (rad/s, to the left). It holds for at most a fifth of
+    /// a second, so repeat it.
     #[pyo3(signature = (speed, turn=None), text_signature = "($self, speed, turn=0.0)")]
     fn drive(
         slf: &Bound<'_, Self>,
@@ -53,7 +54,7 @@ impl CarbotRobot {
         })
     }
 
-    /// Points the range sensor, radians to the left of the heading.
+    /// Point the range sensor, in radians to the left of the heading.
     fn point(slf: &Bound<'_, Self>, bearing: &Bound<'_, PyAny>) -> PyResult<()> {
         let bearing = finite(measured("bearing", bearing, "rad")?)?;
         command(slf, "rotator", |sim| {
@@ -62,20 +63,21 @@ impl CarbotRobot {
         })
     }
 
-    /// How far it is to the nearest thing ahead of the range sensor, metres; infinity for silence; `None` before the
-    /// first echo and for one that the sensor cannot measure.
+    /// The distance to the nearest object ahead of the range sensor, in metres. It is infinite
+    /// without an echo, and `None` before the first ping or if the sensor cannot measure it.
     #[getter]
     fn distance<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "distance")
     }
 
-    /// Where the range sensor points, radians to the left of the heading.
+    /// The bearing of the range sensor, in radians to the left of the heading.
     #[getter]
     fn bearing<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "bearing")
     }
 
-    /// What the wheels have counted: x, y in metres and heading in radians against the start, speed, turn rate.
+    /// The odometry: x and y in metres and heading in radians, relative to the start, speed, turn
+    /// rate.
     #[getter]
     fn odometry<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "odometry")
@@ -87,31 +89,31 @@ impl CarbotRobot {
         sensed(slf, "touched")
     }
 
-    /// Whether the escape button is held down.
+    /// Whether the escape button is held.
     #[getter]
     fn escape<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "escape")
     }
 
-    /// The battery's voltage, and the share of its charge that is left.
+    /// The battery's voltage, and the remaining share of its charge.
     #[getter]
     fn battery<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "battery")
     }
 
-    /// Red, green and blue of the floor, each from 0 to 1; `None` before it was looked at.
+    /// Red, green and blue of the floor, from 0 to 1; `None` before the first measurement.
     #[getter]
     fn color<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "color")
     }
 
-    /// Bearing (radians) and strength of the brightest infrared source; `None` where all is dark.
+    /// Bearing (radians) and strength of the brightest infrared source; `None` without a source.
     #[getter]
     fn glow<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "glow")
     }
 
-    /// The latest picture, rows x columns x 3, a copy; `None` before the first one.
+    /// A copy of the latest picture, rows x columns x 3; `None` before the first one.
     #[getter]
     fn camera<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         sensed(slf, "camera")

@@ -1,4 +1,4 @@
-//! Sensors of the Carbot by names of their own.
+//! The Carbot's own names for sensors.
 
 use afp_carbot::devices::{
     Battery, Button, Buttons, Camera, ColorSensor, InfraredSensor, Invalid, Odometry, Reading,
@@ -10,12 +10,12 @@ use pyo3::prelude::*;
 use crate::errors::error;
 use crate::sensed::Sensed;
 
-/// What can be sensed.
+/// The names of the sensors.
 pub const SENSORS: [&str; 9] =
     ["distance", "bearing", "odometry", "touched", "escape", "battery", "color", "glow", "camera"];
 
-/// Reads a sensor. What has not been measured, yet or in the sensor's range, is nothing; a sensor that is broken is an
-/// error. None for a name that is no sensor's.
+/// Reads a sensor. Without a measurement in its range it returns nothing; `None` means an unknown
+/// name.
 ///
 /// # Errors
 /// The sensor is broken.

@@ -1,4 +1,5 @@
-//! Ports across the border: inputs to keyword dictionaries, what comes back to outcomes with outputs.
+//! Ports between AFP and Python: inputs become keyword dictionaries, return values become outcomes
+//! with outputs.
 
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use super::{Host, Object, PyHandle};
 use crate::robot::Caller;
 use crate::value::{short, to_port, to_python};
 
-/// A template and what implements it.
+/// A template with its implementation.
 #[derive(Clone)]
 pub struct PyTemplate {
     pub host: Arc<Host>,
@@ -58,7 +59,7 @@ impl PyTemplate {
         }
     }
 
-    /// What the toolbox says of the template.
+    /// The toolbox's declaration of the template.
     ///
     /// # Errors
     /// Never: the index was found in the toolbox.
@@ -66,10 +67,10 @@ impl PyTemplate {
         self.toolbox.templates.get(self.index).ok_or(Fault::INTERNAL)
     }
 
-    /// Calls what makes components; of a computation, what computes.
+    /// Calls the maker of components, or the function of a computation.
     ///
     /// # Errors
-    /// What it raises.
+    /// Its exception.
     pub fn make<'py, A: PyCallArgs<'py>>(
         &self,
         py: Python<'py>,
@@ -78,10 +79,10 @@ impl PyTemplate {
         self.maker.get(py)?.call1(with)
     }
 
-    /// Pulls the inputs that are read once, shows and checks them.
+    /// Pulls, records and checks the inputs that are read once.
     ///
     /// # Errors
-    /// The fault of a formula; a number that is not finite or outside of its port's range.
+    /// The fault of a formula, or a number that is infinite or out of range.
     pub fn inputs(&self, args: &dyn Args, see: See<'_>) -> Result<Inputs<'_>, BadValue> {
         let inputs = self.pull(args, false)?;
         if let Some(see) = see {
@@ -95,7 +96,7 @@ impl PyTemplate {
         Ok(inputs)
     }
 
-    /// Pulls and checks the inputs that are read at each poll.
+    /// Pulls and checks the live inputs.
     ///
     /// # Errors
     /// As [`PyTemplate::inputs`].
@@ -116,11 +117,11 @@ impl PyTemplate {
         pulled.collect::<Result<_, _>>().map(Inputs)
     }
 
-    /// Polls an actor or supervisor, with its live inputs if there are any; the state or event that
-    /// came, its outputs handed over.
+    /// Polls an actor or supervisor with its live inputs, hands over the outputs, and returns the
+    /// state or event.
     ///
     /// # Errors
-    /// As [`PyTemplate::live`]; what the component raised.
+    /// As [`PyTemplate::live`], or the component's exception.
     pub fn poll<R: Simulated>(
         &self,
         method: &PyHandle,
@@ -140,10 +141,10 @@ impl PyTemplate {
         Ok(outcome.map(|outcome| outcome.give(to)))
     }
 
-    /// Takes what a component returned: `None`, `"State"` or `("State", {"output": value})`.
+    /// Converts a component's return value: `None`, `"State"` or `("State", {"output": value})`.
     ///
     /// # Errors
-    /// A state that is not there, outputs that do not fit.
+    /// An unknown state, or invalid outputs.
     pub fn outcome(&self, said: &Bound<'_, PyAny>) -> PyResult<Option<Outcome>> {
         if said.is_none() {
             return Ok(None);
@@ -166,7 +167,7 @@ impl PyTemplate {
         Ok(Some(Outcome { outcome, outputs }))
     }
 
-    /// What to say of something that is no outcome.
+    /// The error for an invalid outcome.
     fn unknown(&self, template: &Template, said: &Bound<'_, PyAny>) -> PyErr {
         let known: Vec<_> = template.outcomes.iter().map(|outcome| &*outcome.name).collect();
         let said_so = said.repr().map_or_else(|_| "?".to_owned(), |text| short(text.to_string()));
@@ -178,7 +179,7 @@ impl PyTemplate {
         ))
     }
 
-    /// Whether it may return nothing: a computation and an 'async def' are over then.
+    /// Whether it may return nothing; for a computation and an 'async def' that would be the end.
     fn may_go_on(&self, py: Python<'_>, kind: TemplateKind) -> bool {
         let ends = |maker: Bound<'_, PyAny>| maker.hasattr("ends").unwrap_or(false);
         kind != TemplateKind::Computation && !self.maker.get(py).is_ok_and(ends)
@@ -221,14 +222,14 @@ impl Inputs<'_> {
         Ok(dict)
     }
 
-    /// Whether there are none.
+    /// Whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }
 
 impl Outcome {
-    /// Hands over the outputs; the state or event.
+    /// Hands over the outputs and returns the state or event.
     pub fn give(self, to: &mut dyn Outputs) -> u16 {
         for (port, value) in self.outputs {
             match value {
@@ -269,7 +270,7 @@ fn shown<'py>(py: Python<'py>, ty: &Type, value: ValueRef<'_>) -> PyResult<Bound
     })
 }
 
-/// The outputs that an outcome carries; all of them must be there, and no others.
+/// The outputs of an outcome, which must be complete, without additional ones.
 fn outputs_of(
     host: &Host,
     template: &Template,
@@ -309,13 +310,13 @@ fn outputs_of(
     Ok(outputs)
 }
 
-/// An error that also says which output it is about.
+/// Adds the output's name to an error.
 fn of_output(py: Python<'_>, why: &PyErr, template: &Template, output: &str) -> PyErr {
     let text = format!("the output '{output}' of '{}': {}", template.name, why.value(py));
     PyErr::from_type(why.get_type(py), text)
 }
 
-/// A value that a plan can go on with.
+/// A value that is finite.
 fn finite(value: Value, template: &Template, output: &str) -> PyResult<Value> {
     match value {
         Value::Float(number) if !number.is_finite() => Err(PyValueError::new_err(format!(

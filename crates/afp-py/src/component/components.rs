@@ -1,4 +1,4 @@
-//! Components in Python for whoever makes plans: an engine makes many, each with a robot of its own.
+//! Components in Python for an engine that makes many plans, each with its own robot.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -11,7 +11,7 @@ use crate::errors::error;
 use crate::link::link;
 use crate::toolbox::{Ready, Toolbox};
 
-/// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
+/// Components in Python for engines; each plan gets its own robot.
 pub struct Components {
     toolboxes: Vec<Ready>,
     hosts: Mutex<Vec<Arc<Host>>>,
@@ -19,10 +19,11 @@ pub struct Components {
 }
 
 impl Components {
-    /// For plans that were compiled with these toolboxes: as they are now, for all of the plans.
+    /// Takes the current state of the toolboxes that plans were compiled with, for all of the
+    /// plans.
     ///
     /// # Errors
-    /// A toolbox declares something else than it did when the plan was compiled, or can no longer be read.
+    /// A toolbox has changed since the compilation, or is invalid.
     pub fn new(py: Python<'_>, toolboxes: &[Py<Toolbox>], compiled: &Compiled) -> PyResult<Self> {
         let ready = |toolbox: &Py<Toolbox>| {
             let ready = toolbox.get().ready(py)?;
@@ -33,7 +34,7 @@ impl Components {
         Ok(Components { toolboxes, hosts: Mutex::default(), broken: Mutex::default() })
     }
 
-    /// Registers what implements the templates, for one plan.
+    /// Registers the implementations of templates for one plan.
     pub fn register(&self, registry: &mut dyn AnyRegistry) {
         if self.toolboxes.is_empty() {
             return;
@@ -48,7 +49,7 @@ impl Components {
         match registered {
             Ok(host) => {
                 let mut hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
-                // Those whose plans are gone have nothing more to tell.
+                // Hosts of finished plans have no more failures to report.
                 hosts.retain(|host| Arc::strong_count(host) > 1 || host.is_aborted());
                 hosts.push(host);
             }
@@ -56,7 +57,7 @@ impl Components {
         }
     }
 
-    /// What the components of the one plan share that was registered; nothing without components.
+    /// The host of the only registered plan; `None` without components.
     ///
     /// # Errors
     /// As [`Components::raised`].
@@ -65,7 +66,7 @@ impl Components {
         Ok(self.hosts.into_inner().unwrap_or_else(PoisonError::into_inner).pop())
     }
 
-    /// Whether there is something to raise.
+    /// Whether there is an exception to raise.
     pub fn is_over(&self) -> bool {
         if self.toolboxes.is_empty() {
             return false;
@@ -75,7 +76,7 @@ impl Components {
         broken || hosts.iter().any(|host| host.is_aborted())
     }
 
-    /// Interrupts the components that are being called in other threads.
+    /// Interrupts components that run in other threads.
     ///
     /// # Errors
     /// As [`Host::interrupt`].
@@ -84,10 +85,11 @@ impl Components {
         hosts.iter().try_for_each(|host| host.interrupt(py))
     }
 
-    /// Raises what cannot be an outcome: a toolbox that broke, `SystemExit` and the like.
+    /// Raises exceptions that cannot become outcomes: of a broken toolbox, `SystemExit` and
+    /// similar.
     ///
     /// # Errors
-    /// What was raised.
+    /// The exception.
     pub fn raised(&self, py: Python<'_>) -> PyResult<()> {
         if let Some(why) = self.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
             return Err(why);
@@ -97,7 +99,7 @@ impl Components {
     }
 }
 
-/// What to say of a toolbox of which what was compiled knows another text.
+/// The error for a toolbox that has changed since the compilation.
 fn changed(name: &str) -> PyErr {
     error(format!(
         "the toolbox '{name}' declares something else than it did for this scenario or sweep\n  help: take plan.scenarios again, or sweep again"

@@ -1,13 +1,14 @@
-//! How deep components are inside one another: a component may run another simulation, whose components may.
+//! The nesting depth of components: a component may run another simulation, which may call
+//! components.
 //!
-//! Each level takes some of the thread's stack, of which Python cannot know.
+//! Each level uses stack of the thread that Python does not count.
 
 use std::cell::Cell;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-/// More levels than this are a mistake; threads with half a megabyte of stack hold them.
+/// The most levels; half a megabyte of stack is enough for them.
 const MOST: u32 = 8;
 
 thread_local! {
@@ -27,10 +28,10 @@ pub fn inside<T>(call: impl FnOnce() -> T) -> T {
     call()
 }
 
-/// Says whether this thread may run another simulation.
+/// Checks that this thread may run another simulation.
 ///
 /// # Errors
-/// Too many of its simulations wait for a component already.
+/// The nesting is too deep.
 pub fn may_run() -> PyResult<()> {
     match DEPTH.get() < MOST {
         true => Ok(()),
@@ -40,7 +41,7 @@ pub fn may_run() -> PyResult<()> {
     }
 }
 
-/// Says whether this thread may run a sweep.
+/// Checks that this thread may run a sweep.
 ///
 /// # Errors
 /// A component is being called.

@@ -1,7 +1,7 @@
-//! What plans hold of Python, in one place where the garbage collector finds it.
+//! References of plans to Python, in one place for the garbage collector.
 //!
-//! A component may lead back to the simulation that holds it, by a closure or a traceback. The collector frees
-//! such circles only if it sees every reference, and inside a plan it cannot look.
+//! A component may refer back to its simulation, by a closure or a traceback. The collector frees
+//! such cycles only if it sees every reference, and it cannot look inside a plan.
 
 use std::collections::BTreeMap;
 use std::mem;
@@ -23,7 +23,7 @@ struct Things {
     by_key: BTreeMap<u64, Py<PyAny>>,
 }
 
-/// A reference to an object, as long as this lives.
+/// A reference to an object during its own lifetime.
 pub struct PyHandle {
     handles: Arc<PyHandles>,
     key: u64,
@@ -39,24 +39,24 @@ impl PyHandles {
         PyHandle { handles: Arc::clone(self), key }
     }
 
-    /// Shows the objects to the garbage collector.
+    /// Passes the objects to the garbage collector.
     ///
     /// # Errors
     /// Those of the collector.
     pub fn traverse(&self, visit: &PyVisit<'_>) -> Result<(), PyTraverseError> {
-        // Nobody waits for the interpreter while holding this.
+        // No thread waits for the interpreter while holding this lock.
         self.lock().by_key.values().try_for_each(|thing| visit.call(thing))
     }
 
-    /// Lets go of everything.
+    /// Drops all objects.
     pub fn clear(&self) {
         let things = mem::take(&mut self.lock().by_key);
-        // What an object does when it goes may come back here.
+        // A destructor may call back here.
         drop(things);
     }
 
     fn lock(&self) -> MutexGuard<'_, Things> {
-        // Nothing in between is left half done by a panic.
+        // A panic leaves no partial change.
         self.things.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -65,7 +65,7 @@ impl PyHandle {
     /// The object.
     ///
     /// # Errors
-    /// The garbage collector has taken it, so nobody can ask any more.
+    /// The garbage collector has taken it.
     pub fn get<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let things = self.handles.lock();
         let gone = || PyRuntimeError::new_err("the simulation is gone");

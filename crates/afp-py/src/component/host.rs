@@ -1,4 +1,4 @@
-//! What all components of a run share: the robot, which they have while they are called, and what they raised.
+//! The shared state of a run's components: the robot, available during calls, and their exceptions.
 
 use std::cell::Cell;
 use std::mem;
@@ -17,13 +17,13 @@ use super::handles::PyHandles;
 use crate::attach::attached;
 use crate::robot::{Caller, Robot};
 
-/// What a plan sees of an exception.
+/// The fault of a plan after an exception.
 pub const RAISED: Fault = Fault::new(&Reason {
     code: "python-exception",
     text: "a component written in Python raised an exception",
 });
 
-/// What is said of a run that a component ended by Ctrl-C and the like: for the scheduler it is one that panicked.
+/// The reason for a run that a component ended by Ctrl-C or similar; the scheduler sees a panic.
 pub const ENDED_ALL: Reason = Reason {
     code: "python-ended",
     text: "Ctrl-C, or another exception that is no Exception, in a component written in Python",
@@ -36,27 +36,27 @@ pub struct Failure {
     pub error: Py<PyBaseException>,
 }
 
-/// What the components of a run share.
+/// The shared state of a run's components.
 pub struct Host {
     pub robot: Py<Robot>,
-    /// What else the plan holds of Python.
+    /// Other references of the plan to Python.
     pub handles: Arc<PyHandles>,
     failures: Mutex<Vec<Failure>>,
-    /// What ends the whole run: Ctrl-C and the like, which no `Error` edge shall catch.
+    /// The exception that ends the whole run, such as Ctrl-C, which no `Error` edge may catch.
     abort: Mutex<Option<Py<PyBaseException>>>,
-    /// Whether there was such.
+    /// Whether there was such an exception.
     ended: AtomicBool,
-    /// The thread in which a component is being called, as Python numbers threads; 0 for none.
+    /// Python's id of the thread in which a component is being called, or 0.
     calling: AtomicU64,
 }
 
 thread_local! {
-    /// What Python calls this thread, once it has been asked.
+    /// Python's id of this thread, once known.
     static THREAD: Cell<u64> = const { Cell::new(0) };
 }
 
 impl Host {
-    /// For a run whose components get this robot.
+    /// Makes the host of a run with this robot.
     pub fn new(robot: Py<Robot>) -> Host {
         Host {
             robot,
@@ -68,11 +68,11 @@ impl Host {
         }
     }
 
-    /// Calls Python, which may use the robot meanwhile.
+    /// Calls Python, which may use the robot during the call.
     ///
     /// # Errors
-    /// [`RAISED`] for an exception, which is kept. What ends the whole run, Ctrl-C and the like, unwinds as a panic
-    /// does: no `Error` edge takes it, and no component is called again.
+    /// [`RAISED`] for an exception, which is stored. An exception that ends the whole run, such as
+    /// Ctrl-C, unwinds like a panic: no `Error` edge takes it, and no component is called again.
     pub fn call_with_robot<R: Simulated, T>(
         &self,
         env: &mut R,
@@ -106,7 +106,7 @@ impl Host {
         .map_err(Raised::fault)
     }
 
-    /// Calls Python in a thread that [`Host::interrupt`] knows.
+    /// Calls Python in a thread known to [`Host::interrupt`].
     fn inside<T>(
         &self,
         py: Python<'_>,
@@ -118,11 +118,11 @@ impl Host {
         done
     }
 
-    /// Raises `KeyboardInterrupt` in the component that is being called, if there is one, as soon as it runs Python
-    /// again: for components in threads of ours, which no signal reaches.
+    /// Raises `KeyboardInterrupt` in the component that is being called, at its next Python
+    /// instruction. This reaches components in threads without signals.
     ///
     /// # Errors
-    /// `ctypes` is not there.
+    /// `ctypes` is missing.
     pub fn interrupt(&self, py: Python<'_>) -> PyResult<()> {
         let thread = self.calling.load(Ordering::Relaxed);
         if thread == 0 {
@@ -147,23 +147,23 @@ impl Host {
         Raised::EndOfAll
     }
 
-    /// Whether a component has ended the run by what it raised, also once that has been passed on.
+    /// Whether a component's exception has ended the run, even if it has been passed on.
     pub fn has_ended_all(&self) -> bool {
         self.ended.load(Ordering::Relaxed)
     }
 
-    /// Whether something was raised that ends the run.
+    /// Whether an exception that ends the run is pending.
     pub fn is_aborted(&self) -> bool {
         lock(&self.abort).is_some()
     }
 
-    /// What was raised that ends the run.
+    /// Takes the exception that ends the run.
     pub fn aborted(&self, py: Python<'_>) -> Option<PyErr> {
         let raised = lock(&self.abort).take()?;
         Some(PyErr::from_value(raised.into_bound(py).into_any()))
     }
 
-    /// Shows what is held of Python to the garbage collector.
+    /// Passes all references to the garbage collector.
     ///
     /// # Errors
     /// Those of the collector.
@@ -173,7 +173,7 @@ impl Host {
         visit.call(&*lock(&self.abort))
     }
 
-    /// Lets go of it.
+    /// Drops all references.
     pub fn clear(&self) {
         self.handles.clear();
         drop(self.failures());
@@ -181,21 +181,21 @@ impl Host {
         drop(raised);
     }
 
-    /// What was raised since this was last asked.
+    /// Takes the exceptions since the last call.
     pub fn failures(&self) -> Vec<Failure> {
         mem::take(&mut *lock(&self.failures))
     }
 }
 
-/// What a component raised.
+/// An exception of a component.
 enum Raised {
     Exception,
-    /// Ctrl-C and the like.
+    /// One that ends the run, such as Ctrl-C.
     EndOfAll,
 }
 
 impl Raised {
-    /// What the plan sees of it, outside of Python; the end of all unwinds.
+    /// The fault for the plan; an exception that ends the run unwinds.
     fn fault(self) -> Fault {
         match self {
             Raised::Exception => RAISED,
@@ -204,7 +204,7 @@ impl Raised {
     }
 }
 
-/// What Python calls this thread.
+/// Python's id of this thread.
 fn thread(py: Python<'_>) -> PyResult<u64> {
     let known = THREAD.get();
     if known != 0 {
@@ -216,6 +216,6 @@ fn thread(py: Python<'_>) -> PyResult<u64> {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Lists are pushed to as a whole: a panic leaves nothing half done.
+    // Pushing to a list is atomic: a panic leaves no partial change.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

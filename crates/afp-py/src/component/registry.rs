@@ -1,4 +1,4 @@
-//! Where components in Python are registered: the registry of a robot, whatever its type.
+//! Registries for components in Python, independent of the robot's type.
 
 use afp::load::Registry;
 use afp_dsl::toolbox::TemplateKind;
@@ -15,7 +15,7 @@ pub trait AnyRegistry {
     /// Adds a type of objects.
     fn add_object(&mut self, toolbox: &str, name: &str);
 
-    /// Adds what implements a template.
+    /// Adds the implementation of a template.
     fn add(&mut self, toolbox: &str, name: &str, kind: TemplateKind, template: PyTemplate);
 }
 

@@ -16,13 +16,13 @@ pub struct PySupervisor {
     watching: Option<Watching>,
 }
 
-/// A supervisor that watches.
+/// A watching supervisor.
 struct Watching {
     /// Its method.
     poll: PyHandle,
-    /// The set of wanted events that it was given.
+    /// The set of wanted events passed to it.
     wanted: PyHandle,
-    /// What that set holds.
+    /// The current content of that set.
     told: Events,
 }
 

@@ -1,4 +1,4 @@
-//! Changes of meaning as Python names them: a kind, and its parts by name.
+//! Changes of meaning in Python's form: a kind, and named parts.
 
 use afp_ide::edit::{Binding, Change, TextEdit};
 use afp_syntax::ast::Item as Node;
@@ -44,7 +44,7 @@ impl Parts<'_, '_> {
         text(key, &value)
     }
 
-    /// The plan that is named, or the first one.
+    /// The named plan, or the first one.
     fn plan(&self) -> PyResult<String> {
         let first = || self.plans.first().cloned();
         let none = || PyValueError::new_err("the file has no plan yet; add one");
@@ -79,7 +79,7 @@ impl Parts<'_, '_> {
     }
 }
 
-/// A part of a change, which is a text.
+/// A string part of a change.
 fn text(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     let text = value.extract();
     let repr = |_| match value.repr() {
@@ -89,7 +89,7 @@ fn text(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     text.map_err(repr)
 }
 
-/// Reads a change; `text` is that of the plan's file.
+/// Parses a change; `text` is that of the plan's file.
 pub fn read(kind: &str, parts: &Bound<'_, PyDict>, text: &str) -> PyResult<Change> {
     let of = Parts { parts, text, plans: plans(text) };
     Ok(match kind {
@@ -155,7 +155,7 @@ pub fn read(kind: &str, parts: &Bound<'_, PyDict>, text: &str) -> PyResult<Chang
     })
 }
 
-/// Where the new texts of edits of one file are once all of them are made.
+/// The spans of the new texts after all edits of a file.
 pub fn written(edits: &[TextEdit]) -> Vec<Span> {
     let mut moved = 0_i64;
     let at = |place: i64| u32::try_from(place).unwrap_or(u32::MAX);
@@ -168,14 +168,14 @@ pub fn written(edits: &[TextEdit]) -> Vec<Span> {
     edits.iter().map(one).collect()
 }
 
-/// Whether two spans of one file share a place: edits are as small as can be, and may be less than a word.
+/// Whether two spans of a file overlap; an edit can be shorter than a word.
 pub fn meet(one: Span, other: Span) -> bool {
     one.start <= other.end && other.start <= one.end
 }
 
-/// The exception of a value that does not fit where it was put.
+/// The exception for a value that does not fit.
 pub fn misfit(wrong: &Diagnostic) -> PyErr {
-    // The unit that would be written in a plan is not the one that is meant here.
+    // The help's unit is for plan files and does not apply to Python.
     let help = match wrong.code {
         Code::E0203 => "give it its unit, as in afp.cm(30) or afp.deg(90)",
         _ => &wrong.help_text(),

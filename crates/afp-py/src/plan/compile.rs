@@ -1,4 +1,4 @@
-//! The texts of a plan while it is changed, and what the compiler says of them.
+//! The texts of a plan during changes, and their compilation.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,31 +15,31 @@ use pyo3::prelude::*;
 use crate::errors::{error, run_error};
 use crate::toolbox::Toolbox;
 
-/// What a plan without a file is called in diagnostics.
+/// The file name in diagnostics of a plan without a file.
 const NAMELESS: &str = "plan.afp";
 
-/// A plan's texts, and the toolboxes that are known to it.
+/// A plan's texts, and its toolboxes.
 pub struct Workspace {
     text: String,
     path: Option<PathBuf>,
-    /// Which plan of the file runs.
+    /// The plan of the file that runs.
     name: Option<String>,
     known: Toolboxes,
-    /// How often the text of each toolbox of Python had become another one when it got to be known.
+    /// The revision of each Python toolbox at the time of reading.
     revisions: Vec<u64>,
     own: Option<Arc<OwnToolboxes>>,
-    /// Texts of other files that a change has reached, by path.
+    /// Texts of other changed files, by path.
     others: BTreeMap<String, String>,
     compiled: Option<Arc<Compiled>>,
 }
 
 impl Workspace {
-    /// The toolboxes that it could use when it was compiled.
+    /// The toolboxes of the last compilation.
     pub fn known(&self) -> &Toolboxes {
         &self.known
     }
 
-    /// A plan that has been changed by nobody.
+    /// Makes a new plan.
     pub fn new(
         text: String,
         path: Option<PathBuf>,
@@ -55,7 +55,7 @@ impl Workspace {
 
     /// Reads the toolboxes again if one of them has changed.
     fn refresh(&mut self, toolboxes: &[Py<Toolbox>]) -> Result<(), RunError> {
-        // Before their texts: what changes in between is read once more.
+        // Revisions come before texts, so a change in between is read again.
         let revisions = revisions(toolboxes);
         if revisions != self.revisions {
             self.known = known(self.own.as_deref(), toolboxes)?;
@@ -73,17 +73,17 @@ impl Workspace {
         &self.text
     }
 
-    /// Which plan of the file runs, where that was said.
+    /// The name of the plan that runs, if it was given.
     pub fn name(&self) -> Option<&String> {
         self.name.as_ref()
     }
 
-    /// Texts of other files that a change has reached, by path.
+    /// Texts of other changed files, by path.
     pub fn others(&self) -> &BTreeMap<String, String> {
         &self.others
     }
 
-    /// Takes over such texts.
+    /// Sets these texts.
     pub fn set_others(&mut self, others: BTreeMap<String, String>) {
         self.others = others;
         self.compiled = None;
@@ -93,7 +93,7 @@ impl Workspace {
         self.path.as_ref()
     }
 
-    /// The plan's file, or what stands for it.
+    /// The plan's file, or a name in its place.
     pub fn file(&self) -> PathBuf {
         self.path.clone().unwrap_or_else(|| NAMELESS.into())
     }
@@ -103,7 +103,6 @@ impl Workspace {
         self.compiled = None;
     }
 
-    /// Puts a text in the place of that of a file.
     pub fn replace(&mut self, file: &str, text: String) {
         if file == self.file().display().to_string() {
             self.set_text(text);
@@ -113,10 +112,10 @@ impl Workspace {
         }
     }
 
-    /// What became of the texts, with the toolboxes as they are now.
+    /// The compilation with the current toolboxes.
     ///
     /// # Errors
-    /// One of the toolboxes is now another one of the same name as one that is built in or of the project.
+    /// A toolbox has the name of a built-in or project toolbox, but a different text.
     pub fn compiled(&mut self, toolboxes: &[Py<Toolbox>]) -> Result<Arc<Compiled>, RunError> {
         self.refresh(toolboxes)?;
         if let Some(compiled) = &self.compiled {
@@ -133,7 +132,7 @@ impl Workspace {
         Ok(compiled)
     }
 
-    /// Writes what has changed.
+    /// Writes all changes.
     pub fn save(&mut self, path: Option<PathBuf>) -> PyResult<()> {
         let path = path.or_else(|| self.path.clone());
         let path = path.ok_or_else(|| error("the plan has no file yet; give save() a path"))?;
@@ -156,7 +155,7 @@ fn revisions(toolboxes: &[Py<Toolbox>]) -> Vec<u64> {
     toolboxes.iter().map(|toolbox| toolbox.get().revision()).collect()
 }
 
-/// The toolboxes that are built in, of the project and of Python.
+/// The toolboxes: built-in ones, the project's and Python's.
 fn known(own: Option<&OwnToolboxes>, toolboxes: &[Py<Toolbox>]) -> Result<Toolboxes, RunError> {
     let mut known = match own {
         Some(own) => own.with_built_in()?,
@@ -166,7 +165,8 @@ fn known(own: Option<&OwnToolboxes>, toolboxes: &[Py<Toolbox>]) -> Result<Toolbo
     Ok(known)
 }
 
-/// Adds toolboxes of Python. One of a name that is known must have the same text: its components are in Python then.
+/// Adds Python toolboxes. If the name is known, the text must be equal; the components are then in
+/// Python.
 fn add_all(known: &mut Toolboxes, toolboxes: &[Py<Toolbox>]) -> Result<(), RunError> {
     let mut names: Vec<String> = Vec::new();
     for (number, toolbox) in toolboxes.iter().enumerate() {

@@ -1,29 +1,29 @@
-//! `Diagnostic`: one thing the compiler has to say.
+//! `Diagnostic`: one message of the compiler.
 
 use afp_dsl::Compiled;
 use afp_syntax::diagnostics::Severity;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// One thing the compiler has to say, as `afpc check` says it.
+/// One message of the compiler, as printed by `afpc check`.
 #[pyclass(module = "afp", frozen, get_all, eq, hash)]
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Diagnostic {
-    /// Which rule it is about: `E0203`.
+    /// Its code: `E0203`.
     code: String,
     /// `error`, `warning` or `note`.
     severity: &'static str,
-    /// What is wrong.
+    /// The error.
     message: String,
-    /// What to do, perhaps empty.
+    /// A suggestion, or an empty string.
     help: String,
-    /// The file, as it was named.
+    /// The file as named by the caller.
     file: String,
     /// The line, from 1.
     line: usize,
     /// The column, from 1.
     column: usize,
-    /// The text that mends it in place of what is wrong, where there is one.
+    /// The replacement that fixes the error, if there is one.
     fix: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Diagnostic {
         format!("<Diagnostic {self}>", self = self.__str__())
     }
 
-    /// As it was pickled.
+    /// Restore from a pickle.
     #[staticmethod]
     fn _again(facts: Facts, place: Place) -> PyResult<Self> {
         let (code, severity, message, help, fix) = facts;
@@ -62,7 +62,6 @@ type Facts = (String, String, String, String, Option<String>);
 /// File, line and column.
 type Place = (String, usize, usize);
 
-/// All that the compiler has to say.
 pub fn diagnostics(compiled: &Compiled) -> Vec<Diagnostic> {
     let one = |each: &afp_syntax::diagnostics::Diagnostic| {
         let source = compiled.sources.get(each.span.file);

@@ -1,4 +1,4 @@
-//! `Verdict`: what a scenario came to, and `Broken`: what was not as expected.
+//! `Verdict`: the verdict of a scenario, and `Broken`: an unmet expectation.
 
 use std::fmt::Write as _;
 
@@ -10,49 +10,47 @@ use super::place;
 use crate::simulation::plain;
 use crate::value::Pickled;
 
-/// An expectation that was not met.
+/// An unmet expectation.
 #[pyclass(module = "afp", frozen, get_all, eq, from_py_object)]
 #[derive(Clone, PartialEq)]
 pub struct Broken {
     /// The line of the scenario.
     text: String,
-    /// Its file.
     file: String,
     /// Its line, from 1.
     line: usize,
     /// Its column, from 1.
     column: usize,
-    /// When it became clear, seconds.
+    /// The time when it became clear, in seconds.
     time: f64,
-    /// What happened instead.
+    /// The actual behaviour.
     why: String,
 }
 
-/// What a scenario came to.
+/// The verdict of a scenario.
 #[pyclass(module = "afp", frozen, get_all, eq)]
 #[derive(Clone, PartialEq)]
 pub struct Verdict {
-    /// Whether everything was as expected.
+    /// Whether all expectations were met.
     passed: bool,
-    /// What was not as expected, in order of time.
+    /// Unmet expectations, in order of time.
     broken: Vec<Broken>,
-    /// What broke, and the timeline around the first of it, as `afpc test` prints it.
+    /// The broken lines and the timeline around the first of them, as printed by `afpc test`.
     report: String,
-    /// How long it ran, seconds.
+    /// The length of the run, in seconds.
     time: f64,
     /// How the plan ended: `ok`, `interrupted`, `error`; `running` if it did not.
     ending: String,
-    /// The hash of the trace, as `afpc test --json` tells it.
+    /// The hash of the trace, as in `afpc test --json`.
     trace_hash: String,
-    /// The timeline.
     timeline: Vec<String>,
-    /// The line that runs the scenario again; it says where none does.
+    /// The command that repeats the scenario, or a note why none does.
     command: String,
 }
 
-/// What, where, when and why.
+/// Text, place, time and reason.
 type BrokenFacts = (String, (String, usize, usize), f64, String);
-/// Whether it passed, what broke, report, time, ending, hash, timeline, command.
+/// Whether it passed, broken expectations, report, time, ending, hash, timeline, command.
 type VerdictFacts = (bool, Vec<Broken>, String, f64, String, String, Vec<String>, String);
 
 #[pymethods]
@@ -62,7 +60,7 @@ impl Broken {
         format!("<Broken {file}:{line}: {text}>")
     }
 
-    /// As it was pickled.
+    /// Restore from a pickle.
     #[staticmethod]
     fn _again(text: String, place: (String, usize, usize), time: f64, why: String) -> Broken {
         let (file, line, column) = place;
@@ -83,7 +81,7 @@ impl Verdict {
         format!("<Verdict {came} after {:.3} s, {} broken>", self.time, self.broken.len())
     }
 
-    /// A table of what it came to, and the report.
+    /// A table with the verdict, and the report.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
         let came = if self.passed { "passed" } else { "failed" };
         let time = format!("{:.3} s", self.time);
@@ -104,7 +102,7 @@ impl Verdict {
         Ok(page)
     }
 
-    /// As it was pickled.
+    /// Restore from a pickle.
     #[staticmethod]
     fn _again(facts: VerdictFacts) -> Verdict {
         let (passed, broken, report, time, ending, trace_hash, timeline, command) = facts;
@@ -119,7 +117,7 @@ impl Verdict {
     }
 }
 
-/// The verdict as Python has it, with the line that comes to it again.
+/// Makes Python's verdict, with the command that repeats it.
 pub fn verdict(compiled: &Compiled, came: Came, command: String) -> Verdict {
     let broken = came.broken.iter().map(|broken| {
         let (file, line, column) = place(compiled, broken.span);
@@ -144,7 +142,7 @@ pub fn verdict(compiled: &Compiled, came: Came, command: String) -> Verdict {
     }
 }
 
-/// A text as HTML has it.
+/// Escapes a text for HTML.
 fn escaped(py: Python<'_>, text: &str) -> PyResult<String> {
     py.import("html")?.call_method1("escape", (text,))?.extract()
 }

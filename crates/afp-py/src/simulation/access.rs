@@ -1,4 +1,4 @@
-//! Who gets hold of a run: one caller at a time, and others look at what it was a moment ago.
+//! Access to a run: one caller at a time drives it, and others read its recent state.
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
@@ -15,7 +15,7 @@ use crate::forks;
 use crate::pause::Pause;
 
 impl Runner {
-    /// Drives a run, whose components in Python share the host.
+    /// Makes a driver of a run, whose components in Python share the host.
     pub fn new(mut run: Run, host: Option<Arc<Host>>, compiled: &Arc<Compiled>) -> Runner {
         let stop = Arc::new(AtomicBool::new(false));
         run.pause = Pause::new(host.clone(), Arc::clone(&stop));
@@ -33,7 +33,7 @@ impl Runner {
         }
     }
 
-    /// Why the session cannot be had; if somebody has let go of it meanwhile, it can.
+    /// The error if the session is in use, or the session if it has become free.
     #[cold]
     fn no_lock(&self) -> PyResult<MutexGuard<'_, Run>> {
         if self.process != forks::process() {
@@ -52,13 +52,13 @@ impl Runner {
         }
     }
 
-    /// Looks at the robot.
+    /// Reads the robot.
     #[cfg(feature = "carbot")]
     pub fn with_robot<T>(&self, look: impl FnOnce(&dyn std::any::Any) -> T) -> PyResult<T> {
         Ok(look(self.lock()?.session.robot()))
     }
 
-    /// Looks at the run, or at what it was a moment ago while another thread drives it.
+    /// Reads the run, or its recent state while another thread drives it.
     pub(super) fn see<T>(
         &self,
         now: impl FnOnce(&Run) -> PyResult<T>,
@@ -71,13 +71,13 @@ impl Runner {
         }
     }
 
-    /// Says whether this thread may drive it: without components in Python it goes no deeper.
+    /// Checks that this thread may drive it; without components in Python there is no nesting.
     #[inline]
     pub(super) fn may_run(&self) -> PyResult<()> {
         if self.host.is_some() { may_run() } else { Ok(()) }
     }
 
-    /// Drives the session with the interpreter free for others.
+    /// Drives the session with the interpreter released.
     pub(super) fn drive(
         &self,
         py: Python<'_>,
@@ -91,7 +91,7 @@ impl Runner {
         self.after(py, driven)
     }
 
-    /// What a component raised to end everything counts more than how the run went.
+    /// A component's exception that ends the run has priority over the run's result.
     pub(super) fn after(&self, py: Python<'_>, driven: PyResult<bool>) -> PyResult<bool> {
         match self.host.as_ref().and_then(|host| host.aborted(py)) {
             Some(raised) => Err(raised),

@@ -1,4 +1,4 @@
-//! `Driven`: what `afp.Simulation` builds on.
+//! `Driven`: the base of `afp.Simulation`.
 
 use std::sync::OnceLock;
 
@@ -9,7 +9,8 @@ use pyo3::{PyTraverseError, PyVisit};
 
 use super::Runner;
 
-/// What drives a run. `step` is here because a function of Python around it takes a twentieth of a step.
+/// A driver of a run. It contains `step`, because a Python wrapper would cost a twentieth of a
+/// step.
 #[pyclass(module = "afp", frozen, subclass)]
 pub struct Driven {
     runner: OnceLock<Py<Runner>>,
@@ -23,7 +24,7 @@ impl Driven {
         Driven { runner: OnceLock::new() }
     }
 
-    /// The run that is driven.
+    /// The driven run.
     #[getter(_runner)]
     fn run(&self, py: Python<'_>) -> PyResult<Py<Runner>> {
         self.runner.get().map(|runner| runner.clone_ref(py)).ok_or_else(not_made)
@@ -35,7 +36,7 @@ impl Driven {
         set.map_err(|_| PyRuntimeError::new_err("a simulation is made once; make a new one"))
     }
 
-    /// Makes the next step of the plan, which may be a while later; whether the plan still runs.
+    /// Make the next step of the plan, which may be later; return whether it is still running.
     fn step(&self, py: Python<'_>) -> PyResult<bool> {
         self.runner.get().ok_or_else(not_made)?.get().step(py)
     }

@@ -1,4 +1,4 @@
-//! `Event`: one thing that happened.
+//! `Event`: an event of a run.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -12,7 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// One thing that happened in a run.
+/// An event of a run.
 #[pyclass(module = "afp", frozen, eq)]
 #[derive(PartialEq)]
 pub struct Event {
@@ -21,7 +21,7 @@ pub struct Event {
 }
 
 impl Event {
-    /// From what happened in a run.
+    /// From an event of a run.
     pub fn new(happened: &Happened, names: &PlanNames) -> Event {
         let event = match happened {
             Happened::Record(record) => RunEvent::new(record.at, &record.get(), names),
@@ -30,7 +30,7 @@ impl Event {
         Event { event, line: line(happened, names) }
     }
 
-    /// What a log would tell of it.
+    /// Its form in a log.
     pub fn told(&self) -> &RunEvent {
         &self.event
     }
@@ -44,19 +44,20 @@ impl Event {
 
 #[pymethods]
 impl Event {
-    /// When, seconds since the start.
+    /// The time in seconds since the start.
     #[getter]
     fn time(&self) -> f64 {
         self.event.at.as_secs_f64()
     }
 
-    /// What happened: `started`, `event`, `finished`, `interrupted`, `committed`, `faulted`, `ended`, ...
+    /// Its kind: `started`, `event`, `finished`, `interrupted`, `committed`, `faulted`, `ended`,
+    /// ...
     #[getter]
     fn kind(&self) -> &'static str {
         self.event.kind.word()
     }
 
-    /// Whom it happened to: the path of an element or supervisor; who wrote, for `committed`.
+    /// The path of the element or supervisor; for `committed`, the author.
     #[getter]
     fn component(&self) -> &str {
         &self.event.component.path
@@ -68,7 +69,7 @@ impl Event {
         self.event.facts().outcome.and_then(|it| text(&it.name))
     }
 
-    /// Where the outcome leads.
+    /// The target of the outcome.
     #[getter]
     fn target(&self) -> Option<&str> {
         self.event.facts().outcome.and_then(|it| text(&it.target))
@@ -80,25 +81,25 @@ impl Event {
         self.event.facts().supervisor.and_then(|it| text(&it.path))
     }
 
-    /// The element that was active or being entered when an event was taken.
+    /// The element that was active or starting when an event was taken.
     #[getter]
     fn element(&self) -> Option<&str> {
         self.event.facts().element.and_then(|it| text(&it.path))
     }
 
-    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
+    /// Whether the element's own `on` gave the target, and not the supervisor.
     #[getter]
     fn on(&self) -> bool {
         self.event.facts().on
     }
 
-    /// The entry that was written.
+    /// The written entry.
     #[getter]
     fn entry(&self) -> Option<&str> {
         text(self.event.facts().entry)
     }
 
-    /// The input port that was read.
+    /// The input port.
     #[getter]
     fn port(&self) -> Option<&str> {
         text(self.event.facts().port)
@@ -140,25 +141,25 @@ impl Event {
         self.event.facts().fault.and_then(|it| text(&it.text))
     }
 
-    /// By how much a deadline was missed, seconds.
+    /// The lateness of a missed deadline, in seconds.
     #[getter]
     fn lateness(&self) -> Option<f64> {
         self.event.facts().miss.map(|miss| miss.lateness.as_secs_f64())
     }
 
-    /// Why a deadline was missed: `late_release` or `long_poll`.
+    /// The reason for a missed deadline: `late_release` or `long_poll`.
     #[getter]
     fn cause(&self) -> Option<&'static str> {
         self.event.facts().miss.map(Miss::word).filter(|word| !word.is_empty())
     }
 
-    /// What came from outside, in the words of scenarios: `press touch.touch`.
+    /// The stimulus in the words of scenarios: `press touch.touch`.
     #[getter]
     fn request(&self) -> Option<String> {
         self.event.facts().request.map(|request| request.what.to_string())
     }
 
-    /// Why what came from outside was not done: a reason, or `not reached`.
+    /// The reason why a stimulus was not applied, or `not reached`.
     #[getter]
     fn refused(&self) -> Option<&str> {
         match &self.event.facts().request?.done {
@@ -168,7 +169,7 @@ impl Event {
         }
     }
 
-    /// The line of `afpc run`, for events that it shows.
+    /// The line in `afpc run`, for events that it shows.
     fn __str__(&self) -> String {
         match &self.line {
             Some(line) => line.clone(),
@@ -193,7 +194,7 @@ impl Event {
         format!("<Event {}>", self.__str__().trim())
     }
 
-    /// As it was pickled.
+    /// Restore from a pickle.
     #[staticmethod]
     fn _again(message: &[u8], line: Option<String>) -> PyResult<Self> {
         let unknown = || PyValueError::new_err("this is no pickled event");
@@ -210,7 +211,7 @@ impl Event {
     }
 }
 
-/// The line of a timeline, without colours; none for what is not worth one.
+/// The line in a timeline without colours; `None` for events without one.
 pub fn line(happened: &Happened, names: &PlanNames) -> Option<String> {
     let styled = match happened {
         Happened::Record(record) => afp_run::line(record.at, &record.get(), names),
@@ -224,12 +225,12 @@ pub fn plain(styled: &str) -> String {
     anstream::adapter::strip_str(styled).to_string()
 }
 
-/// A text that is there or not.
+/// A string, or `None` if it is empty.
 fn text(text: &str) -> Option<&str> {
     Some(text).filter(|text| !text.is_empty())
 }
 
-/// A value as Python has it.
+/// Converts a value to Python.
 pub fn value(py: Python<'_>, value: Option<&Datum>) -> PyResult<Py<PyAny>> {
     match value {
         None | Some(Datum::Unset) => Ok(py.None()),

@@ -1,16 +1,16 @@
-//! What other threads see of a run while one drives it.
+//! The view of a run from other threads while one thread drives it.
 
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, ThreadId};
 
 use afp_session::Pose2;
 
-/// A run as it was a moment ago.
+/// The recent state of a run.
 #[derive(Clone)]
 pub struct Glance {
     /// Seconds since the start.
     pub time: f64,
-    /// Where the robot truly is, where it says so.
+    /// The robot's true pose, if it has one.
     pub pose: Option<Pose2>,
     /// How the plan ended.
     pub ending: &'static str,
@@ -20,18 +20,18 @@ pub struct Glance {
     pub driver: ThreadId,
 }
 
-/// The latest glance; none before a run has been driven.
+/// The latest glance; `None` before the first drive.
 #[derive(Default)]
 pub struct Seen(Mutex<Option<Glance>>);
 
 impl Seen {
-    /// Lets others see this.
+    /// Publishes a glance.
     pub fn show(&self, glance: Glance) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(glance);
     }
 
-    /// What others see. Who drives the run gets none: a component of its own must not read what depends on the clock of
-    /// the wall.
+    /// Returns the latest glance, but not to the driving thread: a component must not read values
+    /// that depend on the wall clock.
     pub fn glance(&self) -> Option<Glance> {
         let seen = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         seen.clone().filter(|glance| glance.driver != thread::current().id())

@@ -1,4 +1,4 @@
-//! What is kept of a run.
+//! The recorded data of a run.
 
 use afp_core::Instant;
 use afp_core::trace::Record;
@@ -7,16 +7,16 @@ use pyo3::PyErr;
 
 use crate::errors::error;
 
-/// Keeps what happens.
+/// Records events.
 #[derive(Default)]
 pub struct Keeper {
-    /// What happened, without polls that saw nothing.
+    /// Events, without polls that saw nothing.
     pub happened: Vec<Happened>,
-    /// What was asked for and cannot be done.
+    /// A rejected request.
     pub refused: Option<PyErr>,
 }
 
-/// One thing that happened.
+/// An event.
 #[derive(Clone)]
 pub enum Happened {
     /// In the plan.
@@ -26,7 +26,7 @@ pub enum Happened {
 }
 
 impl Keeper {
-    /// What happened in the plan.
+    /// Events in the plan.
     pub fn records(&self) -> impl DoubleEndedIterator<Item = (Instant, Record<'_>)> {
         self.happened.iter().filter_map(|each| match each {
             Happened::Record(record) => Some((record.at, record.get())),

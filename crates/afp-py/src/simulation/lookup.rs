@@ -1,4 +1,4 @@
-//! What the names of a plan stand for in a run of it.
+//! The meaning of a plan's names in a run.
 
 use afp::load::PlanNames;
 use afp_core::EntryId;
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use super::session::Run;
 
 impl Run {
-    /// A component, and an outcome that it can report.
+    /// A component and one of its outcomes.
     pub fn reported(&self, path: &str, outcome: &str) -> PyResult<(ComponentId, Outcome)> {
         let names = &self.names;
         let component =

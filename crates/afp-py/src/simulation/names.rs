@@ -1,4 +1,4 @@
-//! `Names`: the names of a plan as it ran, with which a picture of what came of it is drawn.
+//! `Names`: the names of a plan at its run, for pictures of its results.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ use super::time::instant;
 use crate::attach::in_background;
 use crate::world::World;
 
-/// The names of a plan as it ran.
+/// The names of a plan at its run.
 #[pyclass(module = "afp", frozen)]
 pub struct Names(pub(super) PlanNames);
 
 #[pymethods]
 impl Names {
-    /// The path of a run over its world, as SVG: rows of time, x, y, heading, what happened on the way, and where what
-    /// moves was last.
+    /// The path of a run over its world, as SVG: rows of time, x, y, heading, the events, and the
+    /// last outlines of moving things.
     #[expect(clippy::too_many_arguments, reason = "what a result has")]
     fn draw(
         &self,

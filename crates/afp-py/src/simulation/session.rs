@@ -1,6 +1,7 @@
-//! A run that can be driven bit by bit, in the one way in which plans are driven everywhere.
+//! A run that can be driven in pieces, with the same driver as everywhere.
 //!
-//! Between steps anybody may look and write; what a run does depends only on the times at which that was.
+//! Between steps callers may read and write. The result depends only on the simulated times of
+//! these writes.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,7 +28,6 @@ use crate::errors::{error, log_error, os_error, run_error};
 use crate::forks;
 use crate::pause::{Halt, Pause};
 
-/// A run.
 pub struct Run {
     pub session: Box<dyn AnySession>,
     pub names: PlanNames,
@@ -35,7 +35,7 @@ pub struct Run {
     pub track: Track,
     pub stopped_by: Option<&'static str>,
     pub pause: Pause,
-    /// What other threads see of it meanwhile.
+    /// Its state for other threads.
     pub seen: Arc<Seen>,
     pub(super) own_entries: u32,
     process: u32,
@@ -44,7 +44,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// A run of which nobody keeps a log.
+    /// A run without a log.
     pub fn new(session: Box<dyn AnySession>, graph: &Graph) -> Run {
         let own_entries = graph.main().entries.len();
         Run {
@@ -62,10 +62,10 @@ impl Run {
         }
     }
 
-    /// A run about to start.
+    /// A run before its start, with a log.
     ///
     /// # Errors
-    /// Its log cannot be written.
+    /// The log cannot be written.
     pub fn logged(session: Box<dyn AnySession>, setting: &Setting<'_>) -> PyResult<Run> {
         if let Some(folder) = setting.log.filter(|path| path.is_dir()) {
             let why = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
@@ -88,7 +88,8 @@ impl Run {
         Ok(run)
     }
 
-    /// The same run at this moment, without its log, which goes on by itself; none where a component cannot be copied.
+    /// A copy of the run at this moment without its log, which continues independently; `None` if a
+    /// component cannot be copied.
     pub fn keyframe(&self) -> Option<Run> {
         let happened = self.keeper.happened.clone();
         Some(Run {
@@ -106,24 +107,24 @@ impl Run {
         })
     }
 
-    /// Goes on from another run's moment.
+    /// Continues from another run's moment.
     ///
     /// # Errors
-    /// The run is logged: what a log says has happened.
+    /// The run is logged, and a log cannot be undone.
     pub fn restore(&mut self, mut other: Run) -> PyResult<()> {
         if self.log_path.is_some() {
             let text =
                 "the simulation writes a log, which cannot be taken back; restore one without";
             return Err(PyRuntimeError::new_err(text));
         }
-        // Who asks it to stop, and who looks at it, stays.
+        // Stop requests and observers stay.
         mem::swap(&mut self.pause, &mut other.pause);
         mem::swap(&mut self.seen, &mut other.seen);
         mem::swap(self, &mut other);
         Ok(())
     }
 
-    /// Lets other threads see how far it is.
+    /// Publishes its state for other threads.
     pub fn show(&self) {
         self.seen.show(Glance {
             time: self.session.now().as_secs_f64(),
@@ -134,10 +135,11 @@ impl Run {
         });
     }
 
-    /// Drives the plan to its end or to `until`, where it is stopped if `stop` is set; whether it still runs.
+    /// Drives the plan to its end or to `until`; with `stop`, stops it then. Returns whether it is
+    /// still running.
     ///
     /// # Errors
-    /// The plan cannot start; what a request or a handler of a signal raised.
+    /// The plan cannot start, a request is rejected, or a signal handler raised.
     pub fn run(&mut self, until: Instant, stop: bool) -> PyResult<bool> {
         self.drive(until, usize::MAX)?;
         if stop && self.is_running() {
@@ -146,7 +148,8 @@ impl Run {
         self.ended_or_not()
     }
 
-    /// Drives the plan until there are more than `seen` events, or to `until`; whether it still runs.
+    /// Drives the plan until there are more than `seen` events, or to `until`; returns whether it
+    /// is still running.
     ///
     /// # Errors
     /// As [`Run::run`].
@@ -166,13 +169,13 @@ impl Run {
         Ok(())
     }
 
-    /// Makes the plan's next step; whether it still runs.
+    /// Makes the plan's next step; returns whether it is still running.
     ///
     /// # Errors
     /// As [`Run::run`].
     #[inline]
     pub fn step(&mut self) -> PyResult<bool> {
-        // Python looks at signals between two steps; here that is left to one that takes long.
+        // Between steps Python checks signals; only a long step checks them here.
         let mut halt = if self.pause.is_asked() { self.pause.asked() } else { None };
         loop {
             if halt.is_some() {
@@ -199,7 +202,7 @@ impl Run {
         self.ended_or_not()
     }
 
-    /// Whether the plan still runs; where it does not, the log is finished, too.
+    /// Returns whether the plan is still running, and finishes the log at its end.
     fn ended_or_not(&mut self) -> PyResult<bool> {
         match self.is_running() {
             true => Ok(true),
@@ -207,7 +210,7 @@ impl Run {
         }
     }
 
-    /// What halts the run; from time to time others see how far it is.
+    /// The reason to stop the run; at intervals also publishes its state.
     fn look(&mut self) -> Option<Halt> {
         let halt = self.pause.look();
         if self.pause.is_long {
@@ -216,7 +219,7 @@ impl Run {
         halt
     }
 
-    /// Does the next thing, unless something halts the run; whether it still runs.
+    /// Does the next action, unless the run must stop; returns whether it is still running.
     fn tick(&mut self, limit: Instant, mut halt: Option<Halt>) -> PyResult<bool> {
         self.is_open()?;
         if halt.is_none() {
@@ -241,7 +244,7 @@ impl Run {
         Ok(running)
     }
 
-    /// Refuses to go on with a plan whose log is closed.
+    /// Rejects continuing a plan with a closed log.
     #[inline]
     pub fn is_open(&self) -> PyResult<()> {
         if self.log_path.is_some() && self.log.is_none() && self.is_running() {
@@ -251,7 +254,7 @@ impl Run {
         Ok(())
     }
 
-    /// Why the plan cannot start.
+    /// The reason why the plan cannot start.
     #[cold]
     fn no_start(&self, why: StartError) -> PyErr {
         match (missing(why, &self.names), why) {
@@ -263,7 +266,7 @@ impl Run {
         }
     }
 
-    /// Lets the session do something, with all who observe it.
+    /// Calls the session with all its observers.
     #[inline]
     fn with_observers<T>(
         &mut self,
@@ -285,15 +288,15 @@ impl Run {
         self.session.ending().is_none()
     }
 
-    /// Asks for something; what is asked for at one instant happens in that order.
+    /// Requests a stimulus; requests for the same instant are applied in order.
     ///
     /// # Errors
-    /// It can never be done.
+    /// It can never be applied.
     pub fn ask(&mut self, at: Instant, request: Request) -> Result<(), String> {
         self.session.at(at, request).map(|_| ()).map_err(|why| why.to_string())
     }
 
-    /// The instants and components of what components in Python raised, sub-plans that passed it on left out.
+    /// The instants and components of exceptions, without sub-plans that passed them on.
     pub fn raised(&self) -> impl Iterator<Item = (Instant, &str)> {
         let names = &self.names;
         self.keeper.records().filter_map(|(at, record)| match record {
@@ -306,7 +309,7 @@ impl Run {
         })
     }
 
-    /// An instant to come, or now.
+    /// An instant that is not in the past, or now.
     pub fn moment(&self, at: Option<Instant>) -> PyResult<Instant> {
         self.is_open()?;
         match self.is_running() {
@@ -315,20 +318,20 @@ impl Run {
         }
     }
 
-    /// Writes an entry at once before the start, at the next step later.
+    /// Writes an entry: at once before the start, later at the next step.
     ///
     /// # Errors
-    /// The value does not fit, or too many writes wait.
+    /// The value does not fit, or too many writes are pending.
     pub fn write(&mut self, entry: EntryId, value: Value) -> Result<(), String> {
         let written = self.session.write(entry, value);
         let about = self.session.names().entry(entry.into());
         written.map_err(|why| refusal(why, about))
     }
 
-    /// Where the robot truly is.
+    /// The robot's true pose.
     ///
     /// # Errors
-    /// It does not say.
+    /// It has no such signal.
     pub fn pose(&self) -> PyResult<Pose2> {
         let mut pose = None;
         if let Some(signal) = find_signal(self.session.devices(), "robot", "pose") {
@@ -371,7 +374,7 @@ impl Run {
         Some((fault.code(), text))
     }
 
-    /// What the robot touched: obstacle, first and last time.
+    /// The robot's contacts: obstacle, first and last time.
     pub fn collisions(&self) -> Vec<(String, f64, f64)> {
         let figures = self.session.figures();
         let told = figures.spans("contacts").iter();
@@ -379,7 +382,7 @@ impl Run {
             .collect()
     }
 
-    /// Ends the log; where it is.
+    /// Ends the log and returns its path.
     pub fn close(&mut self) -> PyResult<Option<PathBuf>> {
         let closed = self.log.take().map(|log| log.finish(&*self.session)).transpose();
         closed.map_err(|why| log_error(&why))?;
@@ -387,7 +390,7 @@ impl Run {
     }
 }
 
-/// What to say of a robot without a pose.
+/// The error for a robot without a pose.
 pub fn no_pose() -> PyErr {
     error("the robot does not say where it is: it declares no 'robot.pose'")
 }
@@ -395,11 +398,11 @@ pub fn no_pose() -> PyErr {
 impl Drop for Run {
     fn drop(&mut self) {
         if self.process != forks::process() {
-            // Its writer is a thread of the process that was forked.
+            // Its writer is a thread of the parent process.
             mem::forget(self.log.take());
             return;
         }
-        // Nobody is left to tell of a failure; whoever wants to know closes the simulation.
+        // There is no receiver for an error here; close the simulation to see it.
         let _ = self.close();
     }
 }

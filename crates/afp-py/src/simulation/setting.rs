@@ -1,4 +1,4 @@
-//! What a run begins with, and what its log says of that.
+//! The inputs of a run, and their description in its log.
 
 use std::path::Path;
 
@@ -11,33 +11,33 @@ use afp_session::{Build, Recipe, TextFile};
 use afp_syntax::source::Source;
 use afp_toolboxes::project::own_toolbox_texts;
 
-/// What a run begins with.
+/// The inputs of a run.
 pub struct Setting<'a> {
     pub compiled: &'a Compiled,
     pub graph: &'a Graph,
     pub world: &'a LoadedWorld,
     pub seed: u64,
-    /// What was set before the start, as people write it.
+    /// Values set before the start, with their units.
     pub settings: &'a [(String, String)],
     pub file: &'a Path,
-    /// The file of which the world was read, whatever was changed in it since.
+    /// The file of the world, even if the world was changed later.
     pub world_file: Option<&'a Path>,
     pub log: Option<&'a Path>,
-    /// Whether the log gets what the camera sees.
+    /// Whether the log contains the camera's pictures.
     pub camera: bool,
 }
 
 impl Setting<'_> {
-    /// Refuses a log that would take the place of what is read.
+    /// Rejects a log that would overwrite an input.
     ///
     /// # Errors
-    /// The log is the plan's file, the world's or one that the plan uses.
+    /// The log is the plan's file, the world's, or one that the plan uses.
     pub fn check_log(&self, log: &Path) -> Result<(), RunError> {
         let read = read_of(self.compiled).chain([self.file]).chain(self.world_file);
         check_apart([log], read)
     }
 
-    /// What the log says of the run.
+    /// The log's description of the run.
     pub fn about(&self) -> About {
         let LoadedWorld { world, text, start, .. } = self.world;
         let recipe = Recipe {
@@ -60,7 +60,7 @@ impl Setting<'_> {
     }
 }
 
-/// The files that a plan was compiled of.
+/// The files of a plan's compilation.
 pub fn read_of(compiled: &Compiled) -> impl Iterator<Item = &Path> {
     let built_in = |source: &Source| afp_toolboxes::ALL.iter().any(|it| it.text == source.text);
     let files = compiled.sources.iter().filter(move |source| !built_in(source));

@@ -1,4 +1,4 @@
-//! What happens to the robot and the plan from outside, by its names.
+//! Stimuli for the robot and the plan, by name.
 
 use afp_core::Value;
 use afp_core::devices::{ControlId, FaultId, faults, find_control, find_stop};
@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 use crate::link::devices;
 use crate::value::to_port;
 
-/// A control by name; without one, that which is there to end what runs.
+/// A control by name; the default is the one that ends a run.
 pub fn control(name: Option<&str>) -> PyResult<ControlId> {
     let Some(name) = name else {
         let none =
@@ -23,7 +23,7 @@ pub fn control(name: Option<&str>) -> PyResult<ControlId> {
     find_control(devices(), name).ok_or_else(none)
 }
 
-/// A fault by its names, with its amount in SI units: a delay, seconds, or a share.
+/// A fault by its names, with its amount in SI units: a delay in seconds, or a share.
 pub fn fault(
     device: &str,
     kind: &str,
@@ -48,10 +48,10 @@ pub fn fault(
     Ok((id, delay.or(share)))
 }
 
-/// The values that come with an outcome: one for each of its connected outputs, as in a scenario.
+/// The values of an outcome: one for each of its connected outputs, as in a scenario.
 ///
 /// # Errors
-/// A value is missing, is not connected or does not fit.
+/// A value is missing, not connected or does not fit.
 pub fn outputs(
     graph: &Graph,
     (component, outcome, number): (&str, &str, u16),

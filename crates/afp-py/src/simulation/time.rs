@@ -1,4 +1,4 @@
-//! Times as Python gives them: in seconds.
+//! Times from Python, in seconds.
 
 use afp_core::{Duration, Instant};
 use pyo3::exceptions::PyValueError;
@@ -9,7 +9,7 @@ pub fn instant(seconds: f64) -> PyResult<Instant> {
     Ok(Instant::ZERO + duration(seconds)?)
 }
 
-/// A time from seconds, in which something can happen.
+/// A positive duration from seconds.
 pub fn some(what: &str, seconds: f64) -> PyResult<Duration> {
     match duration(seconds)? {
         Duration::ZERO => {
@@ -20,7 +20,7 @@ pub fn some(what: &str, seconds: f64) -> PyResult<Duration> {
     }
 }
 
-/// A time from seconds.
+/// A duration from seconds.
 pub fn duration(seconds: f64) -> PyResult<Duration> {
     match seconds.is_finite() && seconds >= 0.0 {
         true => Ok(Duration::from_secs_f64(seconds)),

@@ -1,4 +1,4 @@
-//! What a sweep is asked for, as Python gives it.
+//! The arguments of a sweep in Python's form.
 
 use afp::load::PlanNames;
 use afp_core::trace::{Names, TraceEntryId};
@@ -11,7 +11,7 @@ use crate::simulation::{control, fault};
 use crate::value::unfit;
 use crate::world::World;
 
-/// A world: none for that of the plan, the name that `--world` takes, or one that was made here.
+/// A world: `None` for the plan's, a name as in `--world`, or a world object.
 #[derive(FromPyObject)]
 pub enum GivenWorld {
     #[pyo3(transparent)]
@@ -20,28 +20,28 @@ pub enum GivenWorld {
     Made(Py<World>),
 }
 
-/// Seeds.
 #[derive(FromPyObject)]
 pub enum GivenSeeds {
-    /// From the first up to, and without, the second.
+    /// From the first up to, but without, the second.
     Range(u64, u64),
-    /// These.
+    /// A list.
     #[pyo3(transparent)]
     List(Vec<u64>),
 }
 
-/// The values of something that is varied.
+/// The values of an axis.
 #[derive(FromPyObject)]
 pub enum GivenValues {
-    /// As the command line takes them: `20cm..60cm:5cm`.
+    /// In command-line syntax: `20cm..60cm:5cm`.
     #[pyo3(transparent)]
     Text(String),
-    /// One by one, each with its unit: an empty one for a bare number, which is in SI units, none for a text.
+    /// One by one, each with its unit: an empty one for a bare number in SI units, `None` for a
+    /// string.
     #[pyo3(transparent)]
     List(Vec<(String, Option<String>)>),
 }
 
-/// The worlds of a sweep; those that were made are told apart by their names, and by numbers where they have the same.
+/// The worlds of a sweep; world objects with the same name get numbers.
 pub fn rooms(worlds: Vec<GivenWorld>) -> Vec<WorldChoice> {
     let mut rooms: Vec<WorldChoice> = Vec::with_capacity(worlds.len());
     for world in worlds {
@@ -59,7 +59,7 @@ pub fn rooms(worlds: Vec<GivenWorld>) -> Vec<WorldChoice> {
     rooms
 }
 
-/// A name that none of the rooms has.
+/// An unused name.
 fn another(rooms: &[WorldChoice], name: String) -> String {
     let known = |name: &str| rooms.iter().any(|room| room.name() == Some(name));
     if !known(&name) {
@@ -69,10 +69,10 @@ fn another(rooms: &[WorldChoice], name: String) -> String {
     others.into_iter().find(|other| !known(other)).unwrap_or(name)
 }
 
-/// What is pressed in each run: `escape@1s`.
+/// Presses in each run: `escape@1s`.
 ///
 /// # Errors
-/// It is not written so, or the robot has no such control.
+/// Invalid syntax, or an unknown control.
 pub fn presses(texts: &[String]) -> PyResult<Vec<Press>> {
     let read = |text: &String| {
         let press = options::press(text).map_err(|why| wrong("press", text, &why))?;
@@ -81,10 +81,10 @@ pub fn presses(texts: &[String]) -> PyResult<Vec<Press>> {
     texts.iter().map(read).collect()
 }
 
-/// What fails in each run: `ultrasonic.frozen@5s..7s`.
+/// Faults in each run: `ultrasonic.frozen@5s..7s`.
 ///
 /// # Errors
-/// It is not written so, or the robot has no such fault.
+/// Invalid syntax, or an unknown fault.
 pub fn failures(texts: &[String]) -> PyResult<Vec<Failure>> {
     let read = |text: &String| {
         let failure = options::failure(text).map_err(|why| wrong("fail", text, &why))?;
@@ -97,7 +97,7 @@ fn wrong(what: &str, text: &str, why: &str) -> PyErr {
     PyValueError::new_err(format!("{what}: '{text}': {why}"))
 }
 
-/// Refuses figures that are called as a column of every sweep is.
+/// Rejects metrics with the name of a fixed column.
 ///
 /// # Errors
 /// There is such a column.
@@ -114,7 +114,7 @@ impl GivenSeeds {
     /// The seeds.
     ///
     /// # Errors
-    /// One that is there twice.
+    /// A repeated seed.
     pub fn seeds(self) -> PyResult<Seeds> {
         match self {
             GivenSeeds::Range(first, end) => Ok(Seeds::new(first..end)),
@@ -124,10 +124,10 @@ impl GivenSeeds {
 }
 
 impl GivenValues {
-    /// What is varied.
+    /// The axis.
     ///
     /// # Errors
-    /// A text that is no range, a quantity of another unit than the entry's.
+    /// An invalid range, or a quantity with the wrong unit.
     pub fn axis(self, names: &PlanNames, name: String) -> PyResult<Axis> {
         let values = match self {
             GivenValues::Text(range) => {

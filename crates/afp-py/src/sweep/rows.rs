@@ -1,4 +1,4 @@
-//! Outcomes as rows, columns and groups of Python.
+//! Outcomes as Python rows, columns and groups.
 
 use afp_sweep::{Cells, Ending, Outcome, Sweep, groups};
 use pyo3::IntoPyObjectExt;
@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-/// Outcomes by column; the second of a pair is the type.
+/// Outcomes by column; each pair ends with the type.
 ///
 /// # Errors
 /// Python has no memory.
@@ -40,10 +40,11 @@ pub fn row<'py>(py: Python<'py>, sweep: &Sweep, outcome: &Outcome) -> PyResult<B
     Ok(row)
 }
 
-/// Runs that ended alike: ending, where, why, how many, the first.
+/// A group of runs: ending, place, reason, number of runs, first run.
 type Alike = (&'static str, String, String, u64, u64);
 
-/// Runs that ended alike, of their endings, places, reasons and numbers: these, how many, and the first; failures last.
+/// Group runs, given as endings, places, reasons and numbers: returns each group with its number of
+/// runs and the first of them; failures last.
 #[pyfunction]
 pub fn alike(runs: Vec<(String, String, String, u64)>) -> PyResult<Vec<Alike>> {
     let known = |name: &str| {

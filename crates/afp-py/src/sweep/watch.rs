@@ -1,4 +1,4 @@
-//! Runs that are kept until their own figures have been taken.
+//! Runs that are kept until their metrics are computed.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -14,18 +14,18 @@ use crate::errors::run_error;
 use crate::simulation::{Keeper, Run, Runner};
 use crate::world::World;
 
-/// Runs by their numbers, until their figures have been taken.
+/// Runs by number, until their metrics are computed.
 #[derive(Default)]
 pub struct Kept(Mutex<BTreeMap<u64, Run>>);
 
 impl Kept {
     fn lock(&self) -> MutexGuard<'_, BTreeMap<u64, Run>> {
-        // Runs come and go as a whole.
+        // Each insertion or removal is atomic.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Keeps what has been run.
+/// Keeps finished runs.
 pub struct Keeping<'a> {
     pub graph: &'a Graph,
     pub kept: &'a Kept,
@@ -48,23 +48,23 @@ impl Watch for Keeping<'_> {
     }
 }
 
-/// Takes the figures of what has been run.
+/// Computes the metrics of finished runs.
 pub struct Judging<'a> {
     pub sweep: &'a Sweep,
     pub setting: &'a Setting<'a>,
     pub compiled: &'a Arc<Compiled>,
-    /// What is called with a run, and gives its figures.
+    /// The function that computes a run's metrics.
     pub judge: &'a Py<PyAny>,
-    /// The names of its figures.
+    /// The names of the metrics.
     pub metrics: &'a [String],
     pub kept: &'a Kept,
 }
 
 impl Judging<'_> {
-    /// Adds a run's own figures to its outcome; those of a run that could not begin have no values.
+    /// Adds a run's metrics to its outcome; a run that did not start has no values.
     ///
     /// # Errors
-    /// What the judge raises; a figure of a name that there is already.
+    /// The judge's exception, or a duplicate name.
     pub fn judge(&self, py: Python<'_>, outcome: &mut Outcome) -> PyResult<()> {
         let Some(run) = self.kept.lock().remove(&outcome.run) else {
             outcome.figures.extend(self.metrics.iter().map(|name| (name.clone(), None)));

@@ -1,6 +1,6 @@
-//! Does runs in threads, and hands their outcomes to the thread that asked for them.
+//! Executes runs in threads, and passes their outcomes to the calling thread.
 //!
-//! What the threads need is their own: a component that hangs, in Python or below it, does not hold up who called.
+//! The threads own all their data, so a hanging component does not block the caller.
 
 use std::panic::resume_unwind;
 use std::path::PathBuf;
@@ -22,22 +22,22 @@ use crate::component::{AnyRegistry, Components, may_sweep};
 use crate::errors::run_error;
 use crate::link::link;
 
-/// How often signals are looked at while no outcome comes.
+/// The interval of signal checks without outcomes.
 const EVERY: Duration = Duration::from_millis(15);
-/// For so long a run may go on when it is called off; then its component is interrupted.
+/// The time in which a cancelled run may end before its component is interrupted.
 const PATIENCE: Duration = Duration::from_millis(15);
-/// After so long a component that does not hear of that is left to itself. Each time this thread wants the interpreter, every
-/// component that is called keeps it for some milliseconds more.
+/// The time after which an unresponsive component is abandoned. Each time this thread wants the
+/// interpreter, every running component keeps it for some milliseconds more.
 const LEFT: Duration = Duration::from_millis(35);
-/// How often that is looked at.
+/// The interval of these checks.
 const LOOK: Duration = Duration::from_millis(2);
-/// Outcomes that may wait until this thread has told of them: those with runs of which figures are taken are large.
+/// The most outcomes in the queue; with metrics they hold large runs.
 const WAITING: usize = 64;
 
 impl Sweeper {
-    /// Does runs; hands their outcomes to `each`, several at once if they come fast. What `each` or a handler
-    /// of a signal raises ends it; runs that have not ended then are not done. `judge` gives further figures of each run,
-    /// in this thread.
+    /// Executes runs and passes their outcomes to `each`, several at once if they come fast. An
+    /// exception of `each` or a signal handler ends it, and unfinished runs are not done. `judge`
+    /// computes metrics of each run, in this thread.
     pub(super) fn work(
         &self,
         py: Python<'_>,
@@ -76,7 +76,7 @@ impl Sweeper {
     }
 }
 
-/// Runs to be done, with all that they need.
+/// Runs to execute, with all their inputs.
 struct Job {
     compiled: Arc<Compiled>,
     components: Arc<Components>,
@@ -84,14 +84,14 @@ struct Job {
     file: PathBuf,
     runs: Vec<u64>,
     jobs: usize,
-    /// Calls everything off once it is true.
+    /// Cancels everything when true.
     stop: Arc<AtomicBool>,
-    /// Where runs are kept of which figures are taken.
+    /// The runs whose metrics are pending.
     kept: Option<Arc<Kept>>,
 }
 
 impl Job {
-    /// Does the runs, as long as their outcomes are wanted.
+    /// Executes the runs while their outcomes are wanted.
     fn run(mut self, send: &SyncSender<Outcome>) -> Result<(), RunError> {
         let Some(graph) = &self.compiled.graph else { return Ok(()) };
         let more = |registry: &mut dyn AnyRegistry| self.components.register(registry);
@@ -106,7 +106,7 @@ impl Job {
     }
 }
 
-/// Lets a job be done beside this thread, which attends to Python.
+/// Executes a job in another thread, while this one serves Python.
 fn drive(
     py: Python<'_>,
     job: Job,
@@ -129,7 +129,7 @@ fn drive(
     })
 }
 
-/// Waits a moment for what was called off; a component that hangs does not look at that, and is interrupted once.
+/// Waits briefly for a cancelled job; interrupts a hanging component once.
 fn leave<T>(working: &JoinHandle<T>, components: &Components) -> PyResult<()> {
     let begun = Instant::now();
     let wait_until = |end: Duration| {

@@ -1,14 +1,13 @@
-//! How the lines of a file end. Texts have `\n` alone, for those who count lines and columns; what the file had in its
-//! place is kept, line by line where lines end in several ways.
+//! The line ends of a file. Texts have only `\n`, for counting lines and columns. The original ends
+//! are kept, individually if they are mixed.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
 
-/// The ends of the lines of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum LineEnds {
     All(&'static str),
-    /// Each line has its own.
+    /// Mixed ends, by line.
     Each(Vec<&'static str>),
 }
 
@@ -18,7 +17,7 @@ impl Default for LineEnds {
     }
 }
 
-/// A text with `\n` at the end of each line.
+/// A text with `\n` line ends.
 pub(crate) fn with_newlines(text: &str) -> Cow<'_, str> {
     if text.contains('\r') {
         text.replace("\r\n", "\n").replace('\r', "\n").into()
@@ -27,7 +26,7 @@ pub(crate) fn with_newlines(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Texts with more lines are not compared.
+/// The most lines of texts that are compared.
 const MOST: usize = 10_000;
 
 impl LineEnds {
@@ -50,8 +49,9 @@ impl LineEnds {
         }
     }
 
-    /// Those of another text in place of the one that has these: lines that stay keep theirs, and a new line ends as the
-    /// line that it takes the place of, or as the one before it. Of very long texts all lines end as the first.
+    /// Line ends for a changed text: unchanged lines keep theirs, and a new line gets the end of
+    /// the line that it replaces, or of the line before. In very long texts all lines get the first
+    /// one's.
     pub fn follow(&self, before: &str, text: &str) -> LineEnds {
         let LineEnds::Each(ends) = self else { return self.clone() };
         let all = before.lines().count().max(text.lines().count());
@@ -77,12 +77,11 @@ impl LineEnds {
                 }
             }
         }
-        // What stands behind the last end is a line as well.
+        // The part after the last line end also counts as a line.
         made.truncate(text.matches('\n').count());
         LineEnds::from(made)
     }
 
-    /// A text with these ends.
     pub fn applied(&self, text: &str) -> String {
         match self {
             LineEnds::All(end) => text.replace('\n', end),
@@ -103,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_that_stay_keep_their_ends() {
+    fn unchanged_lines_keep_their_ends() {
         for (file, text, expected) in [
             ("a\r\nb\nc\rd", "a\nb\nc\nd", "a\r\nb\nc\rd"),
             ("a\r\nb\nc\rd", "a\nB\nc\nd\n", "a\r\nB\nc\rd\r"),

@@ -1,11 +1,12 @@
-//! A process with everything that it starts, which is ended as one.
+//! A process group that is ended as a whole.
 //!
-//! A job runs cargo, which runs compilers: ended alone, it would leave them at work, and its output open.
+//! A job runs cargo, which runs compilers. If only the job ended, the compilers would continue and
+//! keep its output open.
 
 use std::io;
 use std::process::{Child, Command, ExitStatus};
 
-/// A process, and those below it.
+/// A process and its descendants.
 pub(super) struct Group {
     first: Child,
     /// Whether it was asked to end.
@@ -13,7 +14,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// Starts a process as the first one of a group.
+    /// Starts a process as the leader of a new group.
     ///
     /// # Errors
     /// It cannot be started.
@@ -22,12 +23,11 @@ impl Group {
         Ok(Group { first: command.spawn()?, asked: false })
     }
 
-    /// The process that was started.
     pub fn first(&mut self) -> &mut Child {
         &mut self.first
     }
 
-    /// Asks all of them to end; whoever asks again ends them.
+    /// Asks the group to end; the second call kills it.
     pub fn end(&mut self) {
         if std::mem::replace(&mut self.asked, true) { self.kill() } else { ask(&mut self.first) }
     }
@@ -36,10 +36,10 @@ impl Group {
         kill(&mut self.first);
     }
 
-    /// Waits for the first one.
+    /// Waits for the leader.
     ///
     /// # Errors
-    /// Nobody knows how it ended.
+    /// The result is unknown.
     pub fn wait(&mut self) -> io::Result<ExitStatus> {
         self.first.wait()
     }
@@ -60,10 +60,10 @@ fn kill(first: &mut Child) {
     signal(first, rustix::process::Signal::KILL);
 }
 
-/// The number of a group is that of its first process, and nobody else's before that was waited for.
+/// A group has the id of its leader, which is not reused before the wait.
 #[cfg(unix)]
 fn signal(first: &mut Child, signal: rustix::process::Signal) {
-    // They may have ended by themselves.
+    // The processes may have ended already.
     let _ = rustix::process::kill_process_group(rustix::process::Pid::from_child(first), signal);
 }
 
@@ -75,14 +75,14 @@ fn ask(first: &mut Child) {
     kill(first);
 }
 
-/// Windows ends a process with those below it by a program of its own.
+/// On Windows a separate program ends a process tree.
 #[cfg(not(unix))]
 fn kill(first: &mut Child) {
     let number = first.id().to_string();
     let mut taskkill = Command::new("taskkill");
     let done = taskkill.args(["/T", "/F", "/PID", &number]).output();
     if !done.is_ok_and(|done| done.status.success()) {
-        // It may have ended by itself.
+        // It may have ended already.
         let _ = first.kill();
     }
 }
@@ -94,14 +94,15 @@ mod tests {
 
     use super::*;
 
-    /// A shell with a process below it that has the same output and ignores being asked, where `deaf` says so.
+    /// A shell with a child that shares its output, and ignores the request to end if `deaf` is
+    /// set.
     fn shell(deaf: &str) -> Group {
         let script = format!("{deaf} sleep 100 & echo begun; wait; wait");
         let mut command = Command::new("sh");
         Group::start(command.args(["-c", &script]).stdout(Stdio::piped())).unwrap()
     }
 
-    /// Reads until all who have the output are gone.
+    /// Reads until all holders of the output have ended.
     fn until_closed(group: &mut Group, end: impl Fn(&mut Group)) {
         let mut out = group.first().stdout.take().unwrap();
         let mut begun = [0; 6];
@@ -112,13 +113,13 @@ mod tests {
     }
 
     #[test]
-    fn what_a_process_started_ends_with_it() {
+    fn children_of_a_process_end_with_it() {
         until_closed(&mut shell(""), Group::end);
         until_closed(&mut shell(""), Group::kill);
     }
 
     #[test]
-    fn who_does_not_end_when_asked_is_ended_the_second_time() {
+    fn a_second_request_kills_a_process() {
         until_closed(&mut shell("trap '' TERM;"), |group| {
             group.end();
             group.end();

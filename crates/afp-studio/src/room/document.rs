@@ -1,62 +1,63 @@
-//! A text that is open, and the file that it is saved in.
+//! An open text, and the file in which it is saved.
 
 use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::files::{self, Kept, Stamp};
 
-/// How long a change waits for further ones before it is written.
+/// The time that a change waits for further ones before it is written.
 const SAVES_AFTER: Duration = Duration::from_millis(200);
 
-/// How long it takes until writing is tried again that has failed.
+/// The time between attempts to write.
 const TRIES_AGAIN_AFTER: Duration = Duration::from_secs(2);
 
 pub(super) struct Document {
     pub text: String,
     file: PathBuf,
-    /// What lies in the file, as far as known: what others change is merged over this.
+    /// The last known content of the file, the base for merging other changes.
     kept: Kept,
     stamp: Option<Stamp>,
-    /// Since when the file has been empty, though it was not: somebody may be about to fill it again.
+    /// The time since which the file is unexpectedly empty: another program may be about to fill
+    /// it.
     emptied: Option<Stamp>,
-    /// When it is to be written; none where it is.
+    /// The time of the next write; `None` if it is saved.
     due: Option<Duration>,
-    /// What somebody else has written that does not go together with this text: nothing is written before a person
-    /// has chosen.
+    /// Another program's text that conflicts with this one. Nothing is written until a user
+    /// chooses.
     theirs: Option<Kept>,
-    /// What lies in the file cannot be read, so that nobody knows what would be written over.
+    /// The file is unreadable, so writing could lose its content.
     unreadable: bool,
 }
 
-/// What a look at the file has shown.
+/// The result of a check of the file.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Look {
-    /// Nothing new.
+    /// No change.
     Same,
-    /// The text is another one now.
+    /// The room's text has changed.
     Changed,
-    /// Somebody else has written this very text.
+    /// Another program has written the room's text.
     Saved,
-    /// Somebody else has removed the file.
+    /// Another program has removed the file.
     Removed,
-    /// Theirs, which does not go together with this text.
+    /// The other text, which conflicts with this one.
     Conflict(String),
-    /// What lies there is no text: why. Nothing is written over it.
+    /// The reason why the file is not a text. It is not overwritten.
     Unreadable(String),
 }
 
-/// Which text of two that do not go together.
+/// The text to keep in a conflict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Keep {
     Mine,
     Theirs,
-    /// Both, with the marks of version control between.
+    /// Both, with conflict markers.
     Both,
 }
 
 impl Document {
     /// # Errors
-    /// The file cannot be read: a sentence.
+    /// A sentence: the file cannot be read.
     pub fn read(file: PathBuf) -> Result<Document, String> {
         let stamp = files::stamp(&file);
         let kept = files::read(&file)?;
@@ -77,7 +78,7 @@ impl Document {
         self.kept.etag.as_deref()
     }
 
-    /// Another text, to be written soon, unless it is what lies in the file.
+    /// Sets a new text, to be written soon unless the file has it.
     pub fn set(&mut self, text: String, now: Duration) {
         self.text = text;
         match self.is_as_kept() {
@@ -96,33 +97,34 @@ impl Document {
         self.due.is_none()
     }
 
-    /// Whether nothing is lost where this is forgotten: a file that was removed, or cannot be read, lies here alone.
+    /// Whether forgetting it loses nothing; the text of a removed or unreadable file exists only
+    /// here.
     pub fn is_in_file(&self) -> bool {
         let was_never_there = self.kept.etag.is_none() && self.text.is_empty();
         self.due.is_none() && (self.is_as_kept() || was_never_there)
     }
 
-    /// Whether somebody has to choose between this text and theirs.
+    /// Whether a user has to resolve a conflict.
     pub fn is_disputed(&self) -> bool {
         self.theirs.is_some()
     }
 
-    /// Whether the file holds what cannot be read.
+    /// Whether the file is unreadable.
     pub fn is_unreadable(&self) -> bool {
         self.unreadable
     }
 
-    /// Theirs, while somebody has to choose.
+    /// The other text of a conflict.
     pub fn theirs(&self) -> Option<&str> {
         self.theirs.as_ref().map(|theirs| theirs.text.as_str())
     }
 
-    /// When it is to be written.
+    /// The time of the next write.
     pub fn due(&self) -> Option<Duration> {
         self.due.filter(|_| self.theirs.is_none() && !self.unreadable)
     }
 
-    /// Looks at the file: what somebody else has written is taken over, or merged by lines.
+    /// Checks the file: another program's change is taken over, or merged by lines.
     pub fn look(&mut self, now: Duration) -> Look {
         let stamp = files::stamp(&self.file);
         if self.stamp == stamp && !self.unreadable && !stamp.is_some_and(files::is_fresh) {
@@ -145,12 +147,12 @@ impl Document {
         if self.theirs.as_ref().is_some_and(|theirs| theirs.etag == found.etag) {
             return Look::Same;
         }
-        // What was in conflict no longer lies there; what lies there may be so anew.
+        // The old conflict is gone; the new content may conflict again.
         self.theirs = None;
         if found.etag == self.kept.etag {
             return if was_unreadable && self.due.is_none() { Look::Saved } else { Look::Same };
         }
-        // The text is all that is left, and stays; the next change writes it anew.
+        // This is the only copy, so it stays; the next change writes it.
         if found.etag.is_none() {
             self.kept.etag = None;
             return if self.due.is_none() { Look::Removed } else { Look::Same };
@@ -177,15 +179,15 @@ impl Document {
         }
     }
 
-    /// Whether a file has just been emptied, as most programs do before they write into it: it counts as empty once it
-    /// is found so again.
+    /// Whether a file has just been emptied, as most programs do before writing. It counts as empty
+    /// if the next check finds it empty, too.
     fn is_being_written(&mut self, found: &str, stamp: Option<Stamp>) -> bool {
         let news = found.is_empty() && !self.kept.text.is_empty() && self.emptied != stamp;
         self.emptied = stamp.filter(|_| found.is_empty());
         news
     }
 
-    /// Ends a conflict; without one, nothing happens.
+    /// Ends a conflict, if there is one.
     pub fn choose(&mut self, keep: Keep, now: Duration) {
         let Some(theirs) = self.theirs.take() else { return };
         match keep {
@@ -199,11 +201,11 @@ impl Document {
         (self.kept, self.due) = (theirs, Some(now));
     }
 
-    /// Writes the text; gives the stamp of what was written, which another program may have written over since. None where it
-    /// has written before, so that the file is to be looked at first.
+    /// Writes the text and returns its stamp, although another program may have written since.
+    /// Returns `None` if another program wrote first, so that the file needs a check.
     ///
     /// # Errors
-    /// It cannot be written; it will be tried again.
+    /// It cannot be written; another attempt follows.
     pub fn save(&mut self, now: Duration) -> Result<Option<Stamp>, String> {
         match self.kept.write(&self.file, &self.text) {
             Ok(Some((kept, stamp))) => {

@@ -1,9 +1,9 @@
-//! How far clients have followed what the room has made of their texts.
+//! The progress of clients with the room's changes of their texts.
 //!
-//! A change that is not a client's own, as from another program, meets what the client has typed meanwhile. The client
-//! puts the two together: it is told the room's text, which of its versions that has in it, and a number; it gives the
-//! number back with the first text that has both. What comes from it before lacks the change, and is passed over: the
-//! next one has it, too.
+//! A change from elsewhere, such as another program, meets the client's own typing. The client
+//! merges the two. It receives the room's text, the last of its versions included there, and a
+//! number. It returns the number with the first merged text. Earlier texts of the client lack the
+//! change and are ignored, since the next one also contains their typing.
 
 use std::collections::BTreeMap;
 
@@ -11,17 +11,17 @@ use serde_json::{Value, json};
 
 use super::notification;
 
-/// How far one client has come, by the addresses of its texts.
+/// The progress of one client, by the addresses of its texts.
 #[derive(Debug, Default)]
 pub(super) struct Following(BTreeMap<String, Text>);
 
 #[derive(Debug, Default)]
 struct Text {
-    /// The client's last version that the room has.
+    /// The client's last version in the room.
     seen: i32,
-    /// The number of the last change that the client was told.
+    /// The number of the last change sent to the client.
     told: u32,
-    /// The number of the last one that its text has in it.
+    /// The number of the last change in its text.
     taken: u32,
 }
 
@@ -36,8 +36,8 @@ impl Following {
         self.0.remove(uri);
     }
 
-    /// The client has a new version, perhaps with a change in it; whether it has all that it was told. One that is the
-    /// room's own text has.
+    /// Notes a new version of the client, and returns whether it has all changes. A text equal to
+    /// the room's has them.
     pub fn has_all(&mut self, uri: &str, version: i32, taken: Option<u32>, is_same: bool) -> bool {
         let text = self.0.entry(uri.to_owned()).or_default();
         text.taken = if is_same { text.told } else { taken.unwrap_or(text.taken) };
@@ -48,12 +48,11 @@ impl Following {
         has_all
     }
 
-    /// Whether the client was told a change that its text does not have yet.
+    /// Whether a change sent to the client is missing in its text.
     pub fn is_behind(&self, uri: &str) -> bool {
         self.0.get(uri).is_some_and(|text| text.taken < text.told)
     }
 
-    /// What a client is told of a text that the room has.
     pub fn tell(&mut self, uri: &str, text: &str) -> lsp_server::Message {
         let one = self.0.entry(uri.to_owned()).or_default();
         one.told += 1;

@@ -1,6 +1,6 @@
-//! Jobs of the command line that a client asks for: scenarios run and written, sweeps, builds, new projects.
+//! Command-line jobs for clients: run and generate scenarios, sweeps, builds, new projects.
 //!
-//! The room says what is run, with which arguments; who runs it is not its business.
+//! The room only determines programs and arguments; its owner runs them.
 
 mod arguments;
 
@@ -13,67 +13,63 @@ use serde_json::{Value, json};
 use super::{ClientId, Out, Room, notification};
 use arguments::{arguments, file_of};
 
-/// Jobs that go on at once.
+/// The most concurrent jobs.
 const MOST: usize = 4;
-/// Lines of what a job says that are told, and kept for its end.
+/// The most lines of a job sent and kept for its end.
 const MOST_LINES: usize = 2_000;
-/// Letters of such a line.
+/// The longest such line, in characters.
 const MOST_LETTERS: usize = 2_000;
-/// How long a job waits for a page that is gone; then it is ended, since nobody else asks for what comes of it.
+/// The time that a job waits for a lost page before it is ended.
 const WAITS: Duration = Duration::from_secs(60);
-/// How long lines are collected before they are told, in one message.
+/// The time for which lines are collected into a message.
 const COLLECTED: Duration = Duration::from_millis(50);
-/// Results of a job that are kept for its end; those of a run are some 600 bytes.
+/// The most results kept for the end of a job; each run needs some 600 bytes.
 const MOST_RESULTS: usize = 20_000;
-/// Bytes of them: they go out in one message.
+/// The most bytes of results, which are sent in one message.
 const MOST_BYTES: usize = 32 << 20;
-/// Bytes of what they came to together, which is kept where there is no room for more of them.
+/// The most bytes of the summary, which is kept even if there is no room for more results.
 const MOST_SUM: usize = 1 << 20;
 
-/// Tells jobs apart.
 pub(crate) type JobId = u32;
 
-/// What is to be run.
+/// A request to run or end a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// The command line with these arguments, in the folder.
+    /// Run the command line with these arguments, in the folder.
     Begin(JobId, Vec<String>),
-    /// What was begun is to end.
     End(JobId),
 }
 
-/// A job that goes on.
 #[derive(Debug, Default)]
 pub(super) struct Job {
     client: ClientId,
-    /// What was asked for.
+    /// The original request.
     order: Value,
-    /// Since when the client is gone.
+    /// The time since which the client is gone.
     alone: Option<Duration>,
-    /// What came of it, while the client is gone.
+    /// The final message, while the client is gone.
     done: Option<Message>,
     results: Vec<Value>,
-    /// How long they are together.
+    /// The total length of the results.
     bytes: usize,
-    /// Whether some were not kept.
+    /// Whether some were dropped.
     is_cut: bool,
     said: Vec<String>,
-    /// So many of these lines the client was told.
+    /// The number of lines sent to the client.
     told: usize,
 }
 
-/// Jobs of a room.
 #[derive(Debug, Default)]
 pub(super) struct Jobs {
     running: BTreeMap<JobId, Job>,
     orders: Vec<Order>,
     made: JobId,
-    /// When clients were told last what jobs say.
+    /// The time of the last message with lines.
     told: Duration,
 }
 
 impl Room {
-    /// What is to be begun or ended, since it was asked last.
+    /// Takes the pending orders.
     pub(crate) fn orders(&mut self) -> Vec<Order> {
         std::mem::take(&mut self.jobs.orders)
     }
@@ -94,7 +90,7 @@ impl Room {
         Ok(json!({ "id": id }))
     }
 
-    /// Ends a job, unless it has ended by itself meanwhile.
+    /// Ends a job that is still running.
     pub(super) fn end_job(&mut self, params: &Value) -> Result<Value, String> {
         let id = params["id"].as_u64().and_then(|id| JobId::try_from(id).ok());
         let id = id.filter(|id| (1..=self.jobs.made).contains(id)).ok_or("there is no such job")?;
@@ -103,20 +99,20 @@ impl Room {
         Ok(Value::Null)
     }
 
-    /// The jobs of a client that is gone wait a while for it.
+    /// Keeps the jobs of a lost client for a while.
     pub(super) fn leave_jobs(&mut self, client: ClientId, now: Duration) {
         let own = self.jobs.running.values_mut().filter(|job| job.client == client);
         own.for_each(|job| job.alone = Some(now));
     }
 
-    /// A client takes up the jobs of the one that it was before, unless that is still there.
+    /// Gives a client the jobs of its previous id, unless that is still connected.
     pub(super) fn take_jobs(&mut self, client: ClientId, before: ClientId) {
         let own = self.jobs.running.values_mut();
         let own = own.filter(|job| job.client == before && job.alone.is_some());
         own.for_each(|job| (job.client, job.alone) = (client, None));
     }
 
-    /// The jobs of a client as it is greeted with them, with the lines that were told.
+    /// The jobs of a client for its greeting, with the lines sent before.
     pub(super) fn jobs_of(&self, client: ClientId) -> Value {
         let own = self.jobs.running.iter().filter(|(_, job)| job.client == client);
         let listed = |(id, job): (&JobId, &Job)| {
@@ -126,7 +122,7 @@ impl Room {
         own.map(listed).collect()
     }
 
-    /// Tells a client that was greeted which of its jobs have ended while it was gone.
+    /// Sends a reconnected client the jobs that ended in the meantime.
     pub(super) fn tell_done(&mut self, client: ClientId) -> Out {
         let mut out = Out::new();
         self.jobs.running.retain(|&id, job| {
@@ -141,7 +137,7 @@ impl Room {
         out
     }
 
-    /// Ends the jobs whose client has not come back; once more where one does not end.
+    /// Ends the jobs of clients that did not return, and kills a job that does not end.
     pub(super) fn end_jobs_alone(&mut self, now: Duration) {
         let orders = &mut self.jobs.orders;
         self.jobs.running.retain(|&id, job| {
@@ -155,7 +151,7 @@ impl Room {
         });
     }
 
-    /// What runs code of the folder waits until it is trusted.
+    /// Rejects requests that run code of the folder before it is trusted.
     fn check_trust(&self, kind: &str, params: &Value) -> Result<(), String> {
         if kind == "new" || self.trust.is_given() {
             return Ok(());
@@ -169,29 +165,29 @@ impl Room {
         }
     }
 
-    /// What a request would build and run of the folder, or of the project of the file that it names.
+    /// The code of the folder, or of a file's project, that a request would build and run.
     pub(super) fn code(&self, params: &Value) -> Result<Vec<String>, String> {
         Ok(self.trust.code(file_of(self, params).transpose()?.as_deref()))
     }
 
-    /// A line that a job has printed.
+    /// Handles a line printed by a job.
     pub(crate) fn job_said(&mut self, id: JobId, line: &str) {
         self.jobs.running.get_mut(&id).into_iter().for_each(|job| job.say(line));
     }
 
-    /// When lines of jobs are to be told.
+    /// The time of the next message with lines.
     pub(super) fn jobs_due(&self) -> Option<Duration> {
         let waits = |job: &Job| job.alone.is_none() && job.told < job.said.len();
         self.jobs.running.values().any(waits).then_some(self.jobs.told + COLLECTED)
     }
 
-    /// Tells what jobs have said since it was told last.
+    /// Sends the new lines of all jobs.
     pub(super) fn tell_jobs(&mut self, now: Duration) -> Out {
         self.jobs.told = now;
         self.jobs.running.iter_mut().filter_map(|(&id, job)| job.tell(id)).collect()
     }
 
-    /// A job has ended with an exit code; without one it was ended.
+    /// Handles the end of a job with its exit code, or `None` if it was killed.
     pub(crate) fn job_done(&mut self, id: JobId, code: Option<i32>) -> Out {
         let Some(mut job) = self.jobs.running.remove(&id) else { return Out::new() };
         let mut out = Out::from_iter(job.tell(id));
@@ -211,12 +207,12 @@ impl Room {
 }
 
 impl Job {
-    /// A line: a result, or a text for people.
+    /// Stores a line: a result, or text.
     fn say(&mut self, line: &str) {
         if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
             let bytes = self.bytes + line.len();
             let is_room = self.results.len() < MOST_RESULTS && bytes <= MOST_BYTES;
-            // What all of them came to is the last one, of which there is one.
+            // The summary is the last result, and there is only one.
             let is_sum = result.get("summary").is_some() && line.len() <= MOST_SUM;
             if is_room || is_sum {
                 self.bytes = bytes;
@@ -233,7 +229,7 @@ impl Job {
         }
     }
 
-    /// Tells the lines that the client was not told, if there are any and it is there.
+    /// Sends the unsent lines to the client, if it is connected.
     fn tell(&mut self, id: JobId) -> Option<(ClientId, Message)> {
         if self.alone.is_some() {
             return None;
@@ -249,7 +245,7 @@ impl Job {
 mod tests {
     use super::*;
 
-    /// A room with a client that has begun a job.
+    /// A room with a client that has started a job.
     fn begun(folder: &tempfile::TempDir) -> Room {
         let folder = crate::Folder::new(folder.path()).unwrap();
         let mut room = Room::new(folder, None, Vec::new(), || Box::new(afp_lsp::NoFiles));
@@ -259,7 +255,7 @@ mod tests {
         room
     }
 
-    /// What a client is greeted with that was another one before, and then told.
+    /// The greeting of a reconnected client, and the messages after it.
     fn greeted(room: &mut Room, client: ClientId, before: ClientId) -> (Value, Vec<Value>) {
         room.join(client);
         let params = json!({ "client": before });
@@ -271,22 +267,22 @@ mod tests {
     }
 
     #[test]
-    fn a_job_goes_on_with_the_page_that_is_loaded_anew() {
+    fn a_job_survives_a_reload_of_the_page() {
         let folder = tempfile::tempdir().unwrap();
         let mut room = begun(&folder);
         room.job_said(1, "one");
         room.tick(COLLECTED);
         room.job_said(1, "two");
         room.leave(1, Duration::ZERO);
-        // What is said to nobody is not due, so that nothing is told again and again.
+        // Lines for a lost client are not due, or the room would wake up all the time.
         assert_eq!((room.jobs_due(), room.tick(COLLECTED * 9).len()), (None, 0));
         let listed = json!([{ "id": 1, "order": { "kind": "test" }, "said": "one" }]);
         assert_eq!(greeted(&mut room, 2, 1), (listed.clone(), vec![]));
         let told = room.tell_jobs(Duration::ZERO);
         assert_eq!(told[0].0, 2);
-        // Of two pages that were one, the one that is there keeps it.
+        // If the previous client is still connected, it keeps the job.
         assert_eq!(greeted(&mut room, 3, 2).0, json!([]));
-        // It ends while nobody is there.
+        // The job ends during the absence.
         room.leave(2, Duration::ZERO);
         room.job_said(1, "three");
         assert!(room.job_done(1, Some(0)).is_empty());
@@ -299,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn jobs_whose_page_does_not_come_back_are_ended_and_are_in_nobodys_way() {
+    fn jobs_of_a_lost_page_are_ended() {
         let folder = tempfile::tempdir().unwrap();
         let mut room = begun(&folder);
         room.join(2);
@@ -310,7 +306,7 @@ mod tests {
         assert!(room.begin_job(2, &order).is_err());
         room.orders();
         room.leave(1, Duration::ZERO);
-        // This one has ended by itself.
+        // This job ended by itself.
         room.job_done(1, Some(0));
         assert!(room.begin_job(2, &order).is_ok());
         room.orders();
@@ -319,7 +315,7 @@ mod tests {
         let ended: Vec<_> = (2..).take(MOST - 1).map(Order::End).collect();
         room.tick(WAITS);
         assert_eq!(room.orders(), ended);
-        // Who does not end when asked is ended the second time.
+        // A job that does not end when asked is killed the second time.
         room.job_done(2, None);
         room.tick(WAITS * 2);
         assert_eq!(room.orders(), ended[1..]);
@@ -329,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn a_job_that_has_just_ended_needs_no_end() {
+    fn ending_a_finished_job_is_no_error() {
         let folder = tempfile::tempdir().unwrap();
         let mut room = begun(&folder);
         room.job_done(1, Some(0));
@@ -339,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn what_many_results_came_to_is_kept() {
+    fn the_summary_of_many_results_is_kept() {
         let mut job = Job::default();
         (0..MOST_RESULTS + 5).for_each(|_| job.say("{}"));
         job.say(r#"{"summary": {}}"#);
@@ -348,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_job_says_is_told_in_one_message_and_only_so_much_of_it() {
+    fn lines_of_a_job_are_sent_in_one_message_up_to_a_limit() {
         let mut job = Job::default();
         let mut text = |lines: usize| {
             (0..lines).for_each(|_| job.say(&"x".repeat(MOST_LETTERS + 1)));

@@ -1,4 +1,4 @@
-//! What a client asks of the room.
+//! Requests of clients to the room.
 
 use std::path::Path;
 use std::time::Duration;
@@ -13,7 +13,7 @@ use crate::files;
 use super::document::Keep;
 use super::{ClientId, Out, Room};
 
-/// Requests that the room answers, and not the language server.
+/// The requests that the room answers, instead of the language server.
 const OURS: [&str; 10] = [
     "afp/hello",
     "afp/read",
@@ -31,7 +31,7 @@ pub(super) fn is_ours(method: &str) -> bool {
     OURS.contains(&method)
 }
 
-/// The answer, or a sentence that says why there is none; and what others are told.
+/// Returns the response or an error sentence, and messages to others.
 pub(super) fn answer(
     room: &mut Room,
     client: ClientId,
@@ -56,7 +56,7 @@ pub(super) fn answer(
             Ok(json!({ "holder": room.pen, "yours": room.pen == Some(client) }))
         }
         "afp/read" => path(params, "uri").and_then(|path| read(room, &path)),
-        // Who watches runs plans, too, and may know why not.
+        // Read-only clients also run plans, and may ask for the trust.
         "afp/trust" if params["give"] != json!(true) => trust(room, params),
         _ if room.pen != Some(client) => {
             Err("somebody else has the pen: take it first, then change things".to_owned())
@@ -95,21 +95,21 @@ fn hello(room: &Room, client: ClientId) -> Value {
     })
 }
 
-/// The first file of the folder with a plan: one that is opened for nothing in particular shows something.
+/// The first file of the folder with a plan, shown if no file was requested.
 fn first_plan(room: &Room) -> Option<String> {
     let plans = room.listed.files.keys().filter(|path| path.ends_with(".afp"));
     let mut read = plans.filter_map(|path| Some((path, files::read(path.as_ref()).ok()?.text)));
     read.find(|(_, text)| afp_lsp::holds_plan(text)).map(|(path, _)| uri_of(path))
 }
 
-/// Whether the folder is trusted, and what of it, or for a file of it, would run then; gives it that trust where it is
-/// asked to.
+/// Returns whether the folder is trusted, and the code that it, or a file of it, would run. Grants
+/// the trust on request.
 fn trust(room: &mut Room, params: &Value) -> Result<Value, String> {
     if params["give"] == json!(true) {
         room.trust.give()?;
     }
     let folder = room.folder.root().to_string_lossy();
-    // What lies elsewhere is not run at all.
+    // Code outside the folder is never run.
     let code = room.code(params).unwrap_or_default();
     Ok(json!({ "trusted": room.trust.is_given(), "folder": folder, "code": code }))
 }
@@ -124,8 +124,8 @@ fn read(room: &mut Room, path: &str) -> Result<Value, String> {
     Ok(json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() }))
 }
 
-/// A new file with a text, or an example with what belongs to it; never over one that is there. Who still has a text of this
-/// address open, since another program has removed its file, is told the new one.
+/// Creates a file with a text or an example, but never overwrites one. Clients that still have a
+/// removed file of that address open receive the new text.
 fn create(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, String> {
     let path = path(params, "uri")?;
     if Path::new(&path).exists() {
@@ -145,7 +145,7 @@ fn create(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, Strin
     told_anew(room, &path, out)
 }
 
-/// Refuses where a text that was changed is about to be written under an address.
+/// Rejects a request if an unsaved text of that address would be lost.
 fn unless_unsaved(room: &Room, path: &str) -> Result<(), String> {
     match room.documents.get(path).is_some_and(|document| !document.is_saved()) {
         true => Err(format!("'{}' is about to be written anew", room.folder.name(path))),
@@ -153,7 +153,7 @@ fn unless_unsaved(room: &Room, path: &str) -> Result<(), String> {
     }
 }
 
-/// Reads what has come to lie under an address, and tells it to who has something else open there.
+/// Reads the new file of an address, and sends it to clients with an older text.
 fn told_anew(room: &mut Room, path: &str, out: &mut Out) -> Result<Value, String> {
     room.documents.remove(path);
     let text = room.document(path)?.text.clone();
@@ -179,7 +179,8 @@ fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Resu
     told_anew(room, &to, out)
 }
 
-/// Removes a file and gives its text, with what others have just written, so that it can be made again.
+/// Removes a file and returns its text, including recent changes by others, so that it can be
+/// restored.
 fn remove(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Result<Value, String> {
     let path = path(params, "uri")?;
     let file = room.folder.inside(&path)?;
@@ -191,7 +192,8 @@ fn remove(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Resu
     Ok(json!({ "text": text }))
 }
 
-/// Looks at a file that is to be moved or removed: what another program has written there is known, and not in dispute.
+/// Checks a file before it is moved or removed: its current content is known and without a
+/// conflict.
 fn settled(room: &mut Room, path: &str, now: Duration, out: &mut Out) -> Result<(), String> {
     room.document(path)?;
     out.extend(room.look_at(path, now));

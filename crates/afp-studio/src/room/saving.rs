@@ -1,4 +1,4 @@
-//! What happens by itself: texts are written, and what others have written is noticed.
+//! Automatic work: texts are saved, and changes by other programs are noticed.
 
 use std::time::{Duration, Instant};
 
@@ -8,24 +8,24 @@ use serde_json::json;
 use super::document::Look;
 use super::{ClientId, LOOKS_EVERY, Out, Room, disputed, notification};
 
-/// How often a text is tried to be written at once, while another program writes the same file.
+/// The attempts to save a text at once, while another program writes the same file.
 const TRIES: usize = 3;
 
-/// How long the folder is left alone after a walk over so many entries that took so long: ten times as long, since nobody is
-/// answered meanwhile, and a while for each entry where the disk is fast.
+/// The time between two scans: ten times the duration of the last one, since it blocks the room,
+/// and at least a minimum per entry.
 fn pause(entries: usize, took: Duration) -> Duration {
     Duration::from_micros(20 * entries as u64).max(took * 10)
 }
 
 impl Room {
-    /// When [`Room::tick`] has something to do.
+    /// The time of the next [`Room::tick`].
     pub fn due(&self) -> Duration {
         let saves = self.documents.values().filter_map(|document| document.due());
         let due = saves.chain(self.jobs_due()).min();
         due.map_or(self.looked + LOOKS_EVERY, |due| due.min(self.looked + LOOKS_EVERY))
     }
 
-    /// Writes what is due, and looks at the folder from time to time.
+    /// Saves due texts, and scans the folder from time to time.
     pub fn tick(&mut self, now: Duration) -> Out {
         let mut out = Vec::new();
         if self.falls.is_some_and(|falls| falls <= now) {
@@ -52,7 +52,7 @@ impl Room {
         out
     }
 
-    /// Writes everything, since the program ends.
+    /// Saves everything before the program ends.
     pub fn save_all(&mut self, now: Duration) -> Out {
         self.save(now, |_| true)
     }
@@ -76,7 +76,8 @@ impl Room {
         out
     }
 
-    /// Writes a text if it is still due, never over what somebody else has written meanwhile; whether there is nothing more to do.
+    /// Saves a text that is still due, but never over another program's change; returns whether it
+    /// is done.
     fn save_one(
         &mut self,
         path: &str,
@@ -92,7 +93,7 @@ impl Room {
         let saved = match document.save(now) {
             Ok(None) => return false,
             Ok(Some(stamp)) => {
-                // It is no news that somebody else would have to be told of.
+                // The room's own write is not reported as a change.
                 self.listed.files.insert(path.to_owned(), stamp);
                 Ok(())
             }
@@ -102,7 +103,7 @@ impl Room {
         true
     }
 
-    /// Tells the clients that have it open whether a text is saved.
+    /// Sends the clients of a text whether it is saved.
     pub(super) fn tell_saved(&self, path: &str, saved: Result<(), String>) -> Out {
         let Some(document) = self.documents.get(path) else { return Vec::new() };
         let uri = uri_of(path);
@@ -120,7 +121,7 @@ impl Room {
         out
     }
 
-    /// Tells a client that the text that it has come to is the one that lies in the file.
+    /// Tells a client that its current text is saved.
     pub(super) fn tell_if_saved(&self, id: ClientId, path: &str) -> Out {
         let Some(document) = self.documents.get(path).filter(|it| it.is_saved()) else {
             return Vec::new();
@@ -134,7 +135,7 @@ impl Room {
         vec![(id, notification("afp/saved", said))]
     }
 
-    /// Looks at the file of an open text.
+    /// Checks the file of an open text.
     pub(super) fn look_at(&mut self, path: &str, now: Duration) -> Out {
         let Some(document) = self.documents.get_mut(path) else { return Vec::new() };
         let was_disputed = document.is_disputed();
@@ -165,7 +166,7 @@ impl Room {
         out
     }
 
-    /// Looks at the tree: which files there are, and whether one has changed that plans may use.
+    /// Scans the tree for new and removed files, and for changes of files that plans may use.
     pub(super) fn look_at_files(&mut self) -> Out {
         let found = self.folder.list();
         let before = std::mem::replace(&mut self.listed, found);
@@ -187,7 +188,7 @@ impl Room {
         out
     }
 
-    /// Tells the clients that a text is no longer in conflict with its file.
+    /// Tells the clients that a conflict is resolved.
     pub(super) fn settled(&mut self, path: &str) -> Out {
         let Some(document) = self.documents.get(path) else { return Vec::new() };
         let (uri, text) = (uri_of(path), document.text.clone());

@@ -1,9 +1,9 @@
-//! Two who write one file at once.
+//! Two programs that write one file.
 
 use super::*;
 
 #[test]
-fn changes_of_other_lines_go_together() {
+fn changes_of_different_lines_are_merged() {
     let mut place = Place::new(PLAN);
     place.client(1);
     place.types(1, 2, &PLAN.replace("Elapsed -> terminate", "Elapsed -> go"));
@@ -11,7 +11,7 @@ fn changes_of_other_lines_go_together() {
     place.pass(600);
     let both = format!("// theirs\n{}", PLAN.replace("Elapsed -> terminate", "Elapsed -> go"));
     assert_eq!(place.on_disk(), both);
-    // The client was told of it and takes it over once it is written: what it has then is saved.
+    // The client receives the change and merges it; its next text is saved.
     let out = place.types(1, 3, &both);
     assert_eq!(
         (methods(&out), &out[0].1["params"]["version"]),
@@ -20,7 +20,7 @@ fn changes_of_other_lines_go_together() {
 }
 
 #[test]
-fn what_is_typed_while_a_change_is_under_way_to_its_writer_takes_nothing_of_it_away() {
+fn typing_during_a_change_of_another_program_loses_nothing() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let typed = |letters: &str| PLAN.replace("start go", &format!("start go // {letters}"));
@@ -31,11 +31,11 @@ fn what_is_typed_while_a_change_is_under_way_to_its_writer_takes_nothing_of_it_a
     let both = |letters: &str| format!("// theirs\n{}", typed(letters));
     assert_eq!(told.1["params"]["text"], both("a"));
     assert_eq!((&told.1["params"]["version"], &told.1["params"]["number"]), (&json!(2), &json!(1)));
-    // Typed before it arrived: what lies in the file stays, and nothing is said to be saved.
+    // Typed before the change arrived: the file stays unchanged, and no save is reported.
     assert_eq!(place.types(1, 3, &typed("ab")), []);
     assert_eq!(place.pass(600), []);
     assert_eq!(place.on_disk(), both("a"));
-    // One more meanwhile is told for the same version.
+    // A second change refers to the same version.
     place.outside(&format!("{}// end\n", both("a")));
     let out = place.pass(600);
     let told = out.iter().find(|(_, value)| value["method"] == "afp/changed").unwrap();
@@ -50,7 +50,7 @@ fn what_is_typed_while_a_change_is_under_way_to_its_writer_takes_nothing_of_it_a
 }
 
 #[test]
-fn a_change_that_others_take_back_while_it_is_under_way_is_taken_back() {
+fn a_change_that_is_undone_on_its_path_is_undone() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let theirs = format!("// theirs\n{PLAN}");
@@ -70,7 +70,7 @@ fn a_change_that_others_take_back_while_it_is_under_way_is_taken_back() {
 }
 
 #[test]
-fn a_text_that_is_again_what_lies_in_the_file_is_saved_whether_or_not_the_disk_takes_anything() {
+fn a_text_equal_to_its_file_is_saved_even_on_a_full_disk() {
     let mut place = Place::new(PLAN);
     place.client(1);
     place.types(1, 2, &PLAN.replace("go", "stay"));
@@ -83,7 +83,7 @@ fn a_text_that_is_again_what_lies_in_the_file_is_saved_whether_or_not_the_disk_t
 }
 
 #[test]
-fn who_comes_while_there_is_something_to_choose_is_asked_too() {
+fn a_new_client_during_a_conflict_can_choose() {
     let mut place = Place::new(PLAN);
     place.client(1);
     place.types(1, 2, &PLAN.replace("terminate", "go"));
@@ -103,7 +103,7 @@ fn who_comes_while_there_is_something_to_choose_is_asked_too() {
 }
 
 #[test]
-fn what_does_not_go_together_is_not_written_before_somebody_has_chosen() {
+fn a_conflict_is_not_written_before_a_choice() {
     let mine = PLAN.replace("terminate", "go");
     let theirs = PLAN.replace("terminate", "other");
     for (keep, expected) in [("mine", Some(&mine)), ("theirs", Some(&theirs)), ("both", None)] {
@@ -130,10 +130,11 @@ fn what_does_not_go_together_is_not_written_before_somebody_has_chosen() {
 }
 
 #[test]
-fn a_conflict_that_others_take_back_is_none() {
+fn a_conflict_that_is_undone_is_resolved() {
     let mine = PLAN.replace("terminate", "go");
     let merged = format!("// more\n{mine}");
-    // Taken back with another change, as it was, by writing the same, and with the file.
+    // The ways to resolve a conflict: with another change, by undoing, by writing the same text,
+    // and with the file.
     let ways = [
         (Some(format!("// more\n{PLAN}")), &merged),
         (Some(PLAN.to_owned()), &mine),
@@ -155,7 +156,7 @@ fn a_conflict_that_others_take_back_is_none() {
         let settled = out.iter().find(|(_, value)| value["params"]["clean"] == true);
         assert_eq!(settled.unwrap().1["params"]["text"], **expected, "{written:?}");
         assert_eq!(place.on_disk(), *expected, "{written:?}");
-        // What is typed next is written again.
+        // Later typing is saved again.
         let number = out.iter().filter_map(|(_, it)| it["params"]["number"].as_u64()).max();
         place.takes(1, 3, PLAN, json!(number));
         place.pass(1000);
@@ -164,7 +165,7 @@ fn a_conflict_that_others_take_back_is_none() {
 }
 
 #[test]
-fn nothing_is_written_over_what_cannot_be_read() {
+fn an_unreadable_file_is_not_overwritten() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let mine = PLAN.replace("terminate", "go");

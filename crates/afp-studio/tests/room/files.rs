@@ -1,4 +1,4 @@
-//! Files that are made, renamed and removed, and what others do with them meanwhile.
+//! Creating, renaming and removing files, with concurrent changes by others.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::{PLAN, Place};
 
 #[test]
-fn files_are_made_renamed_and_removed_within_the_folder_alone() {
+fn files_are_created_renamed_and_removed_only_in_the_folder() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let new = place.uri("n.afp");
@@ -28,14 +28,14 @@ fn files_are_made_renamed_and_removed_within_the_folder_alone() {
     let hello = place.ask(1, "afp/hello", json!({})).unwrap();
     assert_eq!(hello["files"].as_array().unwrap().len(), 1);
     assert_eq!(hello["examples"][0]["title"], "Wait.");
-    // Whoever comes sees the folder as it is now, not as it was when it was last looked at.
+    // A new client sees the current folder, not the last scan.
     fs::write(place.path("q.afp"), PLAN).unwrap();
     let hello = place.ask(1, "afp/hello", json!({})).unwrap();
     assert_eq!(hello["files"].as_array().unwrap().len(), 2);
 }
 
 #[test]
-fn what_others_have_just_written_goes_along_with_a_file() {
+fn a_moved_file_keeps_recent_changes_of_others() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let (here, there) = (place.uri("p.afp"), place.uri("q.afp"));
@@ -43,7 +43,7 @@ fn what_others_have_just_written_goes_along_with_a_file() {
     place.outside(&theirs);
     let gone = place.ask(1, "afp/remove", json!({ "uri": here })).unwrap();
     assert_eq!(gone["text"], json!(theirs));
-    // An address that is still open, though its file is gone, has another text.
+    // An open address without its file gets a new text.
     fs::write(place.path("q.afp"), format!("// q\n{PLAN}")).unwrap();
     place.ask(1, "afp/read", json!({ "uri": there })).unwrap();
     fs::remove_file(place.path("q.afp")).unwrap();
@@ -52,7 +52,7 @@ fn what_others_have_just_written_goes_along_with_a_file() {
     place.outside(&theirs);
     let renamed = place.ask(1, "afp/rename", json!({ "uri": here, "to": there })).unwrap();
     assert_eq!(renamed["text"], json!(theirs));
-    // A conflict is there for somebody to choose.
+    // A user has to resolve a conflict.
     let mut place = Place::new(PLAN);
     place.client(1);
     let here = place.uri("p.afp");
@@ -76,9 +76,9 @@ fn a_folder_opens_with_the_first_file_that_has_a_plan() {
     assert_eq!(hello(&mut place), Value::Null);
 }
 
-/// A text that is kept is looked at every half second; one that is not is read when somebody comes.
+/// An open text is checked every half second; others are read on demand.
 #[test]
-fn texts_that_nobody_has_open_any_more_are_forgotten_once_they_lie_in_their_files() {
+fn closed_texts_are_forgotten_after_their_save() {
     let later = format!("// later\n{PLAN}");
     let is_forgotten = |place: &mut Place| {
         place.outside(&later);
@@ -90,14 +90,14 @@ fn texts_that_nobody_has_open_any_more_are_forgotten_once_they_lie_in_their_file
     place.client(1);
     place.room.leave(1, place.now);
     assert!(is_forgotten(&mut place));
-    // Somebody else still has it open.
+    // Another client still has it open.
     let mut place = Place::new(PLAN);
     place.client(1);
     place.client(2);
     let document = json!({ "uri": place.uri("p.afp") });
     place.tell(1, "textDocument/didClose", json!({ "textDocument": document }));
     assert!(!is_forgotten(&mut place));
-    // It is not saved yet, and then it is.
+    // First unsaved, then saved.
     for (passes, saved) in [(0, false), (300, true)] {
         let mut place = Place::new(PLAN);
         place.client(1);
@@ -107,7 +107,7 @@ fn texts_that_nobody_has_open_any_more_are_forgotten_once_they_lie_in_their_file
         assert_eq!(place.on_disk() != PLAN, saved);
         assert_eq!(is_forgotten(&mut place), saved);
     }
-    // Another program has removed the file: nobody has its text but the room.
+    // Another program has removed the file: only the room has its text.
     let mut place = Place::new(PLAN);
     place.client(1);
     fs::remove_file(place.path("p.afp")).unwrap();
@@ -119,7 +119,7 @@ fn texts_that_nobody_has_open_any_more_are_forgotten_once_they_lie_in_their_file
 }
 
 #[test]
-fn who_has_a_text_open_whose_file_is_gone_is_told_the_one_that_is_made_in_its_place() {
+fn an_open_text_without_a_file_gets_the_new_text() {
     for text in ["plan New { }\n", PLAN] {
         let mut place = Place::new(PLAN);
         place.client(1);
@@ -137,7 +137,7 @@ fn who_has_a_text_open_whose_file_is_gone_is_told_the_one_that_is_made_in_its_pl
         assert!(out.iter().all(|(_, said)| text == PLAN || said["params"]["text"] == text));
         assert!(out.iter().all(|(_, said)| said["params"]["failed"].is_null()));
     }
-    // What is about to be written is not made meanwhile.
+    // A file about to be saved cannot be created.
     let mut place = Place::new(PLAN);
     place.client(1);
     fs::remove_file(place.path("p.afp")).unwrap();

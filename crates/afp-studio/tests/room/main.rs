@@ -1,4 +1,4 @@
-//! A room with clients, on a folder of its own and a clock of the test.
+//! A room with clients, with a test folder and a test clock.
 
 mod conflicts;
 mod files;
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 const PLAN: &str =
     "use std\n\nplan P {\n    start go\n    actor go: Wait { Elapsed -> terminate }\n}\n";
 
-/// The files of the machine.
+/// The real file system.
 struct Disk;
 
 impl Host for Disk {
@@ -31,7 +31,7 @@ impl Host for Disk {
     }
 }
 
-/// A folder with a plan, its room, and the time in it.
+/// A folder with a plan, its room, and the room's time.
 struct Place {
     folder: tempfile::TempDir,
     room: Room,
@@ -82,7 +82,7 @@ impl Place {
         said(self.room.handle(client, serde_json::from_value(message).unwrap(), self.now))
     }
 
-    /// A client that has the plan open.
+    /// Adds a client that has the plan open.
     fn client(&mut self, client: ClientId) {
         self.room.join(client);
         self.ask(client, "initialize", json!({ "capabilities": {} })).unwrap();
@@ -93,12 +93,12 @@ impl Place {
         assert_eq!(told, []);
     }
 
-    /// A client gives the plan a whole new text.
+    /// A client replaces the plan's text.
     fn types(&mut self, client: ClientId, version: i32, text: &str) -> Vec<(ClientId, Value)> {
         self.takes(client, version, text, Value::Null)
     }
 
-    /// A client gives the plan a whole new text that has a change in it which it was told by this number.
+    /// A client replaces the plan's text, and includes the change with that number.
     fn takes(
         &mut self,
         client: ClientId,
@@ -123,13 +123,13 @@ impl Place {
         out
     }
 
-    /// Another program writes the plan; times of files may be coarse, so the length differs too.
+    /// Another program writes the plan; file times can be coarse, so the length differs, too.
     fn outside(&self, text: &str) {
         fs::write(self.path("p.afp"), text).unwrap();
     }
 }
 
-/// Notifications, with their methods.
+/// Notifications with their methods.
 fn said(out: Vec<(ClientId, Message)>) -> Vec<(ClientId, Value)> {
     let value = |(id, message)| (id, serde_json::to_value::<Message>(message).unwrap());
     out.into_iter().map(value).filter(|(_, value)| value["method"] != Value::Null).collect()
@@ -140,7 +140,7 @@ fn methods(out: &[(ClientId, Value)]) -> Vec<(ClientId, &str)> {
 }
 
 #[test]
-fn what_is_typed_is_written_within_300_ms_and_then_said_to_be_saved() {
+fn typing_is_saved_and_reported_within_300_ms() {
     let mut place = Place::new(&PLAN.replace('\n', "\r\n"));
     place.client(1);
     let next = PLAN.replace("go", "stay");
@@ -154,7 +154,7 @@ fn what_is_typed_is_written_within_300_ms_and_then_said_to_be_saved() {
 }
 
 #[test]
-fn what_others_write_right_after_a_save_arrives_though_length_and_time_are_the_same() {
+fn a_change_right_after_a_save_arrives_despite_an_equal_stamp() {
     let mut place = Place::new(PLAN);
     place.client(1);
     place.types(1, 2, &PLAN.replace("go", "at"));
@@ -177,14 +177,14 @@ fn clients_see_one_kind_of_line_end_and_the_file_keeps_its_own() {
     place.types(1, 2, "// one\n// 2\n// three\n// four\n");
     place.pass(300);
     assert_eq!(place.on_disk(), "// one\r\n// 2\n// three\r// four\r");
-    // What a client brings along is the room's own from then on, and the client is told.
+    // The room normalizes a client's text and sends it back.
     let out = place.types(1, 3, "// one\r\n// 2\n");
     assert_eq!(methods(&out), [(1, "afp/changed")]);
     assert_eq!(out[0].1["params"]["text"], "// one\n// 2\n");
 }
 
 #[test]
-fn what_others_write_arrives() {
+fn a_change_of_another_program_arrives() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let next = format!("// theirs\n{PLAN}");
@@ -196,7 +196,7 @@ fn what_others_write_arrives() {
 }
 
 #[test]
-fn a_file_that_others_empty_before_they_fill_it_is_never_seen_empty() {
+fn a_file_that_is_emptied_and_filled_is_never_empty_for_clients() {
     for typed in [false, true] {
         let mut place = Place::new(PLAN);
         place.client(1);
@@ -205,7 +205,7 @@ fn a_file_that_others_empty_before_they_fill_it_is_never_seen_empty() {
             place.types(1, 2, &mine);
         }
         place.outside("");
-        // A look, and no second one: what is typed is about to be written sooner.
+        // The first check runs, and the second does not: a save is due earlier.
         let half = place.pass(if typed { 250 } else { 500 });
         assert_eq!(half.iter().find(|(_, it)| it["method"] == "afp/changed"), None);
         assert_eq!(place.on_disk(), "", "nothing is written into what somebody writes");
@@ -226,7 +226,7 @@ fn a_file_that_stays_empty_is_empty() {
 }
 
 #[test]
-fn what_somebody_else_has_written_is_saved() {
+fn a_text_written_by_another_program_counts_as_saved() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let next = PLAN.replace("go", "stay");
@@ -236,17 +236,17 @@ fn what_somebody_else_has_written_is_saved() {
 }
 
 #[test]
-fn one_client_has_the_pen() {
+fn one_client_has_the_edit_lock() {
     let mut place = Place::new(PLAN);
     place.client(1);
     place.client(2);
     let next = PLAN.replace("go", "stay");
     let out = place.types(1, 2, &next);
     assert_eq!(methods(&out), [(2, "afp/changed")], "who watches sees it");
-    // What a watcher is told it takes over; that is no change.
+    // A read-only client takes over the sent text without a change.
     assert_eq!(place.types(2, 2, &next), []);
     place.pass(300);
-    // One that is late has the text that is written.
+    // A late client already has the saved text.
     assert_eq!(methods(&place.types(2, 2, &next)), [(2, "afp/saved")]);
     let out = place.types(2, 3, "nothing");
     assert_eq!((out[0].0, &out[0].1["params"]["text"]), (2, &json!(next)));
@@ -259,8 +259,8 @@ fn one_client_has_the_pen() {
 }
 
 #[test]
-fn the_pen_waits_for_its_holder_to_come_back_and_falls_then() {
-    // How long its holder is gone, as whom it comes back, and who has the pen then.
+fn the_edit_lock_waits_for_its_holder_for_a_while() {
+    // The absence of the holder, its previous id, and the next holder.
     for (gone, before, holder) in [
         (300, json!(1), 3),
         (4900, json!(1), 3),
@@ -278,11 +278,12 @@ fn the_pen_waits_for_its_holder_to_come_back_and_falls_then() {
         let hello = place.ask(3, "afp/hello", json!({ "client": before })).unwrap();
         assert_eq!(hello["pen"], holder == 3, "{gone} {before}");
         assert_eq!(place.ask(2, "afp/pen", json!({})).unwrap()["holder"], holder);
-        // In the end somebody has it who is there.
+        // In the end a connected client has the edit lock.
         let told = place.pass(6000);
         assert_eq!(told.iter().any(|(_, it)| it["method"] == "afp/pen"), holder == 1);
     }
-    // Nobody else is there: one who comes new has it at once, one who comes back does not take it from who is late.
+    // Without other clients: a new client gets the lock at once, and a returning one does not take
+    // it from the late holder.
     for (before, has) in [(Value::Null, true), (json!(2), false)] {
         let mut place = Place::new(PLAN);
         place.client(1);
@@ -296,12 +297,12 @@ fn the_pen_waits_for_its_holder_to_come_back_and_falls_then() {
 }
 
 #[test]
-fn a_disk_that_takes_nothing_is_said_and_tried_again() {
+fn a_failed_save_is_reported_and_repeated() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let next = PLAN.replace("go", "stay");
     place.types(1, 2, &next);
-    // In the way of the file: nothing can take its place.
+    // A directory at the path of the file prevents saving.
     fs::remove_file(place.path("p.afp")).unwrap();
     fs::create_dir(place.path("p.afp")).unwrap();
     let out = place.pass(300);
@@ -313,7 +314,7 @@ fn a_disk_that_takes_nothing_is_said_and_tried_again() {
 }
 
 #[test]
-fn a_file_that_was_removed_is_not_saved_until_it_is_written_anew() {
+fn a_removed_file_is_not_saved_before_a_change() {
     let mut place = Place::new(PLAN);
     place.client(1);
     fs::remove_file(place.path("p.afp")).unwrap();
@@ -325,7 +326,7 @@ fn a_file_that_was_removed_is_not_saved_until_it_is_written_anew() {
     let out = place.pass(600);
     assert!(out.iter().any(|(_, value)| value["method"] == "afp/saved"), "{out:?}");
     assert_eq!(place.on_disk(), next);
-    // Back as it was: that is news, and what lies there is what people see.
+    // The restored file is a change, and clients see its content.
     fs::remove_file(place.path("p.afp")).unwrap();
     place.pass(600);
     fs::write(place.path("p.afp"), &next).unwrap();
@@ -347,7 +348,7 @@ fn everything_is_saved_at_the_end() {
 }
 
 #[test]
-fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_folder() {
+fn jobs_with_code_need_trust_and_files_of_the_folder() {
     let mut place = Place::new(PLAN);
     place.client(1);
     let file = place.uri("p.afp");
@@ -355,7 +356,7 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
     assert!(refused.unwrap_err().contains("trust"));
     let told = place.ask(1, "afp/trust", json!({})).unwrap();
     assert_eq!(told["code"], json!([]));
-    // Who watches may know it, and says nothing.
+    // Read-only clients can ask, but not grant.
     place.client(2);
     assert_eq!(place.ask(2, "afp/trust", json!({})).unwrap(), told);
     assert!(place.ask(2, "afp/trust", json!({ "give": true })).is_err());
@@ -376,7 +377,7 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
         let refused = place.ask(1, "afp/job", order).unwrap_err();
         assert!(refused.contains(why), "{refused}");
     }
-    // As plans write it.
+    // In plan syntax.
     let order = json!({ "kind": "sweep", "file": file, "until": " 60 s" });
     assert_eq!(place.ask(1, "afp/job", order).unwrap()["id"], 2);
     assert!(place.ask(1, "afp/endJob", json!({ "id": 7 })).is_err());
@@ -385,9 +386,9 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
     assert!(refused.unwrap_err().contains("trust"));
 }
 
-/// Folders that nobody looks into have projects, too.
+/// Folders that are skipped in scans can have projects.
 #[test]
-fn jobs_of_a_hidden_project_wait_for_trust() {
+fn jobs_of_a_hidden_project_need_trust() {
     let mut place = Place::new(PLAN);
     place.client(1);
     fs::create_dir(place.path(".parts")).unwrap();
@@ -424,7 +425,7 @@ fn a_plan_has_the_same_drawing_for_each_page_and_in_each_room() {
     place.client(2);
     assert_eq!(drawn(&place.ask(2, "afp/drawing", drawing.clone()).unwrap()), drawn(&before));
 
-    // In another room nobody has drawn the shorter plan before, which changes nothing.
+    // A room that has not drawn the shorter plan gives the same drawing.
     let mut other = Place::new(&grown);
     other.client(1);
     let drawing = json!({ "textDocument": { "uri": other.uri("p.afp") } });

@@ -13,7 +13,8 @@ use crate::columns::{Cells, Column, columns};
 use crate::grid::Sweep;
 use crate::outcome::Outcome;
 
-/// The outcomes as Parquet: whole numbers as unsigned 64 bits, numbers as doubles, texts as UTF-8.
+/// Writes the outcomes as Parquet: counts as unsigned 64-bit integers, numbers as doubles, strings
+/// as UTF-8.
 ///
 /// # Errors
 /// Two columns have the same name.
@@ -62,7 +63,7 @@ fn field(column: &Column) -> Result<Type> {
 fn fill(writer: &mut SerializedColumnWriter<'_>, cells: &Cells) -> Result<()> {
     match cells {
         Cells::Counts(all) => {
-            // The bits of an unsigned number, which the column's type says it is.
+            // The column type declares these bits as unsigned.
             let there: Vec<i64> = all.iter().flatten().map(|count| count.cast_signed()).collect();
             writer.typed::<Int64Type>().write_batch(&there, Some(&levels(all)), None)?;
         }
@@ -78,7 +79,7 @@ fn fill(writer: &mut SerializedColumnWriter<'_>, cells: &Cells) -> Result<()> {
     Ok(())
 }
 
-/// Which cells have something.
+/// Marks the cells with a value.
 fn levels<T>(cells: &[Option<T>]) -> Vec<i16> {
     cells.iter().map(|cell| i16::from(cell.is_some())).collect()
 }

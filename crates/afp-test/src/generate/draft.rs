@@ -1,4 +1,4 @@
-//! One scenario as it is made, and the text that it becomes.
+//! A scenario under construction, and its text.
 
 use std::fmt::Write;
 
@@ -6,29 +6,26 @@ use afp_core::Ending;
 
 use crate::verdict::Verdict;
 
-/// A scenario before it is text.
+/// A scenario before it becomes text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Draft {
-    /// Its name.
     pub title: String,
-    /// The plan that it is for.
     pub plan: String,
-    /// The lines before the element is active.
+    /// The lines before the activation of the element.
     pub setting: Vec<String>,
-    /// The element whose activation its times count from.
+    /// The element whose activation is time zero.
     pub element: String,
-    /// What happens from then on and what is expected.
+    /// Actions and expectations after that.
     pub lines: Vec<String>,
-    /// How long after that it ends.
+    /// Its duration after that.
     pub until: String,
-    /// Whether it expects an end.
+    /// Whether it expects the end of the plan.
     pub ends: bool,
-    /// Whether it has run and passed.
+    /// Whether it has passed.
     pub proven: bool,
 }
 
 impl Draft {
-    /// Writes its text behind others.
     pub fn write(&self, text: &mut String) {
         let Draft { title, plan, element, until, .. } = self;
         // Writing to a String cannot fail.
@@ -43,18 +40,18 @@ impl Draft {
         let _ = write!(text, "        until {until}\n    }}\n}}\n");
     }
 
-    /// Takes into account what its run came to. It passed, or it expects from now on that the plan ends in `Error` and has
-    /// to run again.
+    /// Applies the verdict of its run. It has passed, or it now expects an end in `Error` and must
+    /// run again.
     ///
     /// # Errors
-    /// Why it cannot pass.
+    /// The reason why it cannot pass.
     pub fn judge(&mut self, verdict: &Verdict) -> Result<(), String> {
         let Some(first) = verdict.broken.first() else {
             self.proven = true;
             return Ok(());
         };
         if matches!(verdict.ending, Some(Ending::Error(_))) && !self.ends {
-            // What comes behind the event is not what it is about, but a plan must not fail unexpectedly.
+            // Later effects are outside its scope, but a plan must not fail unexpectedly.
             self.lines.push("expect end by Error".to_owned());
             self.ends = true;
             return Ok(());

@@ -1,4 +1,4 @@
-//! The scenarios of one element and one supervisor that watches over it.
+//! The scenarios of one element and one of its supervisors.
 
 use afp_core::Instant;
 use afp_dsl::graph::Component;
@@ -14,21 +14,21 @@ use afp_dsl::types::text::duration;
 
 /// The points of an element's run, in percent.
 const POINTS: [u64; 5] = [10, 30, 50, 70, 90];
-/// A scenario goes on for so long after the robot has to stand, nanoseconds.
+/// The duration of a scenario after the robot has to stop, in nanoseconds.
 const BEHIND: u64 = 200_000_000;
 
-/// An element and a supervisor that watches over it.
+/// An element and one of its supervisors.
 pub(super) struct Pair<'a> {
     pub parts: &'a Parts<'a>,
     pub rest: Rest,
-    /// The run in which the element is active, and when.
+    /// The run and the time of the element's activation.
     pub run: &'a SampleRun,
     pub active: Activation,
     pub element: u32,
     pub supervisor: u32,
 }
 
-/// A moment at which the supervisor is polled.
+/// A poll of the supervisor.
 #[derive(Clone, Copy)]
 struct Point {
     percent: u64,
@@ -37,7 +37,6 @@ struct Point {
 }
 
 impl Pair<'_> {
-    /// Adds its scenarios.
     pub fn add(&self, all: &mut Generated) {
         let Some(place) = self.parts.place(self.supervisor) else { return };
         let points = self.points();
@@ -71,7 +70,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Where the supervisor is polled at about those shares of the element's run.
+    /// The polls at these percentages of the element's run.
     fn points(&self) -> Vec<Point> {
         let Some(every) =
             self.parts.supervisor(self.supervisor).map(|each| each.timing.period.as_nanos())
@@ -91,8 +90,8 @@ impl Pair<'_> {
         points
     }
 
-    /// How long the supervisor may take until it is polled, nanoseconds: its polls go on from one element to another, so
-    /// where they are is not the element's.
+    /// The longest time to the next poll, in nanoseconds. The polls continue across elements, so
+    /// their phase varies.
     fn wait(&self) -> u64 {
         let own = |place: &Place| place.owner == Some(self.element);
         match self.parts.place(self.supervisor).is_some_and(own) {
@@ -104,7 +103,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Says in a title that the supervisor is the plan's, where the element has one of its name.
+    /// Marks the plan's supervisor in a title, if the element has one with the same name.
     fn whose(&self) -> &'static str {
         let name = self.parts.name(self.supervisor);
         let over = self.parts.supervisors_over(self.element).into_iter();
@@ -119,7 +118,7 @@ impl Pair<'_> {
         let supervisor = self.parts.supervisor(self.supervisor)?;
         let (parts, element) = (self.parts, self.parts.path(self.element));
         let name = format!("{}.{}", supervisor.name, parts.outcome(self.supervisor, event));
-        // It resumes, or would lead a global supervisor to where the plan is already.
+        // It resumes, or the global supervisor's target is already active.
         let there = goal == Goal::Resume
             || goal == Goal::Element(self.element) && supervisor.owner.is_none();
         let wait = self.wait();
@@ -168,7 +167,8 @@ impl Pair<'_> {
         })
     }
 
-    /// The lines that lead up to the element: the seed, what is done on the way, and room for it to take longer.
+    /// The lines that lead to the element: the seed, the actions on the path, and a margin for a
+    /// longer path.
     fn setting(&self, at: u64) -> Vec<String> {
         let seed = (self.run.seed != 0).then(|| format!("seed {}", self.run.seed));
         let steps = self.run.steps_before(at).map(|step| {
@@ -179,7 +179,7 @@ impl Pair<'_> {
         seed.into_iter().chain(steps).chain(until).collect()
     }
 
-    /// An element of the same plan by its whole name.
+    /// The full name of an element in the same plan.
     fn beside(&self, goal: Goal, name: &str) -> String {
         let path = self.parts.path(self.element);
         match path.rsplit_once('.') {
@@ -188,7 +188,7 @@ impl Pair<'_> {
         }
     }
 
-    /// How the outermost plan ends, where nothing but ends of sub-plans lies between.
+    /// The ending of the outermost plan, if the sub-plans on the path only end.
     fn ending(&self, goal: Goal, soon: &str) -> Option<String> {
         let mut how = ended_by(goal, "Interrupted")?;
         let mut plan = self.parts.place(self.element)?.plan;
@@ -202,7 +202,7 @@ impl Pair<'_> {
         Some(format!("expect end by {how} once {soon}"))
     }
 
-    /// What the event interrupts: the element and what is active inside of it.
+    /// The interrupted components: the element and the active ones inside it.
     fn chain(&self, at: u64) -> Vec<u32> {
         let lasts = |number: &u32| {
             let component = self.parts.component(*number);
@@ -221,7 +221,7 @@ impl Pair<'_> {
         self.chain(at).into_iter().map(interrupt).collect()
     }
 
-    /// The event's commit is whole and happens once; what is interrupted writes nothing.
+    /// The event's commit is complete and happens once, and interrupted components write nothing.
     fn commits(&self, at: u64, event: u16, goal: Goal, soon: &str) -> Vec<String> {
         let parts = self.parts;
         let path = parts.path(self.supervisor);
@@ -237,7 +237,7 @@ impl Pair<'_> {
             let entry = parts.entry(*entry);
             lines.push(format!("expect commit of {entry} by {path} once {soon}"));
         }
-        // Others may write the entries at once where the plan goes on with more than an actor.
+        // If the plan continues with more than an actor, others may also write the entries.
         let alone = match goal {
             Goal::Element(to) => matches!(parts.component(to), Some(Component::Actor(_))),
             Goal::Terminate | Goal::Fail(_) => {
@@ -257,7 +257,8 @@ impl Pair<'_> {
         lines
     }
 
-    /// When the robot has to stand: each actor that has been active leaves it so within its stop time.
+    /// The instant when the robot must have stopped: each interrupted actor stops within its stop
+    /// time.
     fn standstill(&self, at: u64) -> Option<u64> {
         let now = Instant::from_nanos(at);
         let chain = self.chain(at);
@@ -271,7 +272,7 @@ impl Pair<'_> {
     }
 }
 
-/// How a plan ends whose edge leads there; `terminated` is what its end by `terminate` is called.
+/// The ending of a plan whose edge has that target; `terminated` names the end by `terminate`.
 fn ended_by(goal: Goal, terminated: &'static str) -> Option<&'static str> {
     match goal {
         Goal::Terminate => Some(terminated),

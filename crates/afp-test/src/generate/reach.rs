@@ -1,4 +1,4 @@
-//! Runs of a plan in which its elements become active.
+//! Sample runs in which the elements of a plan become active.
 
 use afp_core::Instant;
 use afp_dsl::graph::Component;
@@ -10,53 +10,51 @@ use crate::parts::Parts;
 use crate::verdict::Verdict;
 use crate::watch::Activation;
 
-/// Seeds that are tried where a run does not reach everything.
+/// The seeds tried if a run does not reach every element.
 const SEEDS: u64 = 4;
-/// Runs that are made to reach what no quiet one does.
+/// The most runs to reach the remaining elements.
 const RUNS: usize = 120;
-/// Stimuli are at whole milliseconds where nothing else matters.
+/// Stimuli are at whole milliseconds if possible.
 const GRAIN: u64 = 1_000_000;
 
-/// A run and how it is made.
 #[derive(Clone)]
 pub(super) struct SampleRun {
-    /// Its seed.
     pub seed: u64,
-    /// What somebody does in it.
+    /// Its actions.
     pub steps: Vec<Step>,
     activations: Vec<Activation>,
 }
 
-/// What somebody does while an element is active for the first time.
+/// An action during the first activation of an element.
 #[derive(Clone)]
 pub(super) struct Step {
-    /// When the element is active for the first time.
+    /// The first activation of the element.
     pub active: Activation,
-    /// What is done, without its time.
+    /// The action without its time.
     pub text: String,
     stimulus: Stimulus,
 }
 
-/// The runs, and when each element is active for the first time.
+/// The runs, and the first activation of each element.
 pub(super) struct Reach {
     runs: Vec<SampleRun>,
-    /// For each component the run and the stretch of time.
+    /// The run and the time span for each component.
     found: Vec<Option<(usize, Activation)>>,
 }
 
-/// A state, event or error whose edge a run may take.
+/// A state, event or error with an edge to try.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Edge {
     component: u32,
     outcome: Outcome,
-    /// The element whose own edge it is, where that reacts to a supervisor of its plan by itself.
+    /// The element with a reaction, if the edge belongs to one.
     during: Option<u32>,
 }
 
 type Run<'a> = &'a mut dyn FnMut(&Scenario) -> Result<Verdict, RunError>;
 
 impl Reach {
-    /// Runs the plan until every element has been active, or there is nothing more to try.
+    /// Runs the plan until every element has been active, or all options are used.
     pub fn explore(parts: &Parts<'_>, quiet: &Scenario, run: Run<'_>) -> Result<Reach, RunError> {
         let mut reach = Reach { runs: Vec::new(), found: Vec::new() };
         for seed in 0..SEEDS {
@@ -75,7 +73,7 @@ impl Reach {
         Ok(reach)
     }
 
-    /// The first run in which an element is active, and when it is so for the first time.
+    /// The first run that activates an element, and the first activation in it.
     pub fn of(&self, element: u32) -> Option<(&SampleRun, Activation)> {
         let (number, active) = self.found.get(element as usize).copied().flatten()?;
         Some((self.runs.get(number)?, active))
@@ -104,21 +102,21 @@ impl Reach {
             if self.found.len() <= index {
                 self.found.resize(index + 1, None);
             }
-            // The first run that reaches something is the one with the fewest stimuli.
+            // The first run that reaches an element has the fewest stimuli.
             self.found[index].get_or_insert((self.runs.len(), *active));
         }
         self.runs.push(SampleRun { seed, steps, activations });
         Ok(())
     }
 
-    /// An outcome of something that is reached, whose edge leads to what is not; not tried yet.
+    /// An untried outcome of a reached component, whose edge leads to an unreached one.
     fn next(&self, parts: &Parts<'_>, tried: &[Edge]) -> Option<Edge> {
         let edges = self.declared(parts).chain(self.errors(parts));
         let mut untried = edges.filter(|edge| !tried.contains(edge));
         untried.find(|edge| self.leads_on(parts, *edge))
     }
 
-    /// States of the actors that are reached, and events over them and over the sub-plans that are.
+    /// States of reached actors, and events of supervisors of reached actors and sub-plans.
     fn declared(&self, parts: &Parts<'_>) -> impl Iterator<Item = Edge> {
         self.reached(parts).flat_map(move |(element, component)| {
             let own = matches!(component, Component::Actor(_)).then_some(element);
@@ -135,19 +133,18 @@ impl Reach {
         })
     }
 
-    /// Errors of the actors that are reached.
     fn errors(&self, parts: &Parts<'_>) -> impl Iterator<Item = Edge> {
         let actors = self.reached(parts).filter(|(_, it)| matches!(it, Component::Actor(_)));
         actors.map(|(component, _)| Edge { component, outcome: Outcome::Special, during: None })
     }
 
-    /// The elements that some run reaches and that last.
+    /// The reached elements that take time.
     fn reached(&self, parts: &Parts<'_>) -> impl Iterator<Item = (u32, Component)> {
         let reached = parts.elements().filter(|number| self.of(*number).is_some());
         reached.filter_map(|number| Some((number, parts.component(number)?)))
     }
 
-    /// Whether an edge may lead to an element that no run reaches.
+    /// Whether an edge may lead to an unreached element.
     fn leads_on(&self, parts: &Parts<'_>, edge: Edge) -> bool {
         let goal = match (edge.outcome, edge.during) {
             (Outcome::Special, _) => parts.goal_of_error(edge.component),
@@ -156,7 +153,7 @@ impl Reach {
         };
         match goal {
             Some(Goal::Element(to)) => self.of(to).is_none(),
-            // It ends a sub-plan, which may lead on.
+            // The end of a sub-plan may lead to other elements.
             Some(Goal::Terminate) => {
                 parts.place(edge.component).is_some_and(|place| place.plan != 0)
             }
@@ -164,7 +161,7 @@ impl Reach {
         }
     }
 
-    /// Seed and steps of a run in which a component reports an outcome.
+    /// The seed and the actions of a run in which a component reports an outcome.
     fn steps_behind(
         &self,
         parts: &Parts<'_>,
@@ -190,13 +187,13 @@ impl Reach {
             text: text.clone(),
             span: quiet.span,
         };
-        // What would happen later belongs to the run of before.
+        // Later actions belong only to the earlier run.
         let mut steps: Vec<_> = before.steps_before(at).cloned().collect();
         steps.push(Step { active, text, stimulus });
         Some((before.seed, steps))
     }
 
-    /// An element of the same plan as a global supervisor that some run reaches.
+    /// A reached element in the plan of a global supervisor.
     fn reached_beside(&self, parts: &Parts<'_>, supervisor: u32) -> Option<u32> {
         let home = parts.place(supervisor)?.plan;
         let beside = |number: &u32| parts.place(*number).is_some_and(|place| place.plan == home);
@@ -205,32 +202,31 @@ impl Reach {
 }
 
 impl Step {
-    /// How long after the element's start, nanoseconds.
+    /// The time after the element's start, in nanoseconds.
     pub fn after(&self) -> u64 {
         self.stimulus.at - self.active.from.as_nanos()
     }
 }
 
 impl SampleRun {
-    /// Since when a component is that is active at `at`.
+    /// The start of a component that is active at `at`.
     pub fn since(&self, component: u32, at: Instant) -> Option<Instant> {
         let mut active = self.activations.iter();
         let active = active.rfind(|a| a.element == component && a.from <= at && at <= a.to);
         active.map(|active| active.from)
     }
 
-    /// What is active when a step begins at an instant, supervisors too.
+    /// The components active at the beginning of a step, including supervisors.
     pub fn active(&self, at: Instant) -> impl Iterator<Item = u32> {
         let active = self.activations.iter().filter(move |a| a.from < at && at <= a.to);
         active.map(|active| active.element)
     }
 
-    /// What somebody has done up to an instant, nanoseconds.
+    /// The actions up to an instant, in nanoseconds.
     pub fn steps_before(&self, at: u64) -> impl Iterator<Item = &Step> {
         self.steps.iter().filter(move |step| step.stimulus.at < at)
     }
 
-    /// What has been active, up to an instant.
     pub fn before(&self, at: Instant) -> impl Iterator<Item = &Activation> {
         self.activations.iter().filter(move |active| active.from < at)
     }

@@ -1,4 +1,4 @@
-//! What the scenarios of a plan say of its mutants.
+//! The verdicts of scenarios about mutants.
 
 use std::path::PathBuf;
 
@@ -19,70 +19,67 @@ use crate::verdict::Verdict;
 /// A file with scenarios.
 #[derive(Clone, Debug)]
 pub struct Suite {
-    /// The file, beside which its worlds are looked for.
+    /// The file; its worlds are looked up next to it.
     pub file: PathBuf,
-    /// Its text, under the name from which what it uses is found.
+    /// Its text, with the name from which its imports are resolved.
     pub source: Source,
 }
 
-/// The scenarios of a plan file, each with how it goes while the plan is as it is.
+/// The scenarios of a plan file, each with its verdict on the original plan.
 pub struct Bench<'a> {
     plan_file: String,
     suites: Vec<(Suite, Vec<Case>)>,
     toolboxes: &'a Toolboxes,
     files: &'a (dyn Files + Sync),
     robot: &'a dyn Loader,
-    /// The names of scenarios that fail anyway.
+    /// The names of scenarios that fail on the original plan.
     pub failing: Vec<String>,
 }
 
-/// A run of the plan as it is.
+/// A run of the original plan.
 struct Case {
     name: String,
     setting: Setting,
     trace: u64,
-    /// Whether nothing happens in it and nothing is expected: it only tells whether a mutant changes anything.
+    /// Whether it has no stimuli and no expectations, and only shows whether a mutant changes
+    /// anything.
     quiet: bool,
 }
 
-/// What became of a mutant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MutantStatus {
     /// It does not compile.
     Refused,
-    /// These scenarios broke, or could not be run on it.
+    /// These scenarios failed, or could not run.
     Noticed(Vec<String>),
-    /// No scenario broke.
+    /// All scenarios passed.
     Missed {
         /// Whether the trace of a run differed.
         changed: bool,
     },
 }
 
-/// A mutant and what became of it.
 #[derive(Clone, Debug)]
 pub struct Judged {
-    /// The mutant.
     pub mutant: Mutant,
-    /// What became of it.
     pub status: MutantStatus,
 }
 
-/// How many mutants there were of each status.
+/// The numbers of mutants by result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// A scenario noticed them.
+    /// A scenario failed.
     pub noticed: usize,
-    /// No scenario noticed them, although they change a trace.
+    /// All scenarios passed, although a trace changed.
     pub missed: usize,
-    /// They change no trace that was looked at.
+    /// All compared traces are equal.
     pub unchanged: usize,
-    /// They do not compile.
+    /// The mutant does not compile.
     pub refused: usize,
 }
 
 impl Tally {
-    /// The sum over mutants.
+    /// Counts the results of mutants.
     pub fn of<'j>(judged: impl IntoIterator<Item = &'j Judged>) -> Tally {
         let mut tally = Tally::default();
         for each in judged {
@@ -96,7 +93,8 @@ impl Tally {
         tally
     }
 
-    /// The share of those that change a trace that are noticed, 0 to 1; 1 where there are none.
+    /// The share of noticed mutants among those that change a trace, 0 to 1; 1 without such
+    /// mutants.
     pub fn share(&self) -> f64 {
         match self.noticed + self.missed {
             0 => 1.0,
@@ -106,11 +104,11 @@ impl Tally {
 }
 
 impl<'a> Bench<'a> {
-    /// Runs the scenarios of these files that are for plans of `plan_file`, as the compiler names that file. `None`
-    /// when `go_on` called it off.
+    /// Runs the scenarios in these files for plans of `plan_file`, as named by the compiler. `None`
+    /// if `go_on` cancels it.
     ///
     /// # Errors
-    /// A scenario cannot be run: no world, a template without Rust.
+    /// A scenario cannot run: a missing world, or a template without Rust.
     pub fn new(
         plan_file: &str,
         suites: Vec<Suite>,
@@ -145,13 +143,13 @@ impl<'a> Bench<'a> {
         Ok(Some(bench))
     }
 
-    /// How many scenarios judge.
+    /// The number of judging scenarios.
     pub fn judges(&self) -> usize {
         let cases = self.suites.iter().flat_map(|(_, cases)| cases);
         cases.filter(|case| !case.quiet).count()
     }
 
-    /// What becomes of a mutant; `None` when `go_on` called it off.
+    /// Judges a mutant; `None` if `go_on` cancels it.
     pub fn judge(&self, mutant: Mutant, go_on: &mut dyn FnMut() -> bool) -> Option<Judged> {
         let (mut noticed, mut changed) = (Vec::new(), false);
         for (suite, cases) in &self.suites {
@@ -164,7 +162,7 @@ impl<'a> Bench<'a> {
                 let scenario = scenarios.iter().find(|scenario| scenario.name == case.name);
                 let came = match scenario {
                     Some(scenario) => self.run(scenario, case, go_on)?,
-                    // The mutant cannot do any more what it names.
+                    // The mutant cannot perform a named action.
                     None if case.quiet => continue,
                     None => Compared { broke: true, changed: true },
                 };
@@ -194,7 +192,7 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// The scenarios for plans of the file, and for each of these plans a run in which nothing happens.
+    /// The scenarios for plans of the file, and a run without stimuli for each of these plans.
     fn scenarios(&self, compiled: &Compiled) -> Vec<Scenario> {
         let own = compiled.scenarios.iter().filter(|each| each.plan_file == self.plan_file);
         let mut all: Vec<Scenario> = own.cloned().collect();
@@ -215,7 +213,7 @@ impl<'a> Bench<'a> {
         all
     }
 
-    /// A suite, with another text of the plan.
+    /// Compiles a suite, optionally with a changed plan.
     fn compile(&self, suite: &Suite, plan: Option<&str>) -> Compiled {
         let Some(text) = plan else {
             return afp_dsl::compile(&suite.source, self.toolboxes, self.files);
@@ -232,7 +230,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// What a run of a mutant came to.
+/// The result of a mutant's run.
 struct Compared {
     broke: bool,
     changed: bool,

@@ -1,4 +1,4 @@
-//! Finds the places of a plan that can be changed in its tree.
+//! Finds the places of a plan that a mutant can change.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use afp_syntax::{Kind, Node, node_span, parse};
 
 use super::site::{MutantKind, Site};
 
-/// All of them, of every plan in a text.
+/// All places of every plan in a text.
 pub(super) fn sites(text: &str, seed: u64) -> Vec<Site> {
     let tree = parse(text, 0, &mut Diagnostics::default());
     let mut finder = Finder { text, noise: Noise::new(seed, "mutants"), sites: Vec::new() };
@@ -20,7 +20,7 @@ pub(super) fn sites(text: &str, seed: u64) -> Vec<Site> {
 
 struct Finder<'a> {
     text: &'a str,
-    /// Chooses where there are several ways.
+    /// Chooses among several possible changes.
     noise: Noise,
     sites: Vec<Site>,
 }
@@ -42,7 +42,7 @@ impl Finder<'_> {
         }
     }
 
-    /// One of the names, but not this one.
+    /// One of the names, except the given one.
     fn other(&mut self, names: &[String], than: &str) -> Option<String> {
         let others: Vec<_> = names.iter().filter(|name| *name != than).collect();
         let index = self.noise.below(u32::try_from(others.len()).ok()?);
@@ -57,7 +57,7 @@ impl Finder<'_> {
         }
     }
 
-    /// The edges of an element or supervisor: each leads elsewhere, each two are swapped.
+    /// Edges of an element or supervisor: each gets a different target, and each two are swapped.
     fn edges(&mut self, owner: &Node, elements: &[String]) {
         let words: &[&str] = match owner.kind() {
             Kind::Guard => &["terminate", "ignore"],
@@ -87,7 +87,7 @@ impl Finder<'_> {
         }
     }
 
-    /// A number is another one and has the other sign, what is true is false.
+    /// A number gets another value, and the opposite sign; a boolean is negated.
     fn literal(&mut self, node: &Node) {
         let whole = place(node);
         let shown = self.at(&whole).to_owned();
@@ -131,7 +131,7 @@ impl Finder<'_> {
         self.add(MutantKind::Sign, whole, is, str::to_owned);
     }
 
-    /// `+` becomes `-`, and the other way round.
+    /// `+` becomes `-`, and `-` becomes `+`.
     fn sum(&mut self, node: &Node) {
         for (kind, is) in [(Kind::Plus, "-"), (Kind::Minus, "+")] {
             let signs = node.children_with_tokens().filter(|each| each.kind() == kind);
@@ -159,7 +159,7 @@ impl Finder<'_> {
     }
 }
 
-/// Whether a reference stands in a formula that a component reads, its sign not written.
+/// Whether a reference is in a component's input formula, without a sign.
 fn is_operand(node: &Node) -> bool {
     let formula = [Kind::BindIn, Kind::Sum, Kind::Product, Kind::Brackets];
     node.parent().is_some_and(|parent| formula.contains(&parent.kind()))

@@ -1,25 +1,23 @@
-//! A place of a plan that can be changed, and how.
+//! A place of a plan to change, with the change.
 
 use std::fmt;
 use std::ops::Range;
 
-/// What kind of change a mutant is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum MutantKind {
-    /// A sign is turned round.
     Sign,
-    /// An edge, or the start, leads elsewhere.
+    /// A different target of an edge or the start.
     Target,
-    /// A number or truth value is another one.
+    /// A different number or boolean.
     Constant,
-    /// Two edges of a component lead where the other one did.
+    /// Two edges of a component with swapped targets.
     Swap,
 }
 
 /// A change of a text.
 pub(super) struct Site {
     pub kind: MutantKind,
-    /// What is replaced, by bytes and in order, and by what.
+    /// Replaced byte ranges in order, with their new texts.
     pub edits: Vec<(Range<usize>, String)>,
     pub was: String,
     pub is: String,

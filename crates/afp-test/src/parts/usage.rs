@@ -1,4 +1,4 @@
-//! How often a run used each part of each plan.
+//! The use counts of each part of each plan.
 
 use afp_draw::{Count, PlanUsage, Reaction, Usage};
 use afp_dsl::graph::Element;
@@ -7,7 +7,7 @@ use super::{Parts, What};
 use crate::watch::hits::Hits;
 
 impl Parts<'_> {
-    /// Adds up what was used, plan by plan, over all places at which a plan is used.
+    /// Adds up use counts by plan, over all uses of the plan.
     pub(crate) fn usage(&self, hits: &Hits) -> Usage {
         let plans = self.graph.plans.iter().map(|plan| PlanUsage {
             plan: plan.span,
@@ -45,7 +45,7 @@ fn none(outcomes: usize) -> Count {
     Count { outcomes: vec![0; outcomes], ..Count::default() }
 }
 
-/// In the order in which a trace names the reactions.
+/// The order of reactions is that of the trace.
 fn none_of_element(element: &Element) -> Count {
     let tables = element.reactions.iter().flat_map(|table| {
         let events = (0..).map(Some).take(table.events.len()).chain([None]);

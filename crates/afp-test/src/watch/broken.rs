@@ -1,17 +1,17 @@
-//! What was not as a scenario expects.
+//! Unmet expectations.
 
 use afp_core::Instant;
 use afp_syntax::source::Span;
 
-/// Something that was not as expected.
+/// An unmet expectation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Broken {
     /// The line of the scenario.
     pub text: String,
     /// Its place.
     pub span: Span,
-    /// When it became clear.
+    /// The time when it became clear.
     pub at: Instant,
-    /// What happened instead.
+    /// The actual behaviour.
     pub why: String,
 }

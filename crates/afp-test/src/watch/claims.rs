@@ -1,11 +1,10 @@
-//! Whether a claim of a scenario is true of an occurrence or a state.
+//! Checks a claim of a scenario against an occurrence or a state.
 
 use afp_core::trace::{Author, ComponentId};
 use afp_dsl::scenario::Claim;
 
 use super::{Occurrence, State, ends, fits};
 
-/// Whether a claim is about this.
 pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
     match (claim, occurrence) {
         (
@@ -23,7 +22,7 @@ pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
     }
 }
 
-/// Whether a claim holds now; `None` for one that is no matter of the plan's state.
+/// Whether a claim holds now; `None` if it is not about the state.
 pub(super) fn holds(claim: &Claim, state: &State) -> Option<bool> {
     match claim {
         Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),

@@ -1,4 +1,4 @@
-//! One expectation while a scenario runs.
+//! A single expectation during a run.
 
 use afp_core::{Ending, Fault, Instant, Value};
 use afp_dsl::scenario::{Claim, Expectation, Operand, Subject, Wanted, Window};
@@ -7,21 +7,21 @@ use super::claims::{happens, holds};
 use super::moments::Moments;
 use super::{Broken, Occurrence, State};
 
-/// So many times are told.
+/// The most times listed in a message.
 const MOST: usize = 5;
 
-/// What has been seen of an expectation so far.
+/// The observations for an expectation so far.
 pub(super) struct Expected<'a> {
     expectation: &'a Expectation,
-    /// Whether the claim holds since the last step, and when that was.
+    /// The time of the last step, and whether the claim has held since.
     now: Option<(u64, bool)>,
     /// The first instant of the window at which it held.
     held: Option<u64>,
-    /// The first one at which it did not.
+    /// The first instant of the window at which it did not hold.
     failed: Option<u64>,
-    /// The first time that it happened outside of the window.
+    /// The first occurrence outside the window.
     outside: Option<u64>,
-    /// Every time that it happened in the window, where that is counted.
+    /// All occurrences in the window, if they are counted.
     times: Vec<u64>,
 }
 
@@ -37,7 +37,6 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// Something happened.
     pub(super) fn on_occurrence(
         &mut self,
         at: u64,
@@ -58,19 +57,18 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// A step is over.
     pub(super) fn after_step(&mut self, at: u64, state: &State, moments: &Moments<'_>) {
         let Some(holds) = holds(&self.expectation.claim, state) else { return };
         self.pass(at, moments);
         self.now = Some((at, holds));
     }
 
-    /// The window, once it is known.
+    /// The window, if it is known.
     fn window(&self, moments: &Moments<'_>) -> Option<Window> {
         Some(self.expectation.window.behind(moments.begin(self.expectation.from)?))
     }
 
-    /// Notes what has held from the last step up to `at`, that instant excluded.
+    /// Records the state from the last step up to `at`, exclusive.
     fn pass(&mut self, at: u64, moments: &Moments<'_>) {
         let Some((since, held)) = self.now else { return };
         let Some(window) = self.window(moments) else { return };
@@ -84,7 +82,7 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// The run is over at `end`; says what broke.
+    /// Ends the run at `end` and returns the broken line.
     pub(super) fn finish(
         mut self,
         end: u64,
@@ -94,11 +92,11 @@ impl<'a> Expected<'a> {
         // The last state holds to the end of the run.
         self.pass(u64::MAX, moments);
         let expectation = self.expectation;
-        // That its moment has not come is told of the moment.
+        // A missing moment is reported separately.
         let window = self.window(moments)?;
         let unsaid = self.now.is_none() && is_about_signal(&expectation.claim);
         let never_came = window.from > end;
-        // That it happened at another time says more.
+        // An occurrence at a different time is the better explanation.
         let elsewhere = expectation.wanted == Wanted::Once && self.outside.is_some();
         let (at, why) = match expectation.wanted {
             _ if unsaid => (window.to.min(end), self.missing(state)),
@@ -121,7 +119,7 @@ impl<'a> Expected<'a> {
         Some(Broken { text, span, at: Instant::from_nanos(at), why })
     }
 
-    /// How often it happened.
+    /// The number of occurrences in words.
     fn often(&self) -> String {
         let at = self.times.iter().take(MOST).map(|at| format!("{:.3} s", *at as f64 / 1e9));
         let (count, at) = (self.times.len(), at.collect::<Vec<_>>().join(", "));
@@ -154,7 +152,7 @@ impl<'a> Expected<'a> {
     }
 }
 
-/// Why a comparison broke: what both sides are in the end.
+/// The reason for a broken comparison: the final values of both sides.
 fn compared(left: &Subject, right: &Operand, state: &State) -> String {
     let (is, other) = (state.held(left).flatten(), state.operand(right).flatten());
     let shown = match (left, state.shown(left, other.as_ref())) {
@@ -165,7 +163,7 @@ fn compared(left: &Subject, right: &Operand, state: &State) -> String {
         (_, Some(shown)) => shown,
     };
     match right {
-        // Of what is true or false, that it was not so says all.
+        // For a boolean this is the complete reason.
         Operand::Value(Value::Bool(_)) => "it was not so".to_owned(),
         Operand::Value(_) => format!("it was otherwise; in the end it is {shown}"),
         Operand::Subject(other) => {
@@ -187,7 +185,7 @@ fn is_about_signal(claim: &Claim) -> bool {
 }
 
 impl State {
-    /// An ending in words. A plan that fails by an edge of its own has no fault of a component.
+    /// An ending in words. A plan that fails by its own edge has no component's fault.
     pub(super) fn word(&self, ending: Ending) -> String {
         match ending {
             Ending::Ok => "OK".to_owned(),

@@ -1,4 +1,4 @@
-//! How often a run used each part of its plan.
+//! The use counts of each part of a plan in a run.
 
 use afp::load::PlanNames;
 use afp_core::Instant;
@@ -10,13 +10,13 @@ use afp_session::Counts;
 
 use crate::parts::Parts;
 
-/// How often each component and entry was used, by number.
+/// The use counts of components and entries, by number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hits {
-    /// How often each entry was written by a component or from outside.
+    /// The writes of each entry by components or from outside.
     pub entries: Vec<u64>,
     counts: Counts,
-    /// When the plan ended, nanoseconds.
+    /// The end of the plan, in nanoseconds.
     pub(crate) ended: Option<u64>,
     /// The element of each local supervisor.
     owners: Vec<Option<u32>>,
@@ -24,21 +24,22 @@ pub struct Hits {
     homes: Vec<u32>,
 }
 
-/// How often a component was used.
+/// The use counts of a component.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Touched {
     /// Its starts; for a computation, its runs.
     pub starts: u64,
-    /// How often each of its states was reached or events taken, by position.
+    /// The counts of its states or events, by position.
     pub outcomes: Vec<u64>,
-    /// How often its own edges for events of global supervisors were taken.
+    /// The counts of its reactions to events of global supervisors.
     pub reactions: Vec<u64>,
-    /// How often it or its supervisors failed (an element) or missed a deadline with a consequence (a supervisor).
+    /// For an element, the faults of it and its supervisors; for a supervisor, missed deadlines
+    /// with an edge.
     pub special: u64,
 }
 
 impl Hits {
-    /// Nothing was used of a plan yet.
+    /// The counts before a run.
     pub(crate) fn new(graph: &Graph) -> Self {
         let homes = Parts::new(graph).entry_homes();
         Hits {
@@ -50,7 +51,7 @@ impl Hits {
         }
     }
 
-    /// How often each component was used.
+    /// The use counts of all components.
     pub fn components(&self) -> impl Iterator<Item = Touched> {
         let all = (0..).zip(&self.counts.components);
         all.map(|(number, usage)| {
@@ -74,7 +75,7 @@ impl Hits {
         self.counts.record(at, record);
         if let Record::Committed { author, entry, .. } = *record {
             let index = entry.0 as usize;
-            // A plan gives its own entries their first values.
+            // The initial values of a plan's entries are not writes.
             let home = self.homes.get(index).map(|home| Author::Component(ComponentId(*home)));
             if let Some(count) = self.entries.get_mut(index).filter(|_| home != Some(author)) {
                 *count += 1;
@@ -82,7 +83,7 @@ impl Hits {
         }
     }
 
-    /// Adds what another run of the same plan used.
+    /// Adds the counts of another run of the same plan.
     pub fn add(&mut self, other: &Hits) {
         self.counts.add(&other.counts);
         for (mine, other) in self.entries.iter_mut().zip(&other.entries) {
@@ -90,7 +91,8 @@ impl Hits {
         }
     }
 
-    /// Adds what a logged run of the same plan used; `false` when the log is of another plan.
+    /// Adds the counts of a logged run of the same plan; returns false for a log of a different
+    /// plan.
     pub fn add_log(&mut self, log: &LogData) -> bool {
         if log.names.components() as usize != self.counts.components.len() {
             return false;

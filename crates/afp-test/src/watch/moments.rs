@@ -1,4 +1,4 @@
-//! The moments of a scenario: instants that are known once they have come.
+//! The moments of a scenario: instants that the run determines.
 
 use afp_core::Instant;
 use afp_dsl::scenario::{Moment, MomentId};
@@ -6,12 +6,12 @@ use afp_dsl::scenario::{Moment, MomentId};
 use super::claims::{happens, holds};
 use super::{Broken, Occurrence, State};
 
-/// Which moments have come, and when.
+/// The moments so far.
 pub(crate) struct Moments<'a> {
     moments: &'a [Moment],
-    /// When each came, nanoseconds.
+    /// The instant of each, in nanoseconds.
     came: Vec<Option<u64>>,
-    /// Those that nobody has been told of.
+    /// The unreported ones.
     unreported: Vec<MomentId>,
 }
 
@@ -20,17 +20,16 @@ impl<'a> Moments<'a> {
         Moments { moments, came: vec![None; moments.len()], unreported: Vec::new() }
     }
 
-    /// When what counts from there begins, nanoseconds: at once without a moment, not at all before it has come.
+    /// The start of a window, in nanoseconds: zero without a moment, `None` before the moment.
     pub(super) fn begin(&self, from: Option<MomentId>) -> Option<u64> {
         from.map_or(Some(0), |from| self.came.get(from.index()).copied().flatten())
     }
 
-    /// Whether some have come since [`Moments::take`].
+    /// Whether there are new moments since [`Moments::take`].
     pub(crate) fn has_unreported(&self) -> bool {
         !self.unreported.is_empty()
     }
 
-    /// Those that have come since the last time, each with its instant.
     pub(crate) fn take(&mut self) -> Vec<(MomentId, &'a Moment, Instant)> {
         let all = std::mem::take(&mut self.unreported).into_iter();
         let told = all.filter_map(|id| {
@@ -40,18 +39,16 @@ impl<'a> Moments<'a> {
         told.collect()
     }
 
-    /// Something happened.
     pub(super) fn on_occurrence(&mut self, at: u64, occurrence: &Occurrence) {
         self.come(at, |moment| happens(&moment.claim, occurrence));
     }
 
-    /// A step is over.
     pub(super) fn after_step(&mut self, at: u64, state: &State) {
         self.come(at, |moment| holds(&moment.claim, state) == Some(true));
     }
 
     fn come(&mut self, at: u64, is_now: impl Fn(&Moment) -> bool) {
-        // Those that others count from stand before them.
+        // A moment comes before the moments relative to it.
         for (number, moment) in (0..).zip(self.moments) {
             let is_open = self.came[usize::from(number)].is_none();
             if is_open && self.begin(moment.from).is_some() && is_now(moment) {
@@ -61,7 +58,7 @@ impl<'a> Moments<'a> {
         }
     }
 
-    /// What has not come by the end of the run, where it could have.
+    /// Moments that did not occur by the end of the run, although they could have.
     pub(super) fn missed(&self, end: u64) -> impl Iterator<Item = Broken> {
         let could = |moment: &Moment| self.begin(moment.from).is_some();
         let all = self.moments.iter().zip(&self.came);

@@ -1,4 +1,4 @@
-//! What the robot signals, as far as expectations are about it.
+//! The robot's signals in expectations.
 
 use afp_core::devices::{DeviceRow, SignalId, SignalType, find_signal, signals};
 use afp_dsl::scenario::{Claim, Field, Operand, Part, Scenario, Subject};
@@ -6,7 +6,7 @@ use afp_session::SampleRef;
 
 use super::{Held, apart};
 
-/// The signals that expectations and moments are about, with what they say.
+/// The signals in expectations and moments, with their values.
 #[derive(Default)]
 pub(crate) struct Signals(Vec<Followed>);
 
@@ -14,27 +14,27 @@ struct Followed {
     signal: Part,
     field: Option<Field>,
     id: SignalId,
-    /// The SI unit, empty for what is no quantity.
+    /// The SI unit, empty for other types.
     unit: &'static str,
     said: Said,
-    /// Whether it said something at this instant.
+    /// Whether it sent a value at this instant.
     is_heard: bool,
 }
 
-/// What a signal said last.
+/// The last value of a signal.
 enum Said {
-    /// It said nothing yet.
+    /// No value yet.
     Nothing,
-    /// There was nothing to measure, such as an echo, or it says nothing any more.
+    /// Nothing was measured, for example without an echo, or the signal has stopped.
     Empty,
     Value(Held),
 }
 
 impl Signals {
-    /// Those that the expectations and moments of a scenario are about.
+    /// Collects the signals in a scenario's expectations and moments.
     ///
     /// # Errors
-    /// The first one that the robot has not.
+    /// The first signal that the robot does not have.
     pub(crate) fn new(scenario: &Scenario, table: &'static [DeviceRow]) -> Result<Signals, Part> {
         let mut all: Vec<Followed> = Vec::new();
         let expected = scenario.expectations.iter().map(|each| &each.claim);
@@ -57,12 +57,11 @@ impl Signals {
         self.0.is_empty()
     }
 
-    /// Whether an expectation is about a signal.
+    /// Whether an expectation uses a signal.
     pub(crate) fn wants(&self, id: SignalId) -> bool {
         self.0.iter().any(|each| each.id == id)
     }
 
-    /// A signal says something.
     pub(crate) fn set(&mut self, id: SignalId, value: SampleRef<'_>) {
         for each in self.0.iter_mut().filter(|each| each.id == id) {
             each.said = said(value, each.field);
@@ -70,7 +69,7 @@ impl Signals {
         }
     }
 
-    /// All signals of an instant have been heard: one that was silent says nothing any more.
+    /// Ends the signals of an instant: a silent signal has no value any longer.
     pub(crate) fn after_samples(&mut self) {
         for each in &mut self.0 {
             let is_heard = std::mem::take(&mut each.is_heard);
@@ -80,7 +79,8 @@ impl Signals {
         }
     }
 
-    /// What a signal says; nothing inside where it measured nothing or fell silent, none at all where it said nothing yet.
+    /// The value of a signal: the inner `None` means no measurement, the outer one that it has not
+    /// sent anything yet.
     pub(super) fn said(&self, signal: &Part, field: Option<Field>) -> Option<Option<Held>> {
         match &self.find(signal, field)?.said {
             Said::Nothing => None,
@@ -89,8 +89,8 @@ impl Signals {
         }
     }
 
-    /// What a signal says in the end, for people, so that it does not read like another value; `None` where it never said
-    /// anything.
+    /// The final value of a signal for a message, distinguishable from another value; `None` if it
+    /// has never sent one.
     pub(super) fn shown(
         &self,
         signal: &Part,
@@ -112,7 +112,6 @@ impl Signals {
     }
 }
 
-/// The signals that a claim is about.
 fn signals_of(claim: &Claim) -> impl Iterator<Item = (&Part, Option<Field>)> {
     let both = match claim {
         Claim::Compare { left, right: Operand::Subject(right), .. } => [Some(left), Some(right)],
@@ -134,9 +133,9 @@ fn said(value: SampleRef<'_>, field: Option<Field>) -> Said {
             Some(range) => Held::Float(range),
             None => return Said::Empty,
         },
-        // The compiler names no part that a type has not.
+        // The compiler checks that the type has the part.
         (value, _) => match value.value() {
-            // No signal has values of an enum, or objects.
+            // Signals never hold enum values or objects.
             Some(value) => value.map(|text| text, |_| 0, |_| 0),
             None => return Said::Empty,
         },

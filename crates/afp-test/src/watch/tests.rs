@@ -1,4 +1,4 @@
-//! Traces that no sound scheduler makes are noticed.
+//! Traces that a correct scheduler never makes are detected.
 
 use afp::load::PlanNames;
 use afp_core::trace::{Author, ComponentId, Record, TraceEntryId};
@@ -47,7 +47,7 @@ fn commit(entry: TraceEntryId, author: u32) -> Record<'static> {
     Record::Committed { author, entry, old: ValueRef::Unset, new: ValueRef::Float(1.0) }
 }
 
-/// What breaks in a trace: the words of each line and why.
+/// The broken lines of a trace, with their reasons.
 fn broken(records: &[Record<'static>]) -> Vec<String> {
     let scenario = scenario();
     let names = PlanNames::new(&scenario.graph);
@@ -57,7 +57,7 @@ fn broken(records: &[Record<'static>]) -> Vec<String> {
     broken.into_iter().map(|broken| format!("{}: {}", broken.text, broken.why)).collect()
 }
 
-/// The first values, one commit of two entries, one interruption.
+/// The initial values, a commit of two entries, and an interruption.
 fn sound() -> Vec<Record<'static>> {
     vec![
         commit(GONE, 0),
@@ -70,7 +70,7 @@ fn sound() -> Vec<Record<'static>> {
 }
 
 #[test]
-fn a_sound_trace_is_as_expected() {
+fn a_valid_trace_passes() {
     assert_eq!(broken(&sound()), [""; 0]);
 }
 
@@ -97,7 +97,7 @@ fn a_second_commit_and_a_second_interruption_are_noticed() {
 }
 
 #[test]
-fn a_commit_by_who_is_not_to_write_is_noticed() {
+fn a_commit_by_the_wrong_component_is_noticed() {
     let mut foreign = sound();
     foreign.push(commit(BACK, 2));
     assert_eq!(broken(&foreign), ["never commit by home: it was so"]);

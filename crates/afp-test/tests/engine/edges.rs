@@ -1,4 +1,4 @@
-//! What scenarios say of edges to `fail` and to `resume`.
+//! Scenarios about edges to `fail` and to `resume`.
 
 use super::{FREE, run_of as run};
 

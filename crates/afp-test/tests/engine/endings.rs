@@ -1,4 +1,4 @@
-//! Which endings a scenario expects, and how a value that differs is shown.
+//! Expected endings, and the display of differing values.
 
 use super::run_of;
 
@@ -43,7 +43,7 @@ plan Ahead {
 }
 
 #[test]
-fn what_is_otherwise_never_reads_like_what_was_expected() {
+fn a_wrong_value_never_looks_like_the_expected_one() {
     let plan = r#"
         use carbot
         use std

@@ -1,4 +1,4 @@
-//! What is generated for a plan: scenarios for every event, and what none reaches.
+//! Generation: scenarios for every event, and unreachable elements.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
 }
 
 #[test]
-fn generation_reaches_what_needs_events_and_says_what_it_does_not_reach() {
+fn generation_uses_events_and_lists_unreached_elements() {
     const HIDDEN: &str = r#"
 use carbot
 use std

@@ -1,4 +1,4 @@
-//! Lines that count from a moment of the run: `from go active { ... }`.
+//! Lines relative to a moment of the run: `from go active { ... }`.
 
 use super::{breaks, passes, run};
 
@@ -30,7 +30,7 @@ fn a_moment_within_another_comes_after_it() {
 }
 
 #[test]
-fn a_moment_is_what_happens_or_holds() {
+fn a_moment_is_an_occurrence_or_a_state() {
     passes("from robot.pose.x > 1 m { expect go active always before 1 ms  until 10 ms }");
     passes(
         "from go -> back by touch { expect back active within 1 ms  until 1 s }
@@ -40,7 +40,7 @@ fn a_moment_is_what_happens_or_holds() {
 }
 
 #[test]
-fn a_moment_that_never_comes_is_said_once() {
+fn a_missing_moment_is_reported_once() {
     breaks(
         "from back active {
             at 1 s: press touch
@@ -55,7 +55,7 @@ fn a_moment_that_never_comes_is_said_once() {
 }
 
 #[test]
-fn what_is_to_be_done_after_the_end_is_not_done() {
+fn actions_after_the_end_are_not_done() {
     breaks(
         "from end { at 3 s: press touch }  at 500 ms: press escape  expect end",
         "this was not done: the run was over",

@@ -1,4 +1,4 @@
-//! What panics fails its scenario and nothing else, and what it said is told.
+//! A panic fails only its own scenario, and the verdict contains its message.
 
 use std::path::Path;
 
@@ -41,7 +41,7 @@ impl<E: Navigator + ?Sized> Actor<templates::Panics, E> for Panics {
     }
 }
 
-/// A robot that breaks as soon as it is made.
+/// A robot that panics when it is made.
 struct Broken<L>(L);
 
 impl<L: Loader> Loader for Broken<L> {
@@ -94,7 +94,7 @@ fn a_robot_that_panics_fails_its_scenario() {
 }
 
 #[test]
-fn what_a_component_said_that_panicked_is_in_the_report() {
+fn the_report_has_the_message_of_a_panic() {
     let robot = afp_sim::carbot(templates::register);
     let verdict = run("end by OK", &robot).unwrap();
     let report = verdict.report();

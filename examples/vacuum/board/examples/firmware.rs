@@ -12,7 +12,7 @@ use afp_wire::{COMMAND_TIMEOUT, Received, Receiver, Rejected, Sender};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use vacuum_protocol::{Command, LONGEST, Report, VERSION};
 
-/// What the board says and hears.
+/// The board's messages and state.
 pub struct Firmware {
     port: File,
     heard: Bytes<u8>,
@@ -38,7 +38,7 @@ impl Firmware {
         let (port, end, path) = Firmware::port()?;
         let (mut line, (tell, heard)) = (port.try_clone()?, channel());
         thread::spawn(move || {
-            // The port exists while somebody holds this end of it.
+            // The port exists while this end of it is open.
             let _end = end;
             let mut buffer = [0; 256];
             while let Ok(read) = line.read(&mut buffer) {
@@ -62,7 +62,7 @@ impl Firmware {
         Ok((firmware, path))
     }
 
-    /// A port, what holds its other end open, and the path of that.
+    /// A port, the open other end, and its path.
     pub fn port() -> io::Result<(File, File, String)> {
         let port = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
         grantpt(&port)?;
@@ -108,7 +108,7 @@ impl Firmware {
                         new.push(message);
                     }
                 }
-                // Another program begins: nothing moves before its `Start`.
+                // A new program begins: the board does not move before its `Start`.
                 Some(Err(Rejected::Restarted)) => {
                     self.receiver.forget();
                     self.stopped = true;

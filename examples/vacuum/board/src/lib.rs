@@ -1,9 +1,10 @@
-//! The vacuum cleaner itself: a board on a serial line drives the motors and reads the sensors.
+//! The real vacuum cleaner: a board on a serial line drives the motors and reads the sensors.
 //!
-//! [`vacuum_protocol`] has the messages. The board stops the motors after 200 ms without a command, so the driver repeats its
-//! commands every 20 ms, which takes 15 % of 115,200 baud. A standstill is sent at once, before everything that waits on the
-//! line. While the board is silent, the driver only sends standstill. After a restart of the board the driver sends nothing
-//! but stop: its counters and its state are those of another life.
+//! [`vacuum_protocol`] has the messages. The board stops the motors after 200 ms without a command,
+//! so the driver repeats its commands every 20 ms, which takes 15 % of 115,200 baud. A stop is sent
+//! at once, before everything in the output queue. While the board is silent, the driver sends only
+//! stops. After a restart of the board the driver also sends only stops, because the counters and
+//! the state were reset.
 
 mod line;
 
@@ -38,11 +39,11 @@ const GLANCE: std::time::Duration = std::time::Duration::from_millis(2);
 pub struct Board {
     time: RealTime,
     line: Line,
-    /// What the board said last.
+    /// The board's last message.
     heard: Arc<Mutex<Option<Heard>>>,
     asked: [f64; 2],
     suction: bool,
-    /// When the commands were sent last.
+    /// The time of the last commands.
     told: Instant,
 }
 
@@ -51,7 +52,7 @@ impl Board {
         *self.heard.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The last report, or why there is none.
+    /// The last report, or the reason why there is none.
     fn report(&self) -> Result<(Report, Instant), Invalid> {
         match self.heard() {
             Some(Heard::Report(report, at)) if self.time.now().since(at) < STALE => {
@@ -70,7 +71,7 @@ impl Board {
         }
     }
 
-    /// Repeats the commands if it is time to.
+    /// Repeats the commands if it is time.
     fn tell_again(&mut self) {
         if self.time.now().since(self.told) >= OFTEN {
             self.tell();
@@ -108,8 +109,8 @@ impl Board {
         self.line.say_at_once(&self.wanted());
     }
 
-    /// The commands: standstill while the board is silent, because a board that still hears would not stop by itself; stop after
-    /// a restart.
+    /// The commands: a stop while the board is silent, because a board that still receives would
+    /// not stop by itself, and `Stop` after a restart.
     fn wanted(&self) -> Vec<Command> {
         match self.report() {
             Ok(_) => {
@@ -122,7 +123,7 @@ impl Board {
     }
 }
 
-/// Keeps what the board says, until the line or the driver ends. Nothing follows a restart.
+/// Keeps the board's messages, until the line or the driver ends. Nothing follows a restart.
 fn listen(mut ear: Ear, time: RealTime, heard: Weak<Mutex<Option<Heard>>>) {
     while let Some(heard) = heard.upgrade() {
         match ear.hear(&time) {
@@ -246,7 +247,7 @@ impl Senses for Board {
 
 impl Robot for Board {
     type Devices = Devices;
-    /// Nobody tells where it is.
+    /// No device knows the robot's pose.
     const LACKS: &'static [&'static str] = &["robot"];
 
     fn sample(&self, to: &mut Samples<'_, '_>) {

@@ -26,19 +26,19 @@ pub struct Ear {
     receiver: Receiver<LONGEST>,
 }
 
-/// What the board says.
+/// A message of the board.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Heard {
     Report(Report, Instant),
     /// The board has restarted since the port was opened, so that it is in an unknown state.
     Restarted,
-    /// The board speaks another version of the protocol.
+    /// The board uses a different version of the protocol.
     Version(u16),
 }
 
 /// Opens a port in both directions, without waiting. A serial line gets the speed in baud, and does not edit or echo.
 pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
-    // It must not become the terminal that this process belongs to.
+    // The port must not become the controlling terminal of this process.
     let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits() as i32;
     let to = File::options().read(true).write(true).custom_flags(flags).open(port)?;
     let from = BufReader::new(to.try_clone()?);
@@ -86,15 +86,16 @@ impl Line {
         self.whole = matches!(self.port.write(&bytes), Ok(written) if written == bytes.len());
     }
 
-    /// Sends commands before everything that waits on the line.
+    /// Sends commands before everything in the output queue.
     pub fn say_at_once(&mut self, commands: &[Command]) {
-        // A line without a queue has nothing that waits.
+        // A line without a queue has nothing to discard.
         let _ = tcflush(&self.port, QueueSelector::OFlush);
         self.whole = false;
         self.say(commands);
     }
 
-    /// Stops the board even if the thread that sends commands hangs: a board that hears another life of the computer stops.
+    /// Stops the board even if the sending thread hangs: a board stops on a different boot id of
+    /// the computer.
     pub fn last_resort(&self) -> Option<LastResort> {
         let mut line = Line::new(self.port.try_clone().ok()?);
         Some(Box::new(move || {
@@ -105,11 +106,11 @@ impl Line {
 }
 
 impl Ear {
-    /// Reads what the board says next. Damaged frames do not count.
+    /// Reads the board's next message. Damaged frames do not count.
     ///
     /// # Errors
-    /// [`WouldBlock`](io::ErrorKind::WouldBlock) if there is nothing new; [`UnexpectedEof`](io::ErrorKind::UnexpectedEof) or
-    /// another error if the line has ended.
+    /// [`WouldBlock`](io::ErrorKind::WouldBlock) if there is nothing new;
+    /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof) or another error if the line has ended.
     pub fn hear(&mut self, time: &RealTime) -> io::Result<Heard> {
         loop {
             let mut byte = [0];
@@ -144,7 +145,7 @@ mod tests {
         };
         let cut = |frame: Vec<u8>| frame[..frame.len() / 2].to_vec();
         let bytes = [
-            // A report of before the hello.
+            // A report from before the hello.
             says(5.0),
             hello,
             says(1.0),

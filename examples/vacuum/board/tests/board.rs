@@ -20,7 +20,7 @@ mod firmware;
 
 use firmware::Firmware;
 
-/// Runs a board until it is told to stop, or for a while after the last word; gives it back.
+/// Runs a board until it receives `Stop`, or for a while after the last message; returns it.
 fn begin() -> (Board, thread::JoinHandle<Firmware>) {
     let (firmware, path) = Firmware::new().unwrap();
     opened(firmware, &path)
@@ -47,7 +47,7 @@ fn pass(board: &mut Board, millis: u64) {
 }
 
 #[test]
-fn commands_go_there_and_sensors_come_back() {
+fn commands_and_reports_arrive() {
     let (mut board, far) = begin();
     board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.5));
     board.suck(true);
@@ -62,7 +62,7 @@ fn commands_go_there_and_sensors_come_back() {
 }
 
 #[test]
-fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
+fn an_unread_line_blocks_nothing_and_a_stop_overtakes() {
     let (mut port, _end, path) = Firmware::port().unwrap();
     let mut says = port.try_clone().unwrap();
     let says = thread::spawn(move || {
@@ -82,7 +82,7 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     pass(&mut board, 100);
     board.emergency_stop();
     assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
-    // This end of a terminal has taken some bytes already, which cannot be taken back.
+    // This end of a terminal may already hold some bytes.
     let (mut receiver, mut told) = (Receiver::<LONGEST>::new(VERSION), 0);
     let mut heard = None;
     while heard != Some(Ok(Received::Message { message: Command::Stop, lost: 0 })) {
@@ -109,7 +109,7 @@ fn tell(path: &str, bytes: &[u8]) {
     File::options().write(true).open(path).unwrap().write_all(bytes).unwrap();
 }
 
-/// Writes to a port until it takes no more.
+/// Writes to a port until its buffer is full.
 fn full(path: &str) {
     let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
     let mut port = File::options().write(true).custom_flags(flags).open(path).unwrap();
@@ -117,7 +117,7 @@ fn full(path: &str) {
 }
 
 #[test]
-fn a_command_that_was_cut_does_not_count() {
+fn an_incomplete_command_does_not_count() {
     let (mut firmware, path) = Firmware::new().unwrap();
     let mut sender = Sender::new(5, VERSION);
     let hello = sender.hello(&mut [0; LONGEST]).unwrap().to_vec();
@@ -157,7 +157,7 @@ fn a_board_that_restarts_is_reported_by_name_and_is_not_driven() {
 }
 
 #[test]
-fn who_halts_is_heard_before_what_waits_on_the_line() {
+fn a_stop_overtakes_waiting_commands() {
     let (firmware, path) = Firmware::new().unwrap();
     let (mut board, far) = opened(firmware, &path);
     board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
@@ -169,7 +169,7 @@ fn who_halts_is_heard_before_what_waits_on_the_line() {
 }
 
 #[test]
-fn time_that_passes_in_one_piece_is_no_silence() {
+fn a_jump_of_time_is_not_silence() {
     let (mut board, far) = begin();
     board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
     board.advance(board.now() + Duration::from_secs(1));
@@ -180,7 +180,7 @@ fn time_that_passes_in_one_piece_is_no_silence() {
 }
 
 #[test]
-fn a_plan_that_has_ended_leaves_no_motor_on_and_another_may_follow() {
+fn a_plan_stops_the_motors_and_another_may_follow() {
     let (mut firmware, path) = Firmware::new().unwrap();
     let far = thread::spawn(move || {
         let all = (0..50).flat_map(|_| firmware.step().unwrap()).collect::<Vec<_>>();
@@ -202,7 +202,7 @@ fn a_plan_that_has_ended_leaves_no_motor_on_and_another_may_follow() {
 }
 
 #[test]
-fn a_robot_that_is_dropped_is_stopped() {
+fn dropping_a_robot_stops_it() {
     let (mut board, far) = begin();
     board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
     pass(&mut board, 100);
@@ -211,7 +211,7 @@ fn a_robot_that_is_dropped_is_stopped() {
 }
 
 #[test]
-fn boards_that_are_no_more_listen_no_more() {
+fn dropped_boards_stop_listening() {
     let (mut firmware, path) = Firmware::new().unwrap();
     let far = thread::spawn(move || (0..75).for_each(|_| drop(firmware.step().unwrap())));
     let settings = Settings::new([("port", &*path)]);
@@ -227,7 +227,7 @@ fn boards_that_are_no_more_listen_no_more() {
 }
 
 #[test]
-fn after_a_stop_another_run_begins_with_start() {
+fn a_run_after_a_stop_begins_with_start() {
     let (mut firmware, path) = Firmware::new().unwrap();
     let far = thread::spawn(move || {
         let mut stops = 0;
@@ -246,12 +246,12 @@ fn after_a_stop_another_run_begins_with_start() {
     pass(&mut board, 200);
     let way = board.way().value.unwrap();
     assert!(way.ahead.si() > 0.005, "{way:?}");
-    // The first run stops it, and so does the hello of the second one, which changes nothing.
+    // The first run stops it, and so does the hello of the second one, which has no other effect.
     assert_eq!(far.join().unwrap(), 1);
 }
 
 #[test]
-fn a_command_that_comes_twice_is_new_once() {
+fn a_repeated_command_counts_once() {
     let (mut firmware, path) = Firmware::new().unwrap();
     let mut sender = Sender::new(5, VERSION);
     let mut bytes = sender.hello(&mut [0; LONGEST]).unwrap().to_vec();
@@ -296,7 +296,7 @@ fn start_is_repeated_until_the_board_obeys() {
 }
 
 #[test]
-fn a_board_that_does_not_start_or_has_another_version_is_not_open() {
+fn a_board_must_start_and_have_the_right_version() {
     for (version, text) in [(VERSION, "start"), (VERSION + 1, "version")] {
         let (mut port, _end, path) = Firmware::port().unwrap();
         let far = thread::spawn(move || {
@@ -315,14 +315,14 @@ fn a_board_that_does_not_start_or_has_another_version_is_not_open() {
 }
 
 #[test]
-fn the_last_resort_needs_nobody_else() {
+fn the_last_resort_works_by_itself() {
     let (board, far) = begin();
     thread::spawn(board.last_resort().unwrap()).join().unwrap();
     assert!(far.join().unwrap().is_stopped());
 }
 
 #[test]
-fn a_board_that_says_nothing_is_no_reading() {
+fn a_silent_board_gives_no_reading() {
     let (mut board, far) = begin();
     board.emergency_stop();
     drop(far.join().unwrap());
@@ -331,7 +331,7 @@ fn a_board_that_says_nothing_is_no_reading() {
 }
 
 #[test]
-fn a_board_that_hears_but_is_not_heard_stands() {
+fn a_board_without_a_reply_line_stops() {
     let (mut firmware, path) = Firmware::new().unwrap();
     let far = thread::spawn(move || {
         for _ in 0..20 {
@@ -356,7 +356,7 @@ fn a_board_that_hears_but_is_not_heard_stands() {
 }
 
 #[test]
-fn what_cannot_be_opened_says_why() {
+fn a_failed_open_is_explained() {
     let why = |settings: &Settings| Board::open(settings).err().unwrap().to_string();
     assert!(why(&Settings::default()).contains("'port'"));
     assert!(why(&Settings::new([("port", "/no/such/port")])).contains("/no/such/port"));

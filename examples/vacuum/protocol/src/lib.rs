@@ -10,13 +10,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The version of the messages. Each change of a message has another one.
+/// The version of the messages. Each change of a message needs a new one.
 pub const VERSION: u16 = 1;
 
-/// No frame is longer, bytes.
+/// The longest frame, in bytes.
 pub const LONGEST: usize = 64;
 
-/// What the computer sends.
+/// A message of the computer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Drive and turn.
@@ -34,10 +34,10 @@ pub enum Command {
     Start,
 }
 
-/// What the board sends.
+/// A message of the board.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// What the wheels have counted: m ahead, rad turned.
+    /// The counts of the wheels: metres ahead, radians turned.
     pub way: [f64; 2],
     /// Whether the left and the right switch of the bumper are pressed.
     pub bumper: [bool; 2],

@@ -22,7 +22,7 @@ const FRAMES: &[(&str, &str)] = &[
 ];
 
 #[test]
-fn plans_and_toolboxes_say_what_the_book_says() {
+fn plans_and_toolboxes_of_the_book_compile() {
     let mut shown: BTreeMap<String, Shown> = BTreeMap::new();
     let mut wrong = Vec::new();
     for block in blocks("afp") {
@@ -35,14 +35,13 @@ fn plans_and_toolboxes_say_what_the_book_says() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What a page has shown so far.
+/// The blocks shown so far on a page.
 struct Shown {
     toolboxes: Toolboxes,
     files: Texts,
 }
 
-/// What is wrong with a block; toolboxes and named files are there for the plans behind them on the
-/// page.
+/// Returns the error of a block; later plans of the page can use its toolboxes and files.
 fn check(block: &Block, shown: &mut Shown) -> Option<String> {
     let name = block.value("file").unwrap_or("block.afp");
     let source = Source::new(name, block.text.as_str());
@@ -79,7 +78,7 @@ fn check(block: &Block, shown: &mut Shown) -> Option<String> {
     }
 }
 
-/// Why a part of a file is no part of any file.
+/// The reason why a fragment fits no frame.
 fn fragment(text: &str) -> Option<String> {
     let fits = |(before, after): &(&str, &str)| {
         let mut diags = Diagnostics::default();

@@ -1,11 +1,11 @@
-//! Excerpts of the example that brings a robot: they stand in its files.
+//! Excerpts of the vacuum example: they match its files.
 
 use std::fs;
 
 use crate::{blocks_where, docs};
 
 #[test]
-fn excerpts_are_to_the_letter() {
+fn excerpts_match_their_files() {
     let excerpts = blocks_where(|block| block.value("of").is_some());
     assert!(!excerpts.is_empty());
     for block in excerpts {

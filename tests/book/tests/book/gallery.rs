@@ -1,10 +1,10 @@
-//! The gallery shows every plan that AFP ships, and no other.
+//! The gallery shows exactly the shipped plans.
 
 use std::fs;
 
 use crate::docs;
 
-/// All pictures of the gallery together.
+/// The largest total size of the gallery's pictures.
 const MOST_BYTES: u64 = 2 << 20;
 
 #[test]

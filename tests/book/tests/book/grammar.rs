@@ -1,4 +1,4 @@
-//! The grammar in the book: the parser takes random sentences of it, and knows no other words.
+//! The grammar in the book: the parser accepts random sentences of it, and has no other keywords.
 
 mod ebnf;
 
@@ -12,10 +12,10 @@ use afp_syntax::{Kind, parse};
 use crate::{blocks, docs};
 use ebnf::Grammar;
 
-/// Random files that the parser must take.
+/// The number of random files.
 const SENTENCES: u64 = 2000;
 
-/// Words that the tree marks as names; the checks know what they mean.
+/// Keywords that the tree marks as names; the checks interpret them.
 const MARKED_AS_NAMES: &[&str] = &["ignore", "true", "false"];
 
 fn grammar() -> Grammar {
@@ -41,12 +41,12 @@ fn the_words_of_the_grammar_are_those_of_the_parser() {
     let grammar = grammar();
     let sentences = (0..SENTENCES).flat_map(|seed| keywords(&grammar.sentence("file", seed)));
     let mut taken: BTreeSet<String> = sentences.collect();
-    // The verb of an action is a name that the tree marks as a word.
+    // The verb of an action is a name that the tree marks as a keyword.
     taken.retain(|word| !word.starts_with(ebnf::NAME));
     let mut written = grammar.words();
     written.retain(|word| !MARKED_AS_NAMES.contains(&word.as_str()));
     assert_eq!(taken, written, "words that the parser takes, and words of the grammar");
-    // The last one is what people write in place of 'never'.
+    // The last one is a common misspelling of 'never'.
     let verbs = ["press", "release", "fail", "fire", "finish", "idle", "hit", "not"];
     for file in files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")) {
         for word in keywords(&fs::read_to_string(&file).unwrap()) {
@@ -65,7 +65,7 @@ fn the_words_that_the_book_colours_are_those_of_the_grammar() {
     assert_eq!(coloured, grammar().words());
 }
 
-/// The words of the language in a text; none in one with errors, in which a slip is read as such a word.
+/// The keywords in a text; none if it has errors, since recovery may read a name as a keyword.
 fn keywords(text: &str) -> Vec<String> {
     let mut diags = Diagnostics::default();
     let root = parse(text, 0, &mut diags).root();

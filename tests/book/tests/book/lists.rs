@@ -1,4 +1,4 @@
-//! Lists in the book that are made from the sources: codes, templates, functions, units, the table of contents.
+//! Generated lists in the book: codes, templates, functions, units, the table of contents.
 
 mod functions;
 mod templates;
@@ -11,10 +11,9 @@ use afp_syntax::diagnostics::Code;
 
 use crate::{compare, docs};
 
-/// The width of a page of a code.
+/// The width of a code's page.
 const WIDTH: usize = 100;
 
-/// The groups of codes.
 const GROUPS: &[(&str, &str)] = &[
     ("E01", "Syntax"),
     ("E02", "Names, types and units"),
@@ -24,7 +23,7 @@ const GROUPS: &[(&str, &str)] = &[
     ("E06", "Scenarios"),
 ];
 
-/// Replaces what stands between the list's marks in a page.
+/// Replaces the text between the list's marks in a page.
 fn with_list(page: &str, list: &str) -> String {
     let (begin, end) = ("<!-- list: made by a test -->\n", "<!-- end of list -->");
     let (before, rest) = page.split_once(begin).expect("the mark of the list's begin");
@@ -32,7 +31,7 @@ fn with_list(page: &str, list: &str) -> String {
     format!("{before}{begin}{list}{end}{after}")
 }
 
-/// Replaces the paragraph of a page that begins so.
+/// Replaces the paragraph of a page with that beginning.
 fn with_paragraph(page: &str, begin: &str, text: &str) -> String {
     let text = wrapped(text);
     let mut parts: Vec<_> = page.split("\n\n").collect();
@@ -41,7 +40,7 @@ fn with_paragraph(page: &str, begin: &str, text: &str) -> String {
     parts.join("\n\n")
 }
 
-/// A text in lines of at most [`WIDTH`] letters.
+/// Wraps a text at [`WIDTH`] letters.
 fn wrapped(text: &str) -> String {
     let mut lines = vec![String::new()];
     for word in text.split(' ') {
@@ -80,7 +79,7 @@ fn all_codes_are_listed() {
 fn the_table_of_contents_has_the_page_of_every_code() {
     let mut list = String::new();
     for (prefix, title) in GROUPS {
-        // A group has no page of its own.
+        // A group has no page.
         let _ = writeln!(list, "  - [{title}]()");
         for code in group(prefix) {
             let name = code.as_str();

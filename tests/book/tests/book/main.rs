@@ -1,6 +1,7 @@
-//! The book shows what is there: its blocks compile, its lists are whole, its links lead somewhere.
+//! The book matches the code: its blocks compile, its lists are complete, and its links have
+//! targets.
 //!
-//! What `afpc` prints in it is compared by a test of `afpc`. `AFP_BLESS=1` rewrites the lists.
+//! A test of `afpc` compares its output. `AFP_BLESS=1` rewrites the lists.
 
 mod afp_blocks;
 mod excerpts;
@@ -23,12 +24,10 @@ fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(afp_book::DOCS)
 }
 
-/// All blocks of a kind.
 fn blocks(kind: &str) -> Vec<Block> {
     blocks_where(|block| block.kind == kind)
 }
 
-/// All blocks of which something holds.
 fn blocks_where(holds: impl Fn(&Block) -> bool) -> Vec<Block> {
     let mut blocks = afp_book::blocks(&docs()).unwrap();
     blocks.retain(holds);
@@ -40,7 +39,7 @@ fn toolboxes() -> Toolboxes {
     afp_toolboxes::sources().collect()
 }
 
-/// Compares a text of the book with what it should be; with `AFP_BLESS=1` rewrites it instead.
+/// Compares a text of the book with its expected content, or rewrites it with `AFP_BLESS=1`.
 #[track_caller]
 fn compare(file: &str, actual: &str, wanted: &str) {
     if actual != wanted && std::env::var_os("AFP_BLESS").is_some() {

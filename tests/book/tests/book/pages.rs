@@ -1,4 +1,4 @@
-//! Pages: each is in the table of contents, no link leads nowhere, no block goes unchecked.
+//! Pages: each is in the table of contents, each link has a target, and each block is checked.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use afp_book::{blocks, pages};
 
 use crate::docs;
 
-/// The kinds of blocks that a test looks at.
+/// The kinds of checked blocks.
 const KINDS: &[&str] = &["afp", "rust", "toml", "console", "sh", "ebnf", "python", "lua", "text"];
 
 #[test]
@@ -37,7 +37,7 @@ fn links_lead_to_pages_and_headings() {
             let file = if file.is_empty() { format!("{page}.md") } else { file.to_owned() };
             let there = fs::read(docs().join(&file));
             let there = there.unwrap_or_else(|_| panic!("docs/{page}.md links to {file}"));
-            // A picture is no text, and has no headings.
+            // A picture is not text and has no headings.
             let there = String::from_utf8_lossy(&there);
             let found = heading.is_empty() || headings(&there).any(|each| each == heading);
             assert!(found, "docs/{page}.md links to {file}#{heading}");

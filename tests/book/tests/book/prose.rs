@@ -21,7 +21,7 @@ const ALLOWED: &[(&str, &str)] = &[("ARCHITECTURE.md", "what")];
 /// The file with the numbers.
 const COUNTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/prose.txt");
 
-/// The folders with Rust of ours.
+/// The folders with handwritten Rust.
 const RUST: [&str; 6] = ["bench", "crates", "examples", "firmware", "tests", "xtask"];
 
 fn root() -> PathBuf {

@@ -6,10 +6,9 @@ use std::path::Path;
 
 use crate::docs;
 
-/// The page with the list.
 const PAGE: &str = "public-names.md";
 
-/// Where the crates say what is public.
+/// The files with public items of the crates.
 const ROOTS: [&str; 6] = [
     "afp/src/lib.rs",
     "afp/src/load.rs",
@@ -19,7 +18,7 @@ const ROOTS: [&str; 6] = [
     "afp-core/src/quantity.rs",
 ];
 
-/// What stands behind `pub` and before a name.
+/// The words between `pub` and a name.
 const ITEMS: [&str; 9] =
     ["const fn", "fn", "struct", "enum", "trait", "const", "type", "mod", "macro"];
 
@@ -61,14 +60,13 @@ fn names(text: &str) -> Vec<String> {
     names
 }
 
-/// The names that `a::{b, c as d}` brings.
+/// The names that `a::{b, c as d}` exports.
 fn reexported(path: &str) -> Vec<String> {
     let list = path.split_once('{').map_or(path, |(_, list)| list.trim_end_matches('}'));
     let last = |item: &str| words(item).last();
     list.split(',').filter_map(last).collect()
 }
 
-/// The names of the list.
 fn listed() -> BTreeSet<String> {
     let text = fs::read_to_string(docs().join(PAGE)).unwrap();
     let rows = text.lines().filter_map(|line| line.strip_prefix("| `")?.split(" | ").next());
@@ -83,7 +81,7 @@ fn told() -> BTreeSet<String> {
     pages.flat_map(|page| code(&fs::read_to_string(page).unwrap())).collect()
 }
 
-/// The words between backticks, blocks included: every other piece of the page.
+/// The words between backticks, including blocks: every second piece of the page.
 fn code(page: &str) -> Vec<String> {
     page.split('`').skip(1).step_by(2).flat_map(words).collect()
 }

@@ -1,4 +1,4 @@
-//! The Rust in the book: it compiles here, and its tests and programs run.
+//! The book's Rust: it compiles here, and its tests and programs run.
 
 use crate::blocks;
 

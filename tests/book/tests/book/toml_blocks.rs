@@ -7,7 +7,7 @@ use toml_edit::DocumentMut;
 use crate::blocks;
 
 #[test]
-fn files_in_toml_are_read() {
+fn toml_files_are_valid() {
     for block in blocks("toml") {
         let read = match () {
             () if block.has("world") => {
@@ -26,7 +26,8 @@ fn project(block: &Block) -> Result<(), String> {
     mistakes.first().map_or(Ok(()), |mistake| Err(mistake.to_string()))
 }
 
-/// A manifest names crates of this workspace, with features they have, or crates of a registry by their version.
+/// A manifest names crates of this workspace, with existing features, or registry crates with a
+/// version.
 fn manifest(block: &Block) -> Result<(), String> {
     let document: DocumentMut = block.text.parse().map_err(|error| format!("{error}"))?;
     let tables = ["dependencies", "dev-dependencies"]

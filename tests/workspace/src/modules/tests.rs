@@ -30,7 +30,7 @@ fn imports_paths_and_macro_calls_are_arrows() {
 }
 
 #[test]
-fn other_crates_modules_without_items_and_own_names_are_no_arrows() {
+fn other_crates_empty_modules_and_own_names_are_not_arrows() {
     for text in [
         "use crate::b;",
         "use ::b::B; use std::b::B;",

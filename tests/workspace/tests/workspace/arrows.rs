@@ -1,4 +1,4 @@
-//! Who depends on whom: the crate map of ARCHITECTURE.md is the truth.
+//! Dependencies between crates: the crate map of ARCHITECTURE.md is correct.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -6,12 +6,12 @@ use std::path::Path;
 
 use afp_workspace::{built_from, packages, root};
 
-/// What a row of the map allows.
+/// The permissions of a row in the map.
 #[derive(Debug, PartialEq)]
 enum Allowed {
     /// These packages.
     Only(BTreeSet<String>),
-    /// Whatever it needs.
+    /// Any package.
     All,
 }
 
@@ -20,7 +20,7 @@ fn quoted(cell: &str) -> impl Iterator<Item = &str> {
     cell.split('`').skip(1).step_by(2)
 }
 
-/// The rows of the map: a name in the first column, what it may depend on in the last.
+/// The rows of the map: a name in the first column, its permitted dependencies in the last.
 fn map(page: &str) -> BTreeMap<String, Allowed> {
     let section = page.split("\n## Crates\n").nth(1).unwrap_or_default();
     let section = section.split("\n## ").next().unwrap_or_default();
@@ -43,7 +43,7 @@ fn map(page: &str) -> BTreeMap<String, Allowed> {
 }
 
 #[test]
-fn every_arrow_stands_in_the_crate_map() {
+fn every_arrow_is_in_the_crate_map() {
     let map = map(&fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap());
     let packages = packages();
     let mut wrong = Vec::new();
@@ -62,7 +62,7 @@ fn every_arrow_stands_in_the_crate_map() {
 }
 
 #[test]
-fn the_map_is_read_as_it_is_written() {
+fn the_map_is_parsed() {
     let page = "\n## Crates\n\n| crate | what it is | depends on |\n|---|---|---|\n\
         | `afp-a` | of `afp-x` | `afp-b` (feature `load`), `afp-c` |\n| `afp-b`, `b/` | | nothing |\n\
         | `afpc` | | what it needs |\n\n## Next\n| `afp-d` | | all |\n";
@@ -77,7 +77,7 @@ fn the_map_is_read_as_it_is_written() {
 }
 
 #[test]
-fn nothing_needs_what_is_no_crate() {
+fn only_crates_are_dependencies() {
     let packages = packages();
     for (name, package) in packages.iter().filter(|(_, each)| each.folder.starts_with("crates")) {
         for need in &package.needs {
@@ -88,7 +88,7 @@ fn nothing_needs_what_is_no_crate() {
     }
 }
 
-/// A change of the former rebuilds none of the latter.
+/// A change of the former does not rebuild the latter.
 #[test]
 fn plans_and_robots_are_built_from_no_drawing_editor_or_formatter() {
     let packages = packages();

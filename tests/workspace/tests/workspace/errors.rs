@@ -1,4 +1,4 @@
-//! What may fail in another way tomorrow says so to those who match today.
+//! Errors that may get new variants are `non_exhaustive`.
 
 use std::fs;
 
@@ -6,10 +6,10 @@ use afp_workspace::root;
 
 use crate::sources::rust_files;
 
-/// Errors that both ends of ours must know: a kind of error that compiler or run time forgot is not to compile.
+/// Errors that both ends of the workspace must know, so that a forgotten variant does not compile.
 const OURS: [&str; 1] = ["afp-types/src/lib.rs: Error"];
 
-/// The public enums of a text that are errors and can be matched to the last.
+/// The public error enums of a text without `non_exhaustive`.
 fn exhaustive(text: &str) -> Vec<&str> {
     let mut found = Vec::new();
     let mut open = true;
@@ -39,7 +39,7 @@ fn errors_may_get_more_kinds() {
 }
 
 #[test]
-fn an_error_that_can_be_matched_to_the_last_is_found() {
+fn an_exhaustive_error_is_found() {
     let text =
         "#[non_exhaustive]\npub enum AError {\n}\npub enum BError<E> {\n}\npub enum Go {\n}\n";
     assert_eq!(exhaustive(text), ["BError"]);

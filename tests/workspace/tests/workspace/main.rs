@@ -1,4 +1,4 @@
-//! What holds between the crates of the workspace.
+//! Properties of the whole workspace.
 
 mod arrows;
 mod errors;

@@ -9,7 +9,6 @@ use afp_workspace::root;
 
 use crate::sources::rust_files;
 
-/// The arrows of each crate.
 fn crates() -> BTreeMap<String, Arrows> {
     let folders = fs::read_dir(root().join("crates")).unwrap().map(|entry| entry.unwrap().path());
     let graph = |folder: std::path::PathBuf| {

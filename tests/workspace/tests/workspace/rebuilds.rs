@@ -1,4 +1,4 @@
-//! What cargo builds again after a change.
+//! The packages that cargo rebuilds after a change.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -8,10 +8,9 @@ use std::time::SystemTime;
 use afp_workspace::{built_from, cargo, output, packages, root};
 use serde_json::Value;
 
-/// A style of the drawing.
 const STYLE: &str = "crates/afp-draw/src/svg/style.rs";
 
-/// The packages of the workspace that cargo checks anew.
+/// The packages of the workspace that cargo checks again.
 fn rebuilt() -> BTreeSet<String> {
     let mut check = cargo("check");
     check.args(["--message-format", "json", "--quiet"]);
@@ -30,7 +29,7 @@ fn rebuilt() -> BTreeSet<String> {
     names.filter_map(name).collect()
 }
 
-/// Gives a file another time of change, and its own back.
+/// Changes a file's modification time, and restores it.
 struct Touched {
     file: File,
     before: SystemTime,
@@ -47,7 +46,7 @@ impl Touched {
 
 impl Drop for Touched {
     fn drop(&mut self) {
-        // A file that stays as if changed is built again once more, and nothing else.
+        // If this fails, only this file is rebuilt once more.
         let _ = self.file.set_modified(self.before);
     }
 }

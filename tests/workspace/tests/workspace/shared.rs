@@ -1,4 +1,5 @@
-//! What is built once serves all: macros and programs, the tests, the command line, the Python package.
+//! Shared builds: macros and programs, the tests, the command line and the Python package use the
+//! same units.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -6,25 +7,25 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use afp_workspace::{built_from, cargo, output, packages};
 use serde_json::Value;
 
-/// What the tests of the workspace are built with.
+/// The cargo arguments of the workspace's tests.
 const TESTS: &str = "test --workspace --features afpc/full --exclude afp-bench --exclude afp-py \
                      --exclude afp-py-wheel --exclude afp-language-server --exclude afp-wasm --exclude xtask";
 
-/// A library as it is built in one way.
+/// A library in one build variant.
 struct Unit {
     name: String,
-    /// Stands for the way in which it is built, with all that is below it.
+    /// Identifies the build variant, with all its dependencies.
     way: u64,
 }
 
-/// What cargo would build of libraries.
+/// The libraries that cargo would build.
 fn libraries(command: &str) -> Vec<Unit> {
     let (command, options) = command.split_once(' ').unwrap();
     let mut plan = cargo(command);
     plan.args(options.split_whitespace()).arg("--unit-graph");
-    // What cargo would do is told by an option that has no promise yet.
+    // Cargo's build plan is an unstable option.
     plan.args(["-Z", "unstable-options"]).env("RUSTC_BOOTSTRAP", "1");
-    // As Cargo.toml says it, whatever is wished here.
+    // The settings of Cargo.toml apply, not those of the environment.
     for wish in ["CARGO_PROFILE_DEV_DEBUG", "CARGO_PROFILE_DEV_BUILD_OVERRIDE_DEBUG"] {
         plan.env_remove(wish);
     }
@@ -43,7 +44,7 @@ fn libraries(command: &str) -> Vec<Unit> {
     all.filter(|(index, _)| is_library(&units[*index])).map(|(_, unit)| unit).collect()
 }
 
-/// In which way a unit is built.
+/// The build variant of a unit.
 fn way(units: &[Value], index: usize, known: &mut [Option<u64>]) -> u64 {
     if let Some(way) = known[index] {
         return way;
@@ -53,7 +54,7 @@ fn way(units: &[Value], index: usize, known: &mut [Option<u64>]) -> u64 {
     for part in ["pkg_id", "target", "features", "mode", "platform"] {
         unit[part].to_string().hash(&mut hasher);
     }
-    // The name of the profile is no part of it.
+    // The name of the profile does not matter.
     for part in ["opt_level", "lto", "debuginfo", "debug_assertions", "overflow_checks", "panic"] {
         unit["profile"][part].to_string().hash(&mut hasher);
     }
@@ -66,7 +67,7 @@ fn way(units: &[Value], index: usize, known: &mut [Option<u64>]) -> u64 {
 }
 
 #[test]
-fn what_macros_and_programs_share_is_built_once() {
+fn shared_libraries_of_macros_and_programs_are_built_once() {
     let shared = built_from(&packages(), "afp-codegen");
     for features in ["default", "full"] {
         let mut builds = BTreeMap::new();
@@ -85,12 +86,12 @@ fn what_macros_and_programs_share_is_built_once() {
 }
 
 #[test]
-fn what_the_tests_are_built_from_is_not_built_again_for_others() {
+fn libraries_of_the_tests_serve_all_other_builds() {
     let tests: BTreeSet<_> = libraries(TESTS).into_iter().map(|unit| unit.way).collect();
-    // What has less than tests have, and all above it.
+    // Libraries with fewer features than in tests, and all their dependents.
     let of_first =
         ["afpc", "afp-log", "afp-run", "afp-sweep", "afp-test", "afp-build", "itertools"];
-    // That, and what the Python package has alone.
+    // Those, and the libraries of the Python package.
     let of_python = [
         "afp-log",
         "afp-run",

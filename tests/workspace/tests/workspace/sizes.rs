@@ -1,4 +1,4 @@
-//! Files and functions stay small enough to be read at once.
+//! Files and functions stay short enough to read.
 
 use std::fs;
 
@@ -6,17 +6,15 @@ use afp_workspace::root;
 
 use crate::sources::rust_files;
 
-/// Lines of a file.
 const MOST_LINES: usize = 450;
-/// Lines of code in the body of a function. Arms of a `match` that take one line do not count: a table
-/// is no harder to read for being long.
+/// The most lines of code in the body of a function. Arms of a `match` on one line do not count: a
+/// long table is easy to read.
 const MOST_IN_FUNCTION: usize = 60;
 
-/// Where sources are.
 const FOLDERS: [&str; 7] = ["bench", "crates", "examples", "firmware", "fuzz", "tests", "xtask"];
 
-/// The first lines and the lengths of the functions in a text. It is formatted, so a function ends with
-/// the first brace that stands where it began.
+/// The first lines and the lengths of the functions in a text. It is formatted, so a function ends
+/// at the first brace with its indentation.
 fn functions(text: &str) -> Vec<(&str, usize)> {
     let lines: Vec<&str> = text.lines().collect();
     let begins = lines.iter().enumerate().filter(|(_, line)| is_signature(line));

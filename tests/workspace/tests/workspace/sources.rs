@@ -1,12 +1,12 @@
-//! The Rust that people write, file by file.
+//! The handwritten Rust, file by file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Rust that was generated: by our generator, and from the log's messages.
+/// Generated Rust: by the code generator, and from the log's messages.
 const GENERATED: [&str; 2] = ["tests/codegen", "src/proto"];
 
-/// The Rust files below a folder, but those that were generated or built.
+/// The handwritten Rust files below a folder.
 pub fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let below = |path: PathBuf| {
         let is_ours = |path: &Path| {

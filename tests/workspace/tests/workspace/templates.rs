@@ -1,4 +1,4 @@
-//! Templates are known by name only in their own crates, and in one table.
+//! Names of templates occur only in their own crates, and in one table.
 
 use std::collections::BTreeSet;
 use std::fs;

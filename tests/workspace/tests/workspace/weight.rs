@@ -1,10 +1,11 @@
-//! What `afpc` carries: no asynchronous run time and no web server; messages to editors go over standard input.
+//! The dependencies of `afpc`: no asynchronous run time and no web server, since messages to
+//! editors use standard input.
 
 use std::collections::BTreeSet;
 
 use afp_workspace::{cargo, output};
 
-/// Families of crates by the beginning of their names.
+/// Families of crates, by prefixes of their names.
 const FAMILIES: &[&str] = &[
     "actix",
     "async-",
@@ -40,7 +41,7 @@ fn is_refused(name: &str) -> bool {
     })
 }
 
-/// What of those families is built into `afpc` with some features.
+/// The crates of these families in `afpc` with some features.
 fn refused(features: &str) -> BTreeSet<String> {
     let options = ["--package", "afpc", "--edges", "normal,build", "--prefix", "none"];
     let tree =

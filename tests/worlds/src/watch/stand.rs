@@ -1,19 +1,20 @@
-//! Whether the robot stands when it should.
+//! Whether the robot has stopped when it should.
 
 use afp_core::{Duration, Instant};
 use afp_sim::{Pose, Simulation};
 
-/// A robot that goes no faster stands: metres and radians a second.
+/// The speeds below which the robot counts as stopped, in metres and radians per second.
 const STANDS: (f64, f64) = (0.006, 0.026);
-/// The controller stops by itself when it has heard nothing for so long.
+/// The time without commands after which the controller stops by itself.
 const DEAD_MAN: Duration = Duration::from_millis(200);
-/// What was pushed comes to rest within this, on a floor that grips.
+/// The time in which a pushed robot comes to rest on a gripping floor.
 const PUSHED: Duration = Duration::from_millis(300);
-/// The fastest that the robot goes, metres a second, and what of the weight brakes: the grip of the
-/// two wheels that drive, and the castors.
+/// The largest speed of the robot in metres per second, and the share of the weight that brakes:
+/// the grip of the two driven wheels, and the castors.
 const FASTEST: f64 = 0.31;
-/// What friction has to brake of a turn, too, as a speed for each rad/s: the moment of inertia about the turning centre by
-/// mass and half the track, and as much again, since it cannot brake both at once; metres.
+/// The additional speed for friction to brake per rad/s of a turn, in metres: the moment of inertia
+/// about the turning centre divided by mass and half the track, doubled, since friction cannot
+/// brake both motions at once.
 const TURNING: f64 = 0.32;
 const GRIP: f64 = 0.7 * 9.81 / 2.0;
 const ROLLING: f64 = 0.02 * 9.81 / 2.0;
@@ -21,19 +22,19 @@ const ROLLING: f64 = 0.02 * 9.81 / 2.0;
 /// Watches the robot while the command is zero.
 #[derive(Debug)]
 pub(super) struct Stand {
-    /// Since when the command is zero; none while it is not.
+    /// The time since which the command is zero; `None` while it is not.
     since: Option<Instant>,
-    /// When a command last came.
+    /// The time of the last command.
     commanded: Instant,
-    /// How fast it turned when it was last commanded to move, rad/s.
+    /// The turn rate at the last command to move, in rad/s.
     turned: f64,
-    /// The time that the templates declare.
+    /// The stop time of the templates.
     stop: Duration,
-    /// When and where it was last looked at.
+    /// The time and the pose of the last check.
     last: (Instant, Pose),
-    /// From when to when the floor is how slippery.
+    /// The times of slippery floors, with their friction.
     slippery: Vec<(Instant, Instant, f64)>,
-    /// From when to when the controller hears nothing.
+    /// The times in which the controller receives nothing.
     deaf: Vec<(Instant, Instant)>,
 }
 
@@ -66,7 +67,7 @@ impl Stand {
         self.deaf.push((from, until));
     }
 
-    /// Looks at the robot; says so if it moves but should not.
+    /// Checks the robot, and returns an error if it moves but should not.
     pub(super) fn look(&mut self, sim: &Simulation) -> Option<String> {
         let (now, pose) = (sim.now(), sim.truth().pose());
         let (then, before) = std::mem::replace(&mut self.last, (now, pose));
@@ -91,7 +92,7 @@ impl Stand {
         })
     }
 
-    /// How long the robot may take that was told to stand at an instant.
+    /// The time that the robot may take to stop after a command at an instant.
     fn allowed(&self, since: Instant) -> Duration {
         let deaf = self.deaf.iter().any(|(from, until)| *from <= since && since < *until);
         let heard = if deaf { DEAD_MAN } else { Duration::ZERO };
@@ -99,8 +100,8 @@ impl Stand {
         heard + self.stop + slide
     }
 
-    /// For how much longer than until `due` the robot may slide that should stand since an instant; not at all on a floor
-    /// that grips.
+    /// The additional time after `due` that a robot may slide after a command to stop; zero on a
+    /// gripping floor.
     fn slide(&self, since: Instant, due: Instant) -> Duration {
         let horizon = due + Duration::from_secs(3);
         let slips =
@@ -114,7 +115,8 @@ impl Stand {
         }
     }
 
-    /// Whether something has touched the robot since, or so short a time before that it may not have come to rest.
+    /// Whether an obstacle has touched the robot since then, or so shortly before that it may still
+    /// be moving.
     fn pushed(&self, sim: &Simulation, then: Instant) -> bool {
         let mut touches = sim.truth().collisions().iter();
         touches.any(|touch| touch.end + PUSHED + self.slide(touch.end, touch.end + PUSHED) >= then)

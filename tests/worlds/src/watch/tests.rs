@@ -54,7 +54,7 @@ fn watched() -> (Simulation, Watch) {
     (sim, watch)
 }
 
-/// Drives every 10 ms, the odometry well, up to before `end`.
+/// Drives every 10 ms with valid odometry, up to but without `end`.
 fn drive(watch: &mut Watch, from: u64, end: u64) {
     for millis in (from..end).step_by(10) {
         watch.step(at(millis));
@@ -83,7 +83,7 @@ fn driving_on_an_old_or_invalid_odometry_breaks_a_rule() {
 
 #[test]
 fn driving_on_without_a_usable_echo_breaks_a_rule() {
-    // New readings that are invalid, and the same valid one again and again.
+    // New invalid readings, and the same valid one repeatedly.
     for valid in [false, true] {
         let (_, mut watch) = watched();
         watch.told(Sensor::Ultrasonic, true, at(10), at(20));
@@ -140,7 +140,7 @@ fn a_motion_after_the_end_breaks_a_rule() {
     breaks(watch, "after the end");
 }
 
-/// The robot drives for a second; then it is told to stand, but hears nothing of it before `stop`.
+/// The robot drives for a second and is then commanded to stop, but receives nothing before `stop`.
 fn rolls(chance: &Chance, stop: u64) -> Watch {
     let (mut sim, mut watch) = watched();
     watch.happened(chance);
@@ -171,7 +171,7 @@ fn a_robot_that_rolls_past_its_stop_time_breaks_a_rule() {
 }
 
 #[test]
-fn on_a_slippery_floor_or_with_a_deaf_controller_it_may_take_longer_but_not_for_ever() {
+fn a_slippery_floor_or_a_deaf_controller_allows_more_time() {
     let slip = Stimulus::Break(Fault::WheelsSlip { share: 0.1 }, Duration::MAX);
     let slip = Chance(vec![(at(500), slip)]);
     assert_eq!(rolls(&slip, 1000).broken(), []);
@@ -190,7 +190,7 @@ fn a_robot_out_of_the_room_breaks_a_rule() {
     breaks(watch, "the robot is at");
 }
 
-/// Drives for a second with an infrared sensor that says at every poll what it measured at `time`.
+/// Drives for a second with an infrared sensor whose reading at every poll was measured at `time`.
 fn drive_by_infrared(time: impl Fn(u64) -> u64) -> Watch {
     let (_, mut watch) = watched();
     for millis in (1000..2000).step_by(10) {

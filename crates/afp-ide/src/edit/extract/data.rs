@@ -1,4 +1,4 @@
-//! The data that flows into a selection and out of it.
+//! The data that a selection reads and writes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,10 +13,10 @@ use afp_syntax::kind::Kind;
 struct Used {
     name: String,
     ty: String,
-    /// Its range as written, behind a blank; empty without one.
+    /// Its range as written, after a space; empty without a range.
     range: String,
     written: bool,
-    /// The name of the input that brings its value, where one is needed.
+    /// The input that passes its value, if needed.
     input: Option<String>,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Data {
 }
 
 impl Data {
-    /// Finds the entries that a selection reads and writes, when it begins with `first`.
+    /// Finds the entries that a selection reads and writes, if it starts with `first`.
     pub fn of(selection: &Selection, first: &str) -> Result<Data, Refused> {
         let mut read = BTreeSet::new();
         let mut written = BTreeSet::new();
@@ -74,7 +74,7 @@ impl Data {
         Ok(data)
     }
 
-    /// The entries of the new plan, one text for each.
+    /// The entries of the new plan as texts.
     pub fn entries(&self) -> Vec<String> {
         let inputs = self.used.iter().filter_map(|used| {
             let input = used.input.as_ref()?;
@@ -98,7 +98,6 @@ impl Data {
     }
 }
 
-/// The type of an entry as written.
 pub(in crate::edit) fn type_of(entry: &Node) -> Option<String> {
     let ty = children(entry, Kind::Type).next()?;
     let tokens = ty.descendants_with_tokens().filter_map(|each| each.into_token());
@@ -111,13 +110,13 @@ fn read_by(selection: &Selection, element: &Node) -> BTreeSet<String> {
     all.flat_map(|bind| reads(&bind)).filter_map(|token| selection.entry(&token)).collect()
 }
 
-/// The entries that a component's own outputs write.
+/// The entries written by a component's own outputs.
 fn written_by(selection: &Selection, component: &Node) -> BTreeSet<String> {
     let outputs = binds(component).into_iter().filter(|bind| selection.is_output(bind));
     outputs.filter_map(|bind| selection.entry(&target(&bind)?)).collect()
 }
 
-/// The constants that are read, and those that they are made of, as written.
+/// The constants that are read, and the constants in their formulas, as written.
 fn consts(selection: &Selection, read: &BTreeSet<String>) -> Vec<String> {
     let all: Vec<_> = children(&selection.plan, Kind::Entry)
         .filter(|entry| keyword(entry).is_some_and(|word| word.text() == "const"))
@@ -134,12 +133,12 @@ fn consts(selection: &Selection, read: &BTreeSet<String>) -> Vec<String> {
         }
     }
     let is_needed = |entry: &&Node| name_of(entry).is_some_and(|name| needed.contains(&name));
-    // A comma behind the entry is no part of it.
+    // A comma after the entry does not belong to it.
     let text = |entry: &Node| solid(entry).trim_end_matches([',', ' ']).to_owned();
     all.iter().filter(is_needed).map(text).collect()
 }
 
-/// The text of a node without comments, a blank between any two words.
+/// The text of a node without comments and with single spaces.
 fn solid(node: &Node) -> String {
     let tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
     let solid = tokens.filter(|token| !token.kind().is_trivia());
@@ -147,10 +146,10 @@ fn solid(node: &Node) -> String {
     words.join(" ")
 }
 
-/// The entries that some element may read before the selection has written them.
+/// The entries that an element may read before the selection has written them.
 ///
-/// Outputs count as written in every state of their element: where that is wrong, the entry had a
-/// value before, and the checker says that it is missing now.
+/// Outputs count as written in every state of their element. If this is wrong, the entry had a
+/// value before, and the check reports it as missing.
 fn read_before_written(selection: &Selection, first: &str) -> BTreeSet<String> {
     let mut known: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     let mut open = vec![(first.to_owned(), BTreeSet::new())];

@@ -1,4 +1,4 @@
-//! The ways into a selection and out of it.
+//! The entries and exits of a selection.
 
 use std::collections::BTreeSet;
 
@@ -8,22 +8,22 @@ use crate::edit::{Refused, tree};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// How action flows between a selection and the rest of its plan.
+/// The flow of action between a selection and the rest of its plan.
 pub(super) struct Flow {
-    /// The element that the new plan starts with.
+    /// The first element of the new plan.
     pub first: String,
-    /// Where its states lead outside.
+    /// The outside target of its states.
     pub ok: Option<String>,
-    /// Where its events lead outside.
+    /// The outside target of its events.
     pub interrupted: Option<String>,
-    /// The targets outside that are inside.
+    /// Targets of edges from outside to inside.
     pub ways_in: Vec<Token>,
-    /// The targets inside that are outside.
+    /// Targets of edges from inside to outside.
     pub ways_out: Vec<Token>,
 }
 
 impl Flow {
-    /// Finds the ways; refuses what no sub-plan can do.
+    /// Finds these edges, and refuses a flow that a sub-plan cannot have.
     pub fn of(selection: &Selection) -> Result<Flow, Refused> {
         let resuming = resuming(&selection.plan);
         let inside = selection.elements.iter().filter_map(name_of);
@@ -56,7 +56,7 @@ impl Flow {
     }
 }
 
-/// The names of computations from which computations alone can lead to `resume`.
+/// Computations that lead to `resume` through computations only.
 fn resuming(plan: &Node) -> BTreeSet<String> {
     let computations = || children(plan, Kind::Element).filter(tree::is_computation);
     let mut resuming = BTreeSet::new();
@@ -77,7 +77,7 @@ fn resuming(plan: &Node) -> BTreeSet<String> {
     }
 }
 
-/// The only name among tokens; several are refused.
+/// Returns the only name among tokens, or refuses several.
 fn one(what: &str, tokens: &[Token]) -> Result<Option<String>, Refused> {
     let names: BTreeSet<_> = tokens.iter().map(|token| token.text().to_owned()).collect();
     if names.len() > 1 {
@@ -95,7 +95,7 @@ fn ways_in(selection: &Selection) -> Vec<Token> {
     starts.chain(edges).filter(outside).filter(|token| selection.is_inside(token)).collect()
 }
 
-/// The targets outside of states, or of events.
+/// The outside targets of states, or of events.
 fn exits(selection: &Selection, events: bool) -> Vec<Token> {
     let owners = selection.elements.iter().flat_map(|element| match events {
         false => vec![element.clone()],

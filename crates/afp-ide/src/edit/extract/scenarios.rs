@@ -1,5 +1,5 @@
-//! What scenarios say of a selection: paths lead through the sub-plan, and edges out of the selection or into it are
-//! those of the sub-plan.
+//! Scenarios of a selection: paths go through the sub-plan, and edges into or out of the selection
+//! become edges of the sub-plan.
 
 use std::ops::Range;
 
@@ -10,7 +10,8 @@ use crate::edit::{Item, refer};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// Leads the scenarios of a file through the sub-plan `element`, which stands for items of the file `home`.
+/// Adapts the scenarios of a file to the sub-plan `element`, which replaces items of the file
+/// `home`.
 pub(super) fn splices(
     project: &Project,
     (home, items): (usize, &[Item]),
@@ -34,7 +35,7 @@ pub(super) fn splices(
     splices
 }
 
-/// The claim that a name stands in.
+/// The claim around a name.
 fn claim_of(token: &Token) -> Option<Node> {
     token.parent()?.parent().filter(|node| node.kind() == Kind::Claim)
 }
@@ -42,16 +43,15 @@ fn claim_of(token: &Token) -> Option<Node> {
 /// Reads claims.
 struct Reader<'a> {
     project: &'a Project,
-    /// The file that they stand in.
     file: usize,
     /// The name of the sub-plan.
     element: &'a str,
-    /// The names in scenarios that mean selected elements.
+    /// Names in scenarios that mean selected elements.
     inside: &'a [Token],
 }
 
 impl Reader<'_> {
-    /// An element is one of the sub-plan.
+    /// Prefixes an element with the sub-plan.
     fn through(&self, token: &Token) -> Splice {
         let start = range(token).start;
         (start..start, format!("{}.", self.element))
@@ -103,7 +103,7 @@ impl Reader<'_> {
         Some(Path { place: solid_range(&node)?, inside, node })
     }
 
-    /// What the supervisor belongs to that a path names: the plan or an element; `None` without one.
+    /// The owner of a path's supervisor, the plan or an element; `None` without a supervisor.
     fn watcher(&self, path: &Path) -> Option<Kind> {
         tokens(&path.node, Kind::Name).find_map(|token| {
             let (_, node) = self.project.item(self.file, &token)?;
@@ -113,16 +113,15 @@ impl Reader<'_> {
     }
 }
 
-/// A path of a claim.
 struct Path {
     node: Node,
     place: Range<usize>,
-    /// The name of a selected element in it.
+    /// Its name of a selected element.
     inside: Option<Token>,
 }
 
 impl Path {
-    /// Something in place of the selected element and of what is behind it.
+    /// Replaces the selected element and everything after it.
     fn whole(&self, text: String) -> Option<Splice> {
         Some((range(self.inside.as_ref()?).start..self.place.end, text))
     }

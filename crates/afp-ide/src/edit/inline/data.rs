@@ -1,4 +1,4 @@
-//! What the entries of a sub-plan's plan become in the plan around it.
+//! The entries of a sub-plan's plan in the outer plan.
 
 use std::collections::BTreeMap;
 
@@ -12,17 +12,17 @@ use crate::edit::{Refused, name};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// What is written in place of the inner plan's entries.
+/// Replacements of the inner plan's entries.
 pub(super) struct Data {
     read: BTreeMap<String, String>,
-    /// Behind `=>`.
+    /// After `=>`.
     written: BTreeMap<String, String>,
-    /// Entries that the outer plan needs in addition.
+    /// New entries of the outer plan.
     pub new_entries: Vec<String>,
 }
 
 impl Data {
-    /// Finds what becomes of every entry.
+    /// Finds a replacement for every entry.
     pub fn of(call: &Call) -> Result<Data, Refused> {
         let mut taken = Scope::Plan(call.outer.clone()).names();
         taken.extend(call.names.iter().map(|(_, new)| new.clone()));
@@ -42,17 +42,17 @@ impl Data {
         Ok(data)
     }
 
-    /// What stands in formulas for an entry of the inner plan.
+    /// The formula that replaces an entry of the inner plan.
     pub fn read_as(&self, name: &str) -> Option<&str> {
         self.read.get(name).map(String::as_str)
     }
 
-    /// The entry of the outer plan that takes the values of one of the inner plan.
+    /// The entry of the outer plan that replaces an output of the inner one.
     pub fn written_to(&self, name: &str) -> Option<&str> {
         self.written.get(name).map(String::as_str)
     }
 
-    /// The text of a node of the inner plan, in the words of the outer one.
+    /// The text of a node of the inner plan, with the outer names.
     fn translated(&self, call: &Call, node: &Node) -> String {
         let solid = solid_range(node).unwrap_or_default();
         let start = usize::from(node.text_range().start());
@@ -132,7 +132,7 @@ impl Data {
         Ok(())
     }
 
-    /// The range of an entry, in the words of the outer plan, behind a blank; nothing where it has none.
+    /// The range of an entry, with the outer names and after a space; empty without a range.
     fn range(&self, call: &Call, entry: &Node) -> String {
         let range = children(entry, Kind::Range).next();
         range.map(|range| format!(" {}", self.translated(call, &range))).unwrap_or_default()
@@ -178,7 +178,7 @@ impl Data {
         Ok(())
     }
 
-    /// Checks that nothing in the sub-plan changes what an input is computed from.
+    /// Checks that the sub-plan does not change the entries in an input's formula.
     fn check_steady(&self, formula: &Node, name: &str) -> Result<(), Refused> {
         let mut read = reads(formula).into_iter();
         let changed = read.find(|token| self.written.values().any(|outer| outer == token.text()));
@@ -192,14 +192,14 @@ impl Data {
     }
 }
 
-/// The text of a node without what stands around it.
+/// The text of a node without trivia around it.
 fn plain(node: &Node) -> String {
     let solid = solid_range(node).unwrap_or_default();
     let start = usize::from(node.text_range().start());
     node.text().to_string()[solid.start - start..solid.end - start].to_owned()
 }
 
-/// Whether a formula has a type already, so that it means the same in every formula.
+/// Whether a formula has a definite type, and so the same meaning in every context.
 fn is_exact(formula: &Node, ty: &str, homes: &[&Node]) -> bool {
     let converts = matches!(ty, "bool" | "int" | "float" | "string");
     match formula.kind() {

@@ -1,4 +1,4 @@
-//! The text of a sub-plan's elements in the plan around it.
+//! The text of a sub-plan's elements in the outer plan.
 
 use super::Call;
 use super::data::Data;
@@ -11,7 +11,7 @@ use crate::edit::{Refused, port, refer};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// All elements, one below the other; the comments of the sub-plan stand above the first.
+/// All elements one after the other, with the comments of the sub-plan before the first.
 pub(super) fn elements(call: &Call, data: &Data, text: &str) -> Result<String, Refused> {
     let root = call.inner.ancestors().last().unwrap_or_else(|| call.inner.clone());
     let page = Page { text, root };
@@ -30,7 +30,7 @@ pub(super) fn elements(call: &Call, data: &Data, text: &str) -> Result<String, R
     Ok(comments(&call.element) + &texts.join(gap))
 }
 
-/// What changes in the text of an element.
+/// The changes in an element's text.
 fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refused> {
     let renamed = |name: &str| {
         let found = call.names.iter().find(|(old, _)| old == name);
@@ -91,7 +91,7 @@ fn interrupted(call: &Call) -> Result<String, Refused> {
     }
 }
 
-/// A `fail` of the sub-plan leads where its `Error` leads, and stays where that is not connected.
+/// A `fail` of the sub-plan goes to the target of its `Error`, and stays if that is not connected.
 fn failed(call: &Call, edge: &Node, event: bool) -> Result<Option<Splice>, Refused> {
     let Some(error) = &call.error else { return Ok(None) };
     if event && error == "terminate" {
@@ -103,7 +103,7 @@ fn failed(call: &Call, edge: &Node, event: bool) -> Result<Option<Splice>, Refus
     Ok(place.map(|place| (place, error.clone())))
 }
 
-/// The comments of the sub-plan, help text among them, as lines.
+/// The comments of the sub-plan with its help text, as lines.
 fn comments(element: &Node) -> String {
     let own = own_range(element);
     let tokens = element.descendants_with_tokens().filter_map(|each| each.into_token());

@@ -1,4 +1,4 @@
-//! Brings what the elements of another file name into view of the file that they are put into.
+//! Imports the names that the elements of another file need.
 
 use crate::edit::project::Project;
 use crate::edit::tree::{self, below, children, single};
@@ -8,7 +8,7 @@ use afp_dsl::files::relative;
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Adds the `use` lines that the elements of `plan`, a plan of the file `from`, need at home.
+/// Adds the `use` lines for the elements of `plan`, from the file `from`.
 pub(super) fn bring(workspace: &mut Workspace, plan: &Node, from: usize) -> Result<(), Refused> {
     let project = workspace.project();
     for (toolbox, alias) in toolboxes(&project.roots[from]) {
@@ -29,7 +29,7 @@ pub(super) fn bring(workspace: &mut Workspace, plan: &Node, from: usize) -> Resu
     check(&workspace.project(), workspace.home, plan, &project, from)
 }
 
-/// Checks that everything means the same in both places now.
+/// Checks that every name has the same meaning in both files.
 fn check(
     now: &Project,
     home: usize,
@@ -49,7 +49,7 @@ fn check(
     Ok(())
 }
 
-/// The toolboxes that a file uses, with their short names.
+/// The toolboxes that a file uses, with their aliases.
 fn toolboxes(root: &Node) -> Vec<(String, Option<String>)> {
     let name = |line: &Node| tree::tokens(line, Kind::Name).next().map(|t| t.text().to_owned());
     let alias = |line: &Node| children(line, Kind::Alias).next().as_ref().and_then(name);
@@ -88,7 +88,7 @@ fn toolbox_line(
     add::line_of_use(workspace.buffer(), toolbox, alias)
 }
 
-/// The plans and enums that a plan of the file `from` names, each with the file that declares it.
+/// The plans and enums that a plan of the file `from` names, each with its file.
 fn named(project: &Project, plan: &Node, from: usize) -> Vec<(Kind, String, usize)> {
     let names = below(plan, Kind::Ref)
         .flat_map(|reference| tree::tokens(&reference, Kind::Name).collect::<Vec<_>>());

@@ -1,19 +1,19 @@
-//! Names that were wished for and taken: what later changes mean by them.
+//! Requested names that were taken, and their meaning in later changes.
 
 use std::collections::BTreeMap;
 
 use super::super::{Change, Item};
 use afp_syntax::kind::Kind;
 
-/// The names that items were given in place of those that were wished for.
+/// The assigned names of items with a taken name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Given {
-    /// By the plan, the element of a supervisor, and the wish. What was given is no wish: each name is looked up once.
+    /// By plan, element of a supervisor, and requested name. Each name is looked up only once.
     names: BTreeMap<(String, Option<String>, String), Name>,
     all: Vec<(String, String)>,
 }
 
-/// The name of an item that was added.
+/// The name of a new item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Name {
     given: String,
@@ -21,12 +21,12 @@ struct Name {
 }
 
 impl Given {
-    /// The names that were wished for, each with the one given instead, in the order in which they were.
+    /// The requested names with the assigned ones, in order of insertion.
     pub fn all(&self) -> &[(String, String)] {
         &self.all
     }
 
-    /// The item that is meant by the names that were wished for.
+    /// The item with assigned names.
     pub fn item(&self, item: Item) -> Item {
         match item {
             Item::Inner { plan, name } => Item::Inner { name: self.name(&plan, name), plan },
@@ -38,7 +38,7 @@ impl Given {
         }
     }
 
-    /// A supervisor or reactions, as they are given, of an element that has its name already.
+    /// A supervisor or reactions with assigned names, for an element with an assigned name.
     fn local(&self, item: Item) -> Item {
         let supervisor = item.reacts_to().map(|to| self.name(item.plan_name(), to.to_owned()));
         let Item::Local { plan, owner, name } = item else { return item };
@@ -51,13 +51,13 @@ impl Given {
         Item::local(plan, owner.unwrap_or_default(), given.unwrap_or(name))
     }
 
-    /// A name of a plan, as it is given.
+    /// The assigned name of an item in a plan.
     pub(super) fn name(&self, plan: &str, name: String) -> String {
         let key = (plan.to_owned(), None, name);
         self.names.get(&key).map_or(key.2, |name| name.given.clone())
     }
 
-    /// The names of a plan that were wished for, each with the one given and the kind of what has it.
+    /// The requested names of a plan, with the assigned names and the kinds of the items.
     pub(super) fn of_plan<'g>(
         &'g self,
         plan: &'g str,
@@ -67,7 +67,7 @@ impl Given {
         all.map(|((.., wished), name)| (&**wished, &*name.given, name.kind))
     }
 
-    /// An item was added under a name; from now on the wish means that one.
+    /// Records the name of a new item, which the requested name means from now on.
     pub(super) fn insert(
         &mut self,
         (plan, owner): (&str, Option<&str>),
@@ -84,7 +84,6 @@ impl Given {
         self.all.push((wished, given));
     }
 
-    /// A change whose items and names are those that were given.
     pub(super) fn in_names(&self, change: Change) -> Change {
         use Change as C;
 
@@ -145,7 +144,7 @@ impl Given {
         }
     }
 
-    /// Where an edge leads: to an element, or where no name of one can stand.
+    /// The target of an edge with its assigned name, if it is an element.
     fn target(&self, plan: &str, to: String) -> String {
         match &*to {
             "terminate" | "fail" | "ignore" | "resume" => to,
@@ -153,7 +152,7 @@ impl Given {
         }
     }
 
-    /// A name of a plan, or of a supervisor of an element that has its name already.
+    /// A name of a plan, or of a supervisor of an element with its assigned name.
     fn beside(&self, plan: &str, owner: Option<&str>, name: String) -> String {
         match owner {
             None => self.name(plan, name),

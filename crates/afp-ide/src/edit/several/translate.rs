@@ -1,4 +1,4 @@
-//! Texts under other names than those that they were written with.
+//! Texts with assigned names.
 
 use std::rc::Rc;
 
@@ -9,19 +9,18 @@ use super::given::Given;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
 
-/// What stands around a text in place of its plan: an item for each name of that which the text may mean.
+/// The context of a text in a stand-in plan: an item for each name that the text may mean.
 struct Surroundings {
-    /// The name of the plan.
     plan: String,
     /// The name of an element in it.
     host: String,
     items: String,
-    /// Their names, with those that were given.
+    /// The requested names, with the assigned ones.
     names: Vec<(Item, String)>,
 }
 
 impl Given {
-    /// A change under the names that were given; not yet the text that it adds.
+    /// A change with assigned names, except in its new text.
     pub(super) fn in_change(
         &self,
         workspace: &mut Workspace,
@@ -53,7 +52,7 @@ impl Given {
     }
 }
 
-/// A formula of a plan under the names that items of the plan were given.
+/// A formula of a plan, with the assigned names of its items.
 fn formula(
     workspace: &mut Workspace,
     given: &Given,
@@ -65,8 +64,8 @@ fn formula(
     around.renamed(workspace, &before, &text, ") {}")
 }
 
-/// Items that are put into a plan, or supervisors put onto an element of it, under the names that others were given;
-/// `declared` are their own names in order, each with the one that it is given.
+/// Items for a plan or supervisors for its element, with the assigned names of others; `declared`
+/// are their own names in order, each with the assigned one.
 pub(super) fn items(
     workspace: &mut Workspace,
     given: &Given,
@@ -93,7 +92,7 @@ pub(super) fn items(
 }
 
 impl Surroundings {
-    /// Those of a text of a plan that itself declares some names.
+    /// The context of a text in a plan that itself declares some names.
     fn new(workspace: &mut Workspace, given: &Given, plan: &str, own: &[&str]) -> Surroundings {
         let others: Vec<_> =
             given.of_plan(plan).filter(|(wished, ..)| !own.contains(wished)).collect();
@@ -114,7 +113,7 @@ impl Surroundings {
         Surroundings { plan, host, items, names }
     }
 
-    /// The text between two others under the names that were given. The rest of the files tells what it means.
+    /// Replaces requested names in the part between two texts. The other files give its meaning.
     fn renamed(
         &self,
         workspace: &mut Workspace,

@@ -1,4 +1,4 @@
-//! Bindings that are a name alone.
+//! Bindings that are only a name.
 
 use super::{Binding, Change, Item, after, refused};
 
@@ -29,7 +29,7 @@ fn rename(item: Item, to: &str) -> Change {
     Change::Rename { item, to: to.into() }
 }
 
-/// What stands between two texts after a change.
+/// The text between two others after a change.
 #[track_caller]
 fn between(change: Change, before: &str, behind: &str) -> String {
     let text = after(PLANS, change);
@@ -64,7 +64,7 @@ fn a_renamed_port_leaves_the_entry_its_name() {
 }
 
 #[test]
-fn it_is_bound_to_something_else_and_removed_like_any_other() {
+fn a_short_binding_can_be_changed_and_removed() {
     let bind =
         |port: &str, to| Change::Bind { component: Item::inner("P", "go"), port: port.into(), to };
     let to = |formula: &str| Binding::In(formula.into());
@@ -80,7 +80,7 @@ fn it_is_bound_to_something_else_and_removed_like_any_other() {
 }
 
 #[test]
-fn it_moves_between_plans() {
+fn a_short_binding_moves_between_plans() {
     let inline = Change::Inline { plan: "P".into(), element: "go".into() };
     let text = after(PLANS, inline);
     assert!(text.contains("rest: Log(label = \"\", x) {"), "{text}");

@@ -24,7 +24,7 @@ fn a_port_gets_another_formula() {
 }
 
 #[test]
-fn a_port_is_bound_as_its_neighbours_are() {
+fn a_new_binding_has_the_style_of_its_neighbours() {
     replaces(bind(go(), "speed", "1 cm/s"), &[("gap => gap)", "gap => gap, speed = 1 cm/s)")]);
     replaces(
         bind_out(back(), "driven", "gap"),

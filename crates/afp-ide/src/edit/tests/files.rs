@@ -1,4 +1,4 @@
-//! Changes that reach into other files.
+//! Changes of several files.
 
 use super::toolboxes;
 use crate::edit::{Change, apply, edit};
@@ -7,7 +7,7 @@ use afp_dsl::files::{Files, Texts};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 
-/// The files of the tests, the first one under the name `main.afp`.
+/// The files of the tests; the first one is `main.afp`.
 const FILES: &str = "\
 use std
 use \"lib/lap.afp\"
@@ -79,7 +79,6 @@ fn files() -> Vec<Source> {
     std::iter::once(Source::new(PATHS[0], first)).chain(others).collect()
 }
 
-/// The texts after a change of a file.
 #[track_caller]
 fn after(files: &[Source], home: usize, change: &Change) -> Vec<String> {
     let edits =
@@ -91,7 +90,7 @@ fn after(files: &[Source], home: usize, change: &Change) -> Vec<String> {
     files.iter().enumerate().map(text).collect()
 }
 
-/// Checks that a change of a file replaces exactly some texts, all that there are of them.
+/// Checks that a change of a file replaces exactly these texts, and nothing else.
 #[track_caller]
 fn replaces(home: usize, change: &Change, wanted: &[(usize, &str, &str)]) {
     let mut expected: Vec<_> = files().into_iter().map(|file| file.text).collect();
@@ -122,7 +121,7 @@ fn rename(item: Item, to: &str) -> Change {
 }
 
 #[test]
-fn a_plan_is_renamed_where_it_is_seen_and_nowhere_else() {
+fn a_plan_is_renamed_only_where_it_is_visible() {
     let wanted = [(0, "lap: Lap", "lap: Round"), (1, "plan Lap", "plan Round")];
     replaces(1, &rename(Item::plan("Lap"), "Round"), &wanted);
     let wanted = [(3, "plan Lap", "plan Round"), (3, "lap: Lap", "lap: Round")];
@@ -132,7 +131,7 @@ fn a_plan_is_renamed_where_it_is_seen_and_nowhere_else() {
 }
 
 #[test]
-fn a_new_name_must_be_free_wherever_it_is_seen() {
+fn a_new_name_must_be_free_where_it_is_visible() {
     let change = rename(Item::plan("Lap"), "Other");
     refused(1, &change, "'Other' is already there in 'main.afp'");
     refused(
@@ -170,7 +169,7 @@ fn an_element_is_renamed_in_scenarios_of_other_files() {
 }
 
 #[test]
-fn a_value_of_an_enum_is_renamed_wherever_it_is_used() {
+fn a_value_of_an_enum_is_renamed_in_all_files() {
     let change = |to: &str| Change::RenameValue {
         enumeration: "Mood".into(),
         value: "wild".into(),
@@ -195,7 +194,7 @@ fn an_enum_is_renamed_in_types_and_values() {
 }
 
 #[test]
-fn what_another_file_names_is_not_taken_away() {
+fn names_used_by_another_file_stay() {
     let remove = |item| Change::Remove { item };
     let named = |name: &str| format!("'{name}' is named in 'main.afp': take it out of there first");
     refused(1, &remove(Item::plan("Lap")), &named("Lap"));
@@ -205,7 +204,7 @@ fn what_another_file_names_is_not_taken_away() {
 }
 
 #[test]
-fn scenarios_of_other_files_hold_no_element() {
+fn scenarios_of_other_files_do_not_keep_an_element() {
     let texts = after(&files(), 1, &Change::Remove { item: Item::inner("Lap", "forth") });
     assert!(!texts[1].contains("forth"), "{}", texts[1]);
     assert_eq!(texts[0], files()[0].text, "what names it there is for the check to mark");
@@ -237,7 +236,7 @@ fn scenarios_of_other_files_hold_no_element() {
 }
 
 #[test]
-fn a_plan_of_another_file_is_inlined_with_what_it_needs_in_view() {
+fn a_plan_of_another_file_is_inlined_with_its_imports() {
     let inline = Change::Inline { plan: "Main".into(), element: "lap".into() };
     refused(0, &inline, "a scenario names 'lap.way'");
     let mut files = files();

@@ -11,7 +11,7 @@ fn disconnect(from: Item, outcome: &str) -> Change {
 }
 
 #[test]
-fn an_edge_leads_elsewhere() {
+fn the_target_of_an_edge_changes() {
     replaces(connect(go(), "Done", "back"), &[("Done  -> go // again", "Done  -> back // again")]);
     replaces(connect(go(), "Done", "go"), &[]);
     replaces(connect(touch(), "Pressed", "ignore"), &[("Pressed -> back", "Pressed -> ignore")]);
@@ -41,7 +41,7 @@ fn events_and_computations_may_resume() {
 }
 
 #[test]
-fn an_edge_is_added_as_its_neighbours_are() {
+fn a_new_edge_has_the_style_of_its_neighbours() {
     replaces(
         connect(go(), "Lost", "back"),
         &[("        Error -> terminate\n", "        Error -> terminate\n        Lost  -> back\n")],
@@ -69,14 +69,14 @@ fn an_edge_goes_with_its_comments() {
 }
 
 #[test]
-fn the_start_leads_elsewhere() {
+fn the_start_changes() {
     let start = |to: &str| Change::SetStart { plan: "P".into(), to: to.into() };
     replaces(start("back"), &[("start go //", "start back //")]);
     refused(PLAN, start("gap"), "'P' has no element 'gap'");
 }
 
 #[test]
-fn what_cannot_be_connected_is_refused() {
+fn invalid_connections_are_refused() {
     refused(PLAN, connect(go(), "Done", "ignore"), "a state cannot lead to 'ignore'");
     refused(PLAN, connect(go(), "Done", "gap"), "there is no element 'gap' in the plan");
     refused(PLAN, connect(go(), "Done -> x", "go"), "'Done -> x' cannot be a name");

@@ -20,7 +20,7 @@ fn rename(item: Item, to: &str) -> Change {
 }
 
 #[test]
-fn items_are_added_below_their_like() {
+fn items_are_added_after_their_kind() {
     replaces(
         add("var n:int=1", None, None),
         &[("length\n\n    start", "length\n    var n: int = 1\n\n    start")],
@@ -97,7 +97,7 @@ plan P {
 }
 
 #[test]
-fn what_cannot_be_added_is_refused() {
+fn invalid_items_are_refused() {
     let used = |path: &str, alias: Option<&str>| Change::AddUse {
         toolbox: path.into(),
         alias: alias.map(str::to_owned),

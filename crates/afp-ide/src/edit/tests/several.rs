@@ -1,4 +1,4 @@
-//! Several changes at once, of which later ones mean what earlier ones add.
+//! Several changes at once, with references to new items.
 
 use super::super::{Change, Item, apply, edit_all};
 use super::{Binding, toolboxes};
@@ -23,7 +23,7 @@ plan P {
 }
 ";
 
-/// The text after changes, and the names that were given.
+/// The text after changes, and the assigned names.
 #[track_caller]
 fn after(changes: &[Change]) -> (String, Vec<(String, String)>) {
     match edit_all(&[Source::new("case.afp", PLAN)], &toolboxes(), 0, changes) {
@@ -53,7 +53,7 @@ fn has(changes: &[Change], lines: &[&str]) {
 }
 
 #[test]
-fn what_was_given_is_no_wish() {
+fn an_assigned_name_is_not_looked_up_again() {
     let wait = "(duration = 1 s) { Elapsed -> terminate }";
     let two = [add(&format!("actor go: Wait{wait}")), add(&format!("actor go2: Wait{wait}"))];
     let go = || Item::inner("P", "go");
@@ -64,7 +64,7 @@ fn what_was_given_is_no_wish() {
     let given = [("go", "go2"), ("go2", "go22")].map(|(a, b)| (a.to_owned(), b.to_owned()));
     assert_eq!(names, given);
     assert!(text.contains("actor go2: Wait(duration = 1 s) { Elapsed -> go22 }"), "{text}");
-    // Supervisors of what was added, and reactions of it.
+    // New supervisors and reactions of new items.
     let touch = "supervise low: CheckTimeout(duration = 1 s) { TimedOut -> go2 }";
     changes.extend([add_to("go2", touch), add_to("go2", touch)]);
     let low = Item::local("P", "go2", "low");

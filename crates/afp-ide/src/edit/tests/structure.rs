@@ -137,7 +137,7 @@ fn scenarios_follow_what_is_extracted() {
 }
 
 #[test]
-fn a_value_from_before_comes_in_beside_the_output() {
+fn an_earlier_value_becomes_an_input() {
     let text =
         PLAN.replace(ONE_WAY, "        Lost  -> follow\n").replace("start find", "start turn");
     let text = text.replace("{ Done -> find", "{ Done -> turn");
@@ -147,7 +147,7 @@ fn a_value_from_before_comes_in_beside_the_output() {
 }
 
 #[test]
-fn what_a_sub_plan_cannot_do_is_refused() {
+fn a_flow_that_no_sub_plan_has_is_refused() {
     let ways = |what: &str| format!("{what}, but a sub-plan has one way for that");
     refused(PLAN, extract(&["find", "turn"]), &ways("states lead to 'back' and 'follow'"));
     refused(
@@ -174,7 +174,6 @@ plan P {
 
     start align
 
-    /// Aligns.
     subplan align: Align(limit = base + 1 m, gap => gap) {
         // well
         OK          -> go
@@ -234,7 +233,7 @@ plan P {
 }
 
 #[test]
-fn what_fails_inside_leads_where_the_fault_of_the_sub_plan_leads() {
+fn an_inlined_failure_has_the_target_of_the_sub_plans_fault() {
     let failing = CALL
         .replace(
             "Touched -> terminate }\n        Done -> back",
@@ -257,7 +256,7 @@ fn what_fails_inside_leads_where_the_fault_of_the_sub_plan_leads() {
 }
 
 #[test]
-fn what_fails_in_a_selection_fails_in_its_plan() {
+fn an_extracted_failure_fails_the_new_plan() {
     let failing = PLAN.replace(ONE_WAY, "        Lost  -> fail \"lost\"\n");
     let extracted = after(&failing, extract(&["turn", "find"]));
     assert!(extracted.contains("{ OK -> follow, Interrupted -> back }"), "{extracted}");
@@ -265,7 +264,7 @@ fn what_fails_in_a_selection_fails_in_its_plan() {
 }
 
 #[test]
-fn what_resumes_stays_in_its_plan() {
+fn resuming_computations_stay_in_their_plan() {
     let asks = "    computation ask: C { Yes -> resume, No -> also }\n    \
                 computation also: C { Yes -> ask, No -> back }\n    // a free note";
     let resuming = PLAN.replace("    // a free note", asks).replace(
@@ -283,7 +282,7 @@ fn what_resumes_stays_in_its_plan() {
 }
 
 #[test]
-fn what_would_mean_something_else_is_refused() {
+fn a_change_of_meaning_is_refused() {
     let change = |old: &str, new: &str, reason: &str| {
         assert!(CALL.contains(old), "{old}");
         refused(&CALL.replace(old, new), inline(), reason);
@@ -318,7 +317,7 @@ fn what_would_mean_something_else_is_refused() {
 }
 
 #[test]
-fn ranges_go_along() {
+fn ranges_are_kept() {
     let text = "\
 plan P {
     const most = 1 m
@@ -346,7 +345,7 @@ plan P {
 }
 
 #[test]
-fn constants_that_are_times_go_along() {
+fn constants_for_times_are_kept() {
     let text = "\
 plan P {
     const quick = 5 ms

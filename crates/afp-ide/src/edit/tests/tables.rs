@@ -1,4 +1,4 @@
-//! Tables are named where they are read, whatever reads them.
+//! Every kind of reference to a table.
 
 use super::{Change, Item, after, edit};
 
@@ -26,7 +26,7 @@ fn a_table_is_renamed_where_it_is_read() {
 }
 
 #[test]
-fn a_table_has_a_name_of_its_own() {
+fn a_table_needs_an_unused_name() {
     let refused = |to: &str| edit(TEXT, &rename(to)).unwrap_err().reason;
     assert_eq!(refused("length"), "'length' is a type of the language");
     assert!(refused("P").contains("'P' is already there"), "{}", refused("P"));
@@ -38,7 +38,7 @@ fn a_table_has_a_name_of_its_own() {
 }
 
 #[test]
-fn a_table_that_is_read_is_not_taken_away() {
+fn a_table_in_use_is_not_removed() {
     let remove = || Change::Remove { item: Item::table("route") };
     assert_eq!(edit(TEXT, &remove()).unwrap_err().reason, "'route' is used in the file");
     let unused = TEXT.replace("= route,", "= other,");

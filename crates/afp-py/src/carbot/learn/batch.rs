@@ -1,4 +1,4 @@
-//! Some episodes side by side, and rounds in which something is done with each of them, by several threads.
+//! A batch of episodes, and rounds of work on it by several threads.
 
 use std::hint::spin_loop;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,42 +7,42 @@ use std::thread;
 
 use super::course::{Brief, Course, Outcome, Start};
 
-/// Whoever waits for others looks so often before it lets other threads run.
+/// The polls of a waiting thread before it yields.
 const LOOKS: usize = 1000;
 
-/// Some episodes of a task.
+/// Episodes of a task.
 pub struct Batch {
     pub brief: Arc<Brief>,
-    /// The least and the greatest of what is observed.
+    /// Minimum and maximum of each observed number.
     pub bounds: Vec<(f32, f32)>,
     places: Vec<Mutex<Place>>,
 }
 
-/// Where an episode is, and what is to be done with it.
+/// An episode, and the input of its next task.
 #[derive(Default)]
 pub struct Place {
     pub course: Option<Course>,
-    /// How the next episode begins, if it is to.
+    /// The start of the next episode, if requested.
     pub start: Option<Start>,
-    /// What to do in the next step, as [`Course::step`] takes it.
+    /// The action of the next step, for [`Course::step`].
     pub action: Vec<f64>,
-    /// What is observed, within the bounds.
+    /// The observation, clamped to the bounds.
     pub seen: Vec<f32>,
     pub outcome: Outcome,
-    /// Why the episode could not begin.
+    /// The reason why the episode could not begin.
     pub failed: Option<String>,
 }
 
-/// What is done with each episode.
+/// The task of a round.
 #[derive(Clone, Copy, Debug)]
 pub enum Task {
-    /// Those that are about to begin do.
+    /// Begin requested episodes.
     Begin,
-    /// The same, and all others make a step.
+    /// Begin requested episodes, and make a step in all others.
     Step,
 }
 
-/// A task to be done with each episode once. Several threads may work on it.
+/// A task for each episode once, shared by several threads.
 pub struct Round {
     batch: Arc<Batch>,
     task: Task,
@@ -51,7 +51,7 @@ pub struct Round {
 }
 
 impl Batch {
-    /// So many places without an episode.
+    /// Makes a number of places without episodes.
     pub fn new(brief: Brief, count: usize) -> Batch {
         let bounds = brief.bounds();
         let place = || Place { seen: vec![0.0; bounds.len()], ..Place::default() };
@@ -63,17 +63,17 @@ impl Batch {
         self.places.len()
     }
 
-    /// A place; none beyond the last.
+    /// A place; `None` past the end.
     pub fn place(&self, index: usize) -> Option<LockResult<MutexGuard<'_, Place>>> {
         Some(self.places.get(index)?.lock())
     }
 
-    /// All places in their order. Nobody else has them between rounds.
+    /// All places in order. Between rounds no other thread uses them.
     pub fn places(&self) -> impl Iterator<Item = LockResult<MutexGuard<'_, Place>>> {
         self.places.iter().map(Mutex::lock)
     }
 
-    /// Does something with one episode, and looks what is observed then.
+    /// Performs a task on one episode, and then observes it.
     pub fn work(&self, place: &mut Place, task: Task) {
         if let Some(start) = place.start.take() {
             place.begin(&self.brief, start);
@@ -102,12 +102,12 @@ impl Round {
         Round { batch: Arc::clone(batch), task, next, done }
     }
 
-    /// How many places there are.
+    /// The number of places.
     pub fn places(&self) -> usize {
         self.batch.len()
     }
 
-    /// Works on places that nobody works on yet, until there are none; how many it were.
+    /// Works on free places until none is left, and returns the number of them.
     pub fn work(&self) -> usize {
         let mut worked = 0;
         while let Some(place) = self.batch.places.get(self.next.fetch_add(1, Ordering::Relaxed)) {
@@ -130,7 +130,7 @@ impl Round {
     }
 }
 
-/// Counts a place as done, also where its episode panics, so that nobody waits for it.
+/// Counts a place as done, even if its episode panics, so that no thread waits for it.
 struct Done<'a>(&'a AtomicUsize);
 
 impl Drop for Done<'_> {

@@ -11,65 +11,64 @@ use afp_sim::{Pose, Simulation, World};
 use super::part::{Part, Senses, seen_from};
 use super::score::{Kind, Score, Target, Weights};
 
-/// The speed of a full action, metres a second.
+/// The speed of a full action, in metres per second.
 pub const SPEED: f64 = 0.5;
-/// The turn rate of a full action, radians a second.
+/// The turn rate of a full action, in radians per second.
 pub const TURN: f64 = 2.0;
-/// Where a full action points the range sensor, radians.
+/// The bearing of the range sensor at a full action, in radians.
 pub const BEARING: f64 = core::f64::consts::FRAC_PI_2;
-/// An action lasts so many pieces of this. Between two pieces the range sensor has sent a ping.
+/// The unit of an action's duration. In each unit the range sensor sends a ping.
 const PIECE: Duration = Duration::from_millis(50);
 const PIECES: u64 = 2;
-/// How long an action lasts.
+/// The duration of an action.
 pub const STEP: Duration = Duration::from_nanos(PIECES * PIECE.as_nanos());
 
-/// What all episodes of a task have in common.
+/// The settings of all episodes of a task.
 #[derive(Debug)]
 pub struct Brief {
-    /// What is observed.
+    /// The parts of an observation.
     pub parts: Vec<Part>,
-    /// Where the range sensor looks in turns; empty where it looks ahead, or where actions say.
+    /// The bearings that the range sensor cycles through; empty if it looks ahead or follows
+    /// actions.
     pub fan: Vec<f64>,
     /// Whether actions point the range sensor.
     pub points: bool,
-    /// What it is worth.
+    /// The weights of the reward.
     pub weights: Weights,
-    /// What there is to reach.
     pub target: Option<Kind>,
-    /// An episode is over after so many steps.
+    /// The number of steps in an episode.
     pub steps: u64,
 }
 
 impl Brief {
-    /// The bounds of what is observed.
+    /// The bounds of each observed number.
     pub fn bounds(&self) -> Vec<(f32, f32)> {
         self.parts.iter().flat_map(|part| part.bounds(self.fan.len())).collect()
     }
 
-    /// How many numbers an action has.
+    /// The length of an action.
     pub fn commands(&self) -> usize {
         if self.points { 3 } else { 2 }
     }
 }
 
-/// Where and how an episode begins.
+/// The start of an episode.
 #[derive(Clone, Debug)]
 pub struct Start {
-    /// The room; one that `room` makes up without it.
+    /// The room; by default a random one from `room`.
     pub world: Option<Arc<World>>,
     /// The seed of the room.
     pub room: u64,
     /// The seed of everything else.
     pub noise: u64,
-    /// Where the robot starts, unless it is where the world says.
+    /// The robot's start, if it differs from the world's.
     pub pose: Option<Pose>,
-    /// Where to go, unless it is made up.
+    /// The goal; random by default.
     pub goal: Option<[f64; 2]>,
-    /// What breaks, from when on, for how long.
     pub faults: Vec<(Fault, Instant, Duration)>,
 }
 
-/// What came of a step.
+/// The result of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Outcome {
     pub reward: f64,
@@ -82,7 +81,6 @@ pub struct Course {
     brief: Arc<Brief>,
     pub sim: Simulation,
     pub world: Arc<World>,
-    /// What there is to reach.
     pub target: Option<Target>,
     score: Score,
     senses: Senses,
@@ -93,7 +91,7 @@ impl Course {
     /// An episode at its start.
     ///
     /// # Errors
-    /// The robot has no room there, or the world lacks what the task needs.
+    /// The robot does not fit at its start, or the world has no target of that kind.
     pub fn new(brief: &Arc<Brief>, start: Start) -> Result<Course, String> {
         let world = start.world.unwrap_or_else(|| Arc::new(World::random(start.room)));
         let world = match start.pose {
@@ -114,7 +112,7 @@ impl Course {
         Ok(Course { brief: Arc::clone(brief), sim, world, target, score, senses, steps: 0 })
     }
 
-    /// Does what an action says, shares of what is full, each from -1 to 1.
+    /// Performs an action, given as shares from -1 to 1 of full values.
     pub fn step(&mut self, action: &[f64]) -> Outcome {
         let share = |index: usize| action.get(index).copied().unwrap_or(0.0).clamp(-1.0, 1.0);
         let speed = Speed::from_si(share(0) * SPEED);
@@ -135,7 +133,7 @@ impl Course {
         Outcome { reward, ended, late: self.steps >= self.brief.steps }
     }
 
-    /// What the policy sees.
+    /// Writes the policy's observation.
     pub fn observe(&self, bounds: &[(f32, f32)], into: &mut [f32]) {
         let target = self.target.map(|target| seen_from(self.world.start, target.at));
         let mut seen = Vec::with_capacity(into.len());

@@ -1,4 +1,4 @@
-//! `Courses`: some episodes side by side, stepped on all cores with the interpreter free for others.
+//! `Courses`: episodes that advance together on all cores, with the interpreter released.
 
 use std::sync::{Arc, LockResult, Mutex, MutexGuard, TryLockError};
 
@@ -22,28 +22,28 @@ use crate::link::link;
 use crate::sensed::table;
 use crate::value::no_pickle;
 
-/// What came of a step: observations, rewards, which episodes have ended, which are too late.
+/// The result of a step: observations, rewards, terminated and truncated episodes.
 type Stepped<'py> = (
     Bound<'py, PyArray2<f32>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<bool>>,
     Bound<'py, PyArray1<bool>>,
 );
-/// The same of a single one, and what a judge knows.
+/// The result for a single episode, with ground truth.
 type SteppedAlone<'py> = (Bound<'py, PyArray1<f32>>, f64, bool, bool, Bound<'py, PyDict>);
 
-/// Some episodes side by side.
+/// Episodes that advance together.
 #[pyclass(module = "afp", frozen)]
 pub struct Courses {
     batch: Arc<Batch>,
-    /// Held by whoever does something with them.
+    /// Locked during any use.
     use_of: Mutex<()>,
 }
 
 #[pymethods]
 impl Courses {
-    /// So many episodes of a task: what is observed, where the range sensor looks in turns, whether actions point it, what
-    /// is worth how much, what ends an episode, what there is to reach, after how many steps it is over.
+    /// Make episodes of a task: their number, observation, range-sensor bearings, whether actions
+    /// point the sensor, reward weights, terms that end an episode, target and number of steps.
     #[new]
     fn new(
         count: usize,
@@ -76,31 +76,31 @@ impl Courses {
         Ok(Courses { batch: Arc::new(Batch::new(brief, count)), use_of: Mutex::new(()) })
     }
 
-    /// The speed of a full action, metres a second.
+    /// The speed of a full action, in metres per second.
     #[classattr]
     fn speed() -> f64 {
         SPEED
     }
 
-    /// The turn rate of a full action, radians a second.
+    /// The turn rate of a full action, in radians per second.
     #[classattr]
     fn turn() -> f64 {
         TURN
     }
 
-    /// What silence of the range sensor is observed as, metres.
+    /// The observed distance if the range sensor has no echo, in metres.
     #[classattr]
     fn range() -> f64 {
         RANGE
     }
 
-    /// How long an action lasts, seconds.
+    /// The duration of an action, in seconds.
     #[classattr]
     fn step_time() -> f64 {
         STEP.as_secs_f64()
     }
 
-    /// The least and the greatest of what is observed.
+    /// Minimum and maximum of each observed number.
     #[getter]
     fn bounds<'py>(
         &self,
@@ -110,13 +110,13 @@ impl Courses {
         (low.into_pyarray(py), high.into_pyarray(py))
     }
 
-    /// How many numbers an action has.
+    /// The length of an action.
     #[getter]
     fn commands(&self) -> usize {
         self.batch.brief.commands()
     }
 
-    /// Lets some of the episodes begin anew; what is observed in all of them.
+    /// Start some of the episodes again and return all observations.
     fn reset<'py>(
         &self,
         py: Python<'py>,
@@ -128,7 +128,7 @@ impl Courses {
         Ok(self.seen()?.into_pyarray(py))
     }
 
-    /// Makes a step in all of them, an action each; those that are named begin anew instead.
+    /// Make a step with an action in each episode; the named ones start again instead.
     fn step<'py>(
         &self,
         py: Python<'py>,
@@ -163,8 +163,8 @@ impl Courses {
         Ok((seen, rewards.into_pyarray(py), ended.into_pyarray(py), late.into_pyarray(py)))
     }
 
-    /// Makes a step in the first of them; what came of it, and what `info` tells. Most of the time of a single robot's step
-    /// would go into arrays otherwise.
+    /// Make a step in the first episode and return its result and `info`. For a single robot,
+    /// arrays would take most of the time.
     fn step_first<'py>(
         &self,
         py: Python<'py>,
@@ -192,7 +192,7 @@ impl Courses {
         Ok((place.seen.to_pyarray(py), outcome.reward, outcome.ended, outcome.late, info))
     }
 
-    /// Of all of them the time, the robot's true pose, and how often it ran into something.
+    /// The time, the robot's true pose and the number of collisions, for all episodes.
     #[expect(clippy::type_complexity, reason = "three arrays")]
     fn info<'py>(
         &self,
@@ -210,7 +210,7 @@ impl Courses {
         Ok((times.into_pyarray(py), table(py, &poses)?, hits.into_pyarray(py)))
     }
 
-    /// Where an episode takes place, and where there is something to reach.
+    /// The world of an episode, and its target.
     fn place(&self, index: usize) -> PyResult<(String, Option<(f64, f64)>)> {
         let _use = self.take()?;
         let place = self.place_at(index)?;
@@ -219,7 +219,7 @@ impl Courses {
         Ok((course.world.name.clone(), target))
     }
 
-    /// What moves in one of them: the numbers of the obstacles, and their corners as they are now.
+    /// The moving obstacles of an episode: their indices and current corners.
     fn moving<'py>(
         &self,
         py: Python<'py>,
@@ -233,7 +233,7 @@ impl Courses {
         moving.collect()
     }
 
-    /// What a sensor of one of them says.
+    /// The value of a sensor in an episode.
     fn sense<'py>(&self, py: Python<'py>, index: usize, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let _use = self.take()?;
         let place = self.place_at(index)?;
@@ -261,7 +261,7 @@ impl Courses {
         unbroken(self.batch.place(index).ok_or_else(none)?)
     }
 
-    /// Notes which episodes are about to begin, all or none of them.
+    /// Sets the starts of episodes, all or none.
     fn prepare(&self, starts: Vec<(usize, GivenStart<'_>)>) -> PyResult<()> {
         let read = |(index, given)| Ok((index, start(given)?));
         let starts: Vec<(usize, Start)> = starts.into_iter().map(read).collect::<PyResult<_>>()?;
@@ -274,8 +274,8 @@ impl Courses {
         Ok(())
     }
 
-    /// Does something with each episode, the interpreter free for others; raises what the first one that could not begin
-    /// lacks.
+    /// Performs a task on each episode with the interpreter released, and raises the first start
+    /// error.
     fn round(&self, py: Python<'_>, task: Task) -> PyResult<()> {
         let round = Arc::new(Round::new(&self.batch, task));
         py.detach(|| pool::run(&round))?;
@@ -286,7 +286,7 @@ impl Courses {
         first.map_or(Ok(()), |why| Err(error(why)))
     }
 
-    /// What is observed, one row each.
+    /// All observations, a row each.
     fn seen(&self) -> PyResult<Array2<f32>> {
         let mut seen = Array2::zeros((self.batch.len(), self.batch.bounds.len()));
         for (place, mut row) in self.batch.places().zip(seen.rows_mut()) {
@@ -297,14 +297,14 @@ impl Courses {
 }
 
 impl Place {
-    /// Takes what to do in the next step.
+    /// Sets the action of the next step.
     fn act<'a>(&mut self, action: impl Iterator<Item = &'a f64>) {
         self.action.clear();
         self.action.extend(action);
     }
 }
 
-/// The time, the robot's true pose, and how often it ran into something.
+/// The time, the robot's true pose, and the number of collisions.
 fn truth(sim: &Simulation) -> (f64, [f64; 3], i64) {
     let truth = sim.truth();
     let Pose { x, y, heading } = truth.pose();

@@ -1,4 +1,4 @@
-//! `Judge`: gives a run of a plan the reward that an episode would get.
+//! `Judge`: the reward of an episode for a run of a plan.
 
 use std::any::Any;
 use std::sync::{Mutex, PoisonError};
@@ -12,7 +12,7 @@ use crate::errors::error;
 use crate::simulation::Runner;
 use crate::world::World;
 
-/// Looks at a running plan and says what driving was worth since the last look.
+/// Observes a running plan and computes the reward since the last look.
 #[pyclass(module = "afp", frozen)]
 pub struct Judge {
     score: Mutex<Score>,
@@ -21,7 +21,7 @@ pub struct Judge {
 
 #[pymethods]
 impl Judge {
-    /// From this instant of a run on.
+    /// Start judging at this instant of a run.
     #[new]
     fn new(
         runner: &Runner,
@@ -61,13 +61,13 @@ pub fn room(world: &World) -> PyResult<&Room> {
     room.ok_or_else(|| error("the world is that of another robot"))
 }
 
-/// What there is to reach, by name.
+/// The kind of target with that name.
 pub fn kind(name: &str) -> PyResult<Kind> {
     let unknown = || PyValueError::new_err(format!("no target '{name}'; there are: light, goal"));
     Kind::named(name).ok_or_else(unknown)
 }
 
-/// Where there is something to reach in a world: the first infrared source (`light`), or the `goal` that a seed makes up.
+/// The target of a world: the first infrared source (`light`), or a random `goal` from a seed.
 #[pyfunction]
 pub fn target(world: &World, reach: &str, seed: u64) -> PyResult<(f64, f64)> {
     let [x, y] = Target::of(room(world)?, kind(reach)?, None, seed).map_err(error)?.at;

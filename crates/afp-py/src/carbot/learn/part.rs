@@ -1,7 +1,8 @@
-//! Parts of an observation: what a policy may see of the robot, each with its bounds.
+//! Parts of an observation, each with its bounds.
 //!
-//! They say what the devices say, never the truth. What a device does not say, because it is broken or has not measured
-//! yet, is what it said last; `distance`, `glow`, `color` and `valid` also say whether it is known.
+//! They contain values of devices, never ground truth. A broken device, or one without a new
+//! measurement, keeps its last value. `distance`, `glow`, `color` and `valid` also tell whether the
+//! value is known.
 
 use afp_carbot::devices::{
     Battery, Color, ColorSensor, Glow, InfraredSensor, Motion, Odometry, TouchSensor, Ultrasonic,
@@ -9,14 +10,14 @@ use afp_carbot::devices::{
 use afp_core::Instant;
 use afp_sim::{Pose, Simulation};
 
-/// Silence of the range sensor is observed as this distance, metres.
+/// The observed distance if the range sensor has no echo, in metres.
 pub const RANGE: f64 = 2.5;
-/// What is farther from the start than this is observed as this far, metres.
+/// The largest observed distance from the start, in metres.
 const FAR: f32 = 1e3;
 const PI: f32 = core::f32::consts::PI;
-/// A ping counts for a bearing of the fan if the sensor looked so near to it, radians.
+/// The tolerance between a ping and a bearing of the fan, in radians.
 const AIMED: f64 = 0.06;
-/// After so many pings the fan goes on to its next bearing in any case.
+/// The pings after which the fan moves on in any case.
 const PATIENCE: u32 = 12;
 
 /// A part of an observation.
@@ -35,7 +36,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// All of them by name.
+    /// All parts by name.
     pub const ALL: [(&'static str, Part); 10] = [
         ("distance", Part::Distance),
         ("odometry", Part::Odometry),
@@ -49,7 +50,7 @@ impl Part {
         ("valid", Part::Valid),
     ];
 
-    /// The part of that name.
+    /// Finds a part by name.
     ///
     /// # Errors
     /// There is none.
@@ -61,7 +62,7 @@ impl Part {
         })
     }
 
-    /// The least and the greatest of each of its numbers; the fan has so many bearings.
+    /// Minimum and maximum of each of its numbers; `fan` is the number of bearings.
     pub fn bounds(self, fan: usize) -> Vec<(f32, f32)> {
         let far = (-FAR, FAR);
         match self {
@@ -81,7 +82,7 @@ impl Part {
     }
 }
 
-/// What the devices said last.
+/// The last values of the devices.
 #[derive(Clone, Debug)]
 pub struct Senses {
     distance: Option<f64>,
@@ -90,12 +91,12 @@ pub struct Senses {
     glow: Option<(f64, f64)>,
     color: Option<[f64; 3]>,
     battery: [f64; 2],
-    /// Of odometry, bumper, infrared sensor, colour sensor and battery, whether they answer.
+    /// Whether odometry, bumper, infrared sensor, colour sensor and battery respond.
     valid: [bool; 5],
     fan: Fan,
 }
 
-/// The last echo of each of some bearings, which the range sensor looks along in turns, to and fro.
+/// The last echo for each bearing; the range sensor sweeps over them to and fro.
 #[derive(Clone, Debug, Default)]
 struct Fan {
     bearings: Vec<f64>,
@@ -107,7 +108,7 @@ struct Fan {
 }
 
 impl Senses {
-    /// Of a robot that stands at its start, whose range sensor looks along these bearings, or along none.
+    /// The senses of a robot at its start, with the bearings of its fan, if any.
     pub fn new(sim: &mut Simulation, bearings: &[f64]) -> Senses {
         let echoes = vec![RANGE; bearings.len()];
         let fan = Fan { bearings: bearings.to_vec(), echoes, ..Fan::default() };
@@ -126,12 +127,13 @@ impl Senses {
         senses
     }
 
-    /// Takes a new echo of the fan, and points the sensor elsewhere then; between two pings at least once.
+    /// Takes a new echo of the fan and points the sensor to the next bearing; call it at least once
+    /// between pings.
     pub fn update(&mut self, sim: &mut Simulation) {
         self.fan.update(sim);
     }
 
-    /// Asks all devices.
+    /// Reads all devices.
     pub fn look(&mut self, sim: &Simulation) {
         let echo = sim.echo().value.ok();
         self.distance =
@@ -156,7 +158,7 @@ impl Senses {
         self.valid = [motion.is_some(), touched.is_some(), glow, color, charge.is_some()];
     }
 
-    /// Writes a part; `target` is where there is something to reach, as seen from the start.
+    /// Writes a part; `target` is relative to the start.
     pub fn write(&self, part: Part, target: Option<[f64; 2]>, into: &mut Vec<f64>) {
         let flag = |truth: bool| f64::from(u8::from(truth));
         let [x, y, heading, speed, turn] = self.motion;
@@ -228,7 +230,7 @@ impl Fan {
         }
     }
 
-    /// To the next bearing, to and fro.
+    /// Moves to the next bearing, to and fro.
     fn go_on(&mut self) {
         let last = self.bearings.len() - 1;
         if self.next == last {
@@ -240,7 +242,7 @@ impl Fan {
     }
 }
 
-/// A place in the world as seen from a pose.
+/// A point of the world relative to a pose.
 pub fn seen_from(pose: Pose, [x, y]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = libm::sincos(pose.heading);
     let (dx, dy) = (x - pose.x, y - pose.y);

@@ -1,9 +1,11 @@
-//! Threads that help to step episodes, made when they are needed and again in a process that was forked.
+//! Helper threads for episodes, created on demand and again after a fork.
 //!
-//! A step of many robots takes a tenth of a millisecond, and waking a thread as long as one of them. So who asks for a round
-//! takes part in it, helpers look for the next one for a moment before they sleep, and nobody waits for a helper that comes late.
-//! Where the cores are busy with others, a helper loses its core in the midst of an episode, for longer than all of them take: after
-//! a round in which more time was lost by waiting for helpers than they saved, some are done without them.
+//! A step of many robots takes a tenth of a millisecond, and waking a thread takes as long as one
+//! robot's step. The calling thread therefore takes part in its round. Helpers poll briefly for the
+//! next round before they sleep, and a round does not wait for helpers that have not started. On a
+//! busy machine a helper can lose its core during an episode, for longer than the whole round.
+//! After a round that lost more time by waiting than the helpers saved, some rounds run without
+//! helpers.
 
 use std::hint::spin_loop;
 use std::io;
@@ -17,34 +19,35 @@ use std::time::{Duration, Instant};
 use super::batch::Round;
 use crate::forks;
 
-/// How long a helper looks for the next round before it sleeps: what Python does between two of them takes less as a rule.
+/// The time for which a helper polls before it sleeps, usually longer than Python's work between
+/// two rounds.
 const AWAKE: Duration = Duration::from_micros(50);
-/// The clock is read once for so many looks.
+/// The polls between two readings of the clock.
 const LOOKS: u32 = 64;
 
-/// So many rounds are done without helpers after one in which they cost time, twice as many the next time, up to a bound.
+/// The rounds without helpers after a slow one; the number doubles each time, up to a limit.
 const ALONE: u32 = 8;
 const MOST_ALONE: u32 = 512;
 
-/// The helpers of a process, if it has a core for any.
+/// The process id with its helpers, if it has a core for any.
 type Known = (u32, Option<Arc<Helpers>>);
 
-/// Those of this process, once they were needed.
+/// The helpers of this process, created on first use.
 static HELPERS: Mutex<Option<Known>> = Mutex::new(None);
 
 /// Threads that take part in the latest round.
 #[derive(Default)]
 struct Helpers {
-    /// The number of the latest round, for those that are awake.
+    /// The number of the latest round, for polling helpers.
     latest: AtomicU64,
     posted: Mutex<Posted>,
     more: Condvar,
-    /// How many rounds are done without helpers, and how many will be when one is late again.
+    /// The remaining rounds without helpers, and the number for the next slow round.
     alone: AtomicU32,
     next_alone: AtomicU32,
 }
 
-/// The latest round and its number; none once it is over.
+/// The number of the latest round, and the round until it is over.
 #[derive(Default)]
 struct Posted {
     number: u64,
@@ -52,10 +55,10 @@ struct Posted {
     asleep: usize,
 }
 
-/// Does a round on all cores, this thread's among them; whoever panics in it poisons the place.
+/// Executes a round on all cores, including this thread's; a panic poisons its place.
 ///
 /// # Errors
-/// The system gives no threads.
+/// The system cannot start threads.
 pub fn run(round: &Arc<Round>) -> io::Result<()> {
     let helpers = match round.places() {
         0 | 1 => None,
@@ -68,7 +71,7 @@ pub fn run(round: &Arc<Round>) -> io::Result<()> {
     Ok(())
 }
 
-/// One helper less than there are cores, of which the system is asked once; none on one core.
+/// Returns the helpers, one fewer than cores; the system is queried once. `None` on one core.
 fn helpers() -> io::Result<Option<Arc<Helpers>>> {
     let mut known = HELPERS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((process, helpers)) = &*known
@@ -87,7 +90,7 @@ fn helpers() -> io::Result<Option<Arc<Helpers>>> {
 }
 
 impl Helpers {
-    /// Does a round with this thread and those that come.
+    /// Executes a round with this thread and available helpers.
     fn work(&self, round: &Arc<Round>) {
         let begin = Instant::now();
         let number = self.post(round);
@@ -96,7 +99,8 @@ impl Helpers {
         round.wait();
         let waited = begin.elapsed().as_secs_f64() - worked;
         self.withdraw(number);
-        // Whoever did so many takes as long for each of the others. To wait for the last one is no loss.
+        // The average time of this thread also applies to the other places. Waiting for the last
+        // one is normal.
         let each = worked / own.max(1) as f64;
         let saved = each * (round.places() - own + 1) as f64;
         let before = self.next_alone.load(Ordering::Relaxed);
@@ -110,13 +114,13 @@ impl Helpers {
         self.next_alone.store(next, Ordering::Relaxed);
     }
 
-    /// Whether this round is one of those that are done without helpers.
+    /// Whether this round runs without helpers.
     fn rest(&self) -> bool {
         let less = |alone: u32| alone.checked_sub(1);
         self.alone.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok()
     }
 
-    /// Lets helpers see a round; its number.
+    /// Publishes a round and returns its number.
     fn post(&self, round: &Arc<Round>) -> u64 {
         let mut posted = self.posted();
         posted.number += 1;
@@ -128,7 +132,7 @@ impl Helpers {
         posted.number
     }
 
-    /// Takes a round away that is over, so that its episodes are not kept.
+    /// Removes a finished round, so that its episodes are freed.
     fn withdraw(&self, number: u64) {
         let mut posted = self.posted();
         if posted.number == number {
@@ -136,18 +140,18 @@ impl Helpers {
         }
     }
 
-    /// What a helper does, for ever.
+    /// The endless loop of a helper.
     fn help(&self) {
         let mut seen = 0;
         loop {
             if let Some(round) = self.next(&mut seen) {
-                // The place that broke says so itself; the helper goes on.
+                // The place itself reports the panic; the helper continues.
                 let _ = catch_unwind(AssertUnwindSafe(|| round.work()));
             }
         }
     }
 
-    /// Waits for a round after the one that was seen last; none where that is over already.
+    /// Waits for a round after the last seen one; `None` if it is already over.
     fn next(&self, seen: &mut u64) -> Option<Arc<Round>> {
         let begin = Instant::now();
         while !self.is_there(*seen) && begin.elapsed() < AWAKE {}
@@ -161,7 +165,7 @@ impl Helpers {
         posted.round.clone()
     }
 
-    /// Whether there is a round after that one, at one of some looks: each takes as long as a processor rests between two.
+    /// Polls several times for a round after that one, with a pause of the processor in between.
     fn is_there(&self, seen: u64) -> bool {
         (0..LOOKS).any(|_| {
             spin_loop();

@@ -1,39 +1,39 @@
-//! What driving is worth: terms that a reward weighs, from what only a judge may know.
+//! Reward terms with weights, computed from ground truth.
 
 use afp_core::Instant;
 use afp_sim::{Pose, Simulation, World};
 
-/// The names of the terms, in their order.
+/// The names of the terms, in order.
 pub const TERMS: [&str; 6] = ["ahead", "crash", "wall", "nearer", "reached", "time"];
 const CRASH: usize = 1;
 const WALL: usize = 2;
 const NEARER: usize = 3;
 const REACHED: usize = 4;
 
-/// What to say where something is asked of a target.
+/// The error for a term without a target.
 pub const NOTHING_TO_REACH: &str =
     "there is nothing to reach: say reach=\"goal\" or reach=\"light\"";
 
-/// The distance to the wall at its right that the robot should keep, metres.
+/// The distance that the robot should keep to the wall at its right, in metres.
 const KEEP: f64 = 0.3;
-/// A goal is reached from so near, metres.
+/// The distance at which a goal is reached, in metres.
 const AT_GOAL: f64 = 0.3;
-/// A source of infrared light is reached from so near, metres: the robot's length is part of it.
+/// The distance at which an infrared source is reached, in metres; it includes the robot's length.
 const AT_LIGHT: f64 = 0.8;
-/// A goal that is made up is so far from the start, metres.
+/// The distance of a random goal from the start, in metres.
 const APART: f64 = 1.0;
 
-/// What there is to reach.
+/// The kind of target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The first source of infrared light.
     Light,
-    /// A place.
+    /// A point.
     Goal,
 }
 
 impl Kind {
-    /// The kind of that name.
+    /// Finds a kind by name.
     pub fn named(name: &str) -> Option<Kind> {
         match name {
             "light" => Some(Kind::Light),
@@ -43,16 +43,16 @@ impl Kind {
     }
 }
 
-/// A place to be reached.
+/// A target.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Where it is, metres.
+    /// Its position in metres.
     pub at: [f64; 2],
     within: f64,
 }
 
 impl Target {
-    /// What is to be reached in a world: a given goal, or one that the seed makes up.
+    /// Finds the target of a world: the given goal, or a random one from the seed.
     ///
     /// # Errors
     /// The world has none.
@@ -82,7 +82,7 @@ impl Target {
     }
 }
 
-/// How the terms are weighed, and which of them end an episode.
+/// The weights of the terms, and the terms that end an episode.
 #[derive(Clone, Debug)]
 pub struct Weights {
     weights: [f64; TERMS.len()],
@@ -90,11 +90,11 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Weights by the names of their terms; those that are not named weigh nothing.
+    /// Makes weights from names; other terms have the weight 0.
     ///
     /// # Errors
-    /// No such term; a weight that is not finite; a term that ends nothing; one of what there is to reach where there is
-    /// nothing.
+    /// An unknown term, an infinite weight, a term that cannot end an episode, or a term that needs
+    /// a target.
     pub fn new(
         weights: &[(String, f64)],
         ends: &[String],
@@ -128,10 +128,10 @@ impl Weights {
         Ok(made)
     }
 
-    /// What the terms come to, and whether they end the episode.
+    /// Computes the reward, and whether the terms end the episode.
     pub fn weigh(&self, terms: &[f64; TERMS.len()]) -> (f64, bool) {
         let each = terms.iter().zip(&self.weights);
-        // What weighs nothing adds no zero, so that no sign of it is seen.
+        // A term without a weight adds nothing, so the sum never becomes a negative zero.
         let reward = each.filter(|(_, weight)| **weight != 0.0).map(|(term, weight)| term * weight);
         let ended = terms.iter().zip(&self.ends).any(|(term, ends)| *ends && *term > 0.0);
         (reward.sum(), ended)
@@ -142,7 +142,7 @@ impl Weights {
     }
 }
 
-/// What a judge remembers from one look to the next.
+/// A judge's memory between looks.
 #[derive(Clone, Debug)]
 pub struct Score {
     target: Option<Target>,
@@ -155,7 +155,7 @@ pub struct Score {
 }
 
 impl Score {
-    /// From this instant on.
+    /// Starts at this instant.
     pub fn new(sim: &Simulation, target: Option<Target>, weights: &Weights) -> Score {
         let pose = sim.truth().pose();
         Score {
@@ -169,7 +169,7 @@ impl Score {
         }
     }
 
-    /// The terms since the last look.
+    /// Returns the terms since the last look.
     pub fn look(&mut self, sim: &Simulation) -> [f64; TERMS.len()] {
         let truth = sim.truth();
         let (pose, hits) = (truth.pose(), truth.collisions().len());
@@ -186,7 +186,7 @@ impl Score {
         [ahead, crash, ahead * near.max(0.0), nearer, reached, time]
     }
 
-    /// By how much the target is nearer, and whether it was reached for the first time.
+    /// The decrease of the target's distance, and whether it was reached for the first time.
     fn approach(&mut self, pose: Pose) -> (f64, f64) {
         let Some(target) = self.target else { return (0.0, 0.0) };
         let far = target.far(pose);

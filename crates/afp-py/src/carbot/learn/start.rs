@@ -1,4 +1,4 @@
-//! How an episode begins, as Python says it.
+//! The start of an episode as given by Python.
 
 use std::sync::Arc;
 
@@ -14,9 +14,9 @@ use super::judge::room;
 use crate::simulation::{duration, fault, instant};
 use crate::world::World;
 
-/// What breaks: device, fault, delay, share, from when on, for how long.
+/// A fault: device, kind, delay, share, start, duration.
 pub type GivenFault = (String, String, Option<f64>, Option<f64>, Option<f64>, Option<f64>);
-/// How an episode begins: the world, the seeds of room and noise, the robot's pose, the goal, what breaks.
+/// The start of an episode: world, seeds of room and noise, robot's pose, goal, faults.
 pub type GivenStart<'py> = (
     Option<Bound<'py, World>>,
     u64,
@@ -26,10 +26,10 @@ pub type GivenStart<'py> = (
     Vec<GivenFault>,
 );
 
-/// What an episode begins with.
+/// Converts the start of an episode.
 ///
 /// # Errors
-/// The world of another robot, a place that is none, a fault that there is not.
+/// The world of a different robot, an invalid place, or an unknown fault.
 pub fn start((world, seed, noise, pose, goal, faults): GivenStart<'_>) -> PyResult<Start> {
     let world =
         world.map(|world| Ok::<_, PyErr>(Arc::new(room(world.get())?.clone()))).transpose()?;
@@ -53,7 +53,7 @@ pub fn start((world, seed, noise, pose, goal, faults): GivenStart<'_>) -> PyResu
     })
 }
 
-/// What breaks, when, for how long.
+/// Converts faults with their times.
 fn broken(
     (device, kind, delay, share, at, lasting): GivenFault,
 ) -> PyResult<(Fault, Instant, Duration)> {

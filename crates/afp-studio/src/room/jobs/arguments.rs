@@ -1,4 +1,4 @@
-//! What the command line is given for a job.
+//! The command-line arguments of a job.
 
 use std::path::PathBuf;
 
@@ -7,12 +7,12 @@ use serde_json::Value;
 
 use super::super::Room;
 
-/// The file that a request names; it is one of the folder.
+/// The file of the folder named by a request.
 pub(super) fn file_of(room: &Room, params: &Value) -> Option<Result<PathBuf, String>> {
     params["file"].as_str().map(|uri| room.folder.inside(&path_of(uri)))
 }
 
-/// The arguments of the command line for a job. Files are those of the folder; everything else has its own form.
+/// The arguments of a job. Files must be in the folder, and all other values have fixed formats.
 pub(super) fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, String> {
     let file = || -> Result<String, String> {
         let path = file_of(room, params).ok_or("'file' is missing")??;
@@ -67,7 +67,7 @@ pub(super) fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<S
     })
 }
 
-/// A word for the command line that has the form of its kind and is no option; none where nothing was said.
+/// Checks the format of a value, which must not look like an option; `None` if it is missing.
 fn checked(
     value: &Value,
     name: &str,
@@ -80,7 +80,7 @@ fn checked(
     }
 }
 
-/// How long each run of a sweep may take; plans write it with a blank, '60 s'.
+/// The time limit of a sweep's runs; plans write it with a space, '60 s'.
 fn until(value: &Value) -> Result<Option<String>, String> {
     let written = value.as_str().unwrap_or_default();
     let word: String = written.split_whitespace().collect();
@@ -96,7 +96,7 @@ fn until(value: &Value) -> Result<Option<String>, String> {
     }
 }
 
-/// How a word of a job is written.
+/// The help for a malformed value.
 fn remedy(name: &str) -> &'static str {
     match name {
         "seeds" => ": write from which one on and up to which, '0..20' (the last is 19)",
@@ -109,7 +109,7 @@ fn remedy(name: &str) -> &'static str {
     }
 }
 
-/// A world of the folder, or one that is made up from a seed.
+/// A world of the folder, or a random one from a seed.
 fn world_of(room: &Room, world: &str) -> Result<String, String> {
     let seed = world.strip_prefix("random:");
     if seed.is_some_and(|seed| seed.chars().all(|letter| letter.is_ascii_digit())) {

@@ -1,20 +1,18 @@
-//! A reader of the grammar's notation, and random sentences of what it describes.
+//! A reader of the grammar's notation, and a generator of random sentences.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the names in sentences begin with; no word of the language does.
+/// The prefix of names in sentences, which is not a prefix of any keyword.
 pub const NAME: &str = "zz";
 
-/// How deep rules may nest before only the shortest way out is taken.
+/// The nesting depth after which only the shortest alternatives are used.
 const DEPTH: usize = 14;
 
-/// Rules by name.
 pub struct Grammar(BTreeMap<String, Rule>);
 
 enum Rule {
-    /// A word or sign.
+    /// A keyword or an operator.
     Text(String),
-    /// A rule or token by name.
     Name(String),
     One(Vec<Rule>),
     All(Vec<Rule>),
@@ -40,7 +38,6 @@ impl Grammar {
         Grammar(rules)
     }
 
-    /// Every word in quotes.
     pub fn words(&self) -> BTreeSet<String> {
         let mut words = BTreeSet::new();
         for rule in self.0.values() {
@@ -49,7 +46,7 @@ impl Grammar {
         words
     }
 
-    /// A sentence of a rule, the same for the same seed.
+    /// A random sentence of a rule, determined by the seed.
     pub fn sentence(&self, rule: &str, seed: u64) -> String {
         let mut maker = Maker { grammar: self, state: seed, text: String::new() };
         maker.named(rule, 0);
@@ -85,7 +82,7 @@ fn tokens(text: &str) -> Vec<String> {
     tokens
 }
 
-/// Choices up to a closing sign.
+/// Alternatives up to a closing bracket.
 fn one(rest: &mut &[String]) -> Rule {
     let mut choices = vec![all(rest)];
     while rest.first().is_some_and(|token| token == "|") {
@@ -175,7 +172,7 @@ impl Maker<'_> {
     }
 
     fn write(&mut self, text: &str) {
-        // A blank between all tokens, a dot stands close; now and then a new line where one may be.
+        // A space between all tokens except dots; sometimes a line break where it is allowed.
         if text != "." && !self.text.is_empty() && !self.text.ends_with('.') {
             self.text.push(' ');
         }

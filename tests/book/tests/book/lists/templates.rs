@@ -1,4 +1,4 @@
-//! The page of the built-in templates is made from their toolbox files.
+//! The page of the built-in templates, generated from their toolbox files.
 
 use std::fmt::Write;
 use std::fs;
@@ -23,7 +23,7 @@ fn every_built_in_template_is_described() {
     compare("templates.md", &page, &super::with_list(&page, &list));
 }
 
-/// A heading, the help, and each port, state or event as it is declared, with its help.
+/// A heading, the help, and each port, state or event with its declaration and help.
 fn describe(template: &Template, sources: &Sources, list: &mut String) {
     let kind = match template.kind {
         TemplateKind::Actor => "Actor",
@@ -50,7 +50,7 @@ fn describe(template: &Template, sources: &Sources, list: &mut String) {
     }
 }
 
-/// The line of a declaration, single blanks only.
+/// The line of a declaration with single spaces.
 fn line(span: Span, sources: &Sources) -> String {
     let text = &sources.get(span.file).unwrap().text;
     let start = text[..span.start as usize].rfind('\n').map_or(0, |at| at + 1);
@@ -58,7 +58,6 @@ fn line(span: Span, sources: &Sources) -> String {
     line.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Help on one line.
 fn sentence(help: &str) -> String {
     help.split_whitespace().collect::<Vec<_>>().join(" ")
 }

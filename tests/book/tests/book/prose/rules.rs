@@ -99,7 +99,6 @@ const RULES: &[(&str, &[&str], &str, &[&str])] = &[
     ),
 ];
 
-/// A compiled rule.
 struct Rule {
     advice: &'static str,
     triggers: &'static [&'static str],
@@ -107,7 +106,6 @@ struct Rule {
     wrong: Regex,
 }
 
-/// All rules.
 pub struct Rules(Vec<Rule>);
 
 impl Rules {

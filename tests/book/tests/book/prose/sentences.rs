@@ -30,7 +30,6 @@ pub fn of_rust(text: &str) -> Vec<Sentence> {
     found
 }
 
-/// The words of a line that is a comment.
 fn comment(line: &str) -> Option<&str> {
     let words = line.strip_prefix("//")?;
     let words = words.strip_prefix(['/', '!']).unwrap_or(words);
