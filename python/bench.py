@@ -1,7 +1,8 @@
-"""What the package costs, as ratios within one run: `python bench.py [--check] [WORDS]`; AFPC names an afpc, optimised.
+"""Measures the cost of the package as ratios within one run: `python bench.py [--check] [WORDS]`;
+AFPC names an optimised afpc.
 
-What is compared takes turns within a figure, and the best of each is compared, so that a busy machine blurs it less.
-A figure that misses its bar is measured twice more before it counts.
+Compared functions take turns, and only the best times count, so that a busy machine disturbs them
+less. A figure that misses its bar is measured twice more before it counts.
 """
 
 from __future__ import annotations
@@ -41,14 +42,14 @@ def best(measure: Callable[[], float]) -> float:
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """How long it takes."""
+    """The duration of a call."""
     begin = time.perf_counter()
     work()
     return time.perf_counter() - begin
 
 
 def rust_run() -> float:
-    """Seconds that `afpc run` spends in its loop, as it tells itself."""
+    """Seconds in the loop of `afpc run`, as it reports them."""
     options = ["--until", f"{UNTIL}s", "--log", "none", "--svg", "none"]
     afpc = os.environ.get("AFPC", "afpc")
     told = subprocess.run([afpc, "run", str(PLAN), *options], capture_output=True, text=True, check=True, cwd=ROOT)
@@ -58,7 +59,7 @@ def rust_run() -> float:
 
 
 def run_cost() -> float:
-    """`run` against the loop of `afpc run`."""
+    """`run` compared with the loop of `afpc run`."""
     plan = afp.load(PLAN)
 
     def python_run() -> float:
@@ -70,7 +71,9 @@ def run_cost() -> float:
 
 
 def step_cost() -> float:
-    """`step` against `run_to`, for the same steps: the sum of the best of each piece, which a busy machine leaves alone now and then."""
+    """`step` compared with `run_to` for the same steps: the sum of the best time of each piece,
+    since a busy machine disturbs some of them.
+    """
     plan, pieces, steps = afp.load(PLAN), 40, 500
     ours, theirs = [float("inf")] * pieces, [float("inf")] * pieces
     for _ in range(2 * ROUNDS):
@@ -78,7 +81,7 @@ def step_cost() -> float:
         step = simulation.step
         for piece in range(pieces):
             begin = time.perf_counter()
-            # As timeit does: a range makes numbers.
+            # Like timeit: a range would create numbers.
             for _ in repeat(None, steps):
                 step()
             ours[piece] = min(ours[piece], time.perf_counter() - begin)
@@ -88,7 +91,7 @@ def step_cost() -> float:
 
 
 def sweep_gain() -> float:
-    """A sweep against `afpc sweep`, per run."""
+    """A sweep compared with `afpc sweep`, per run."""
     seeds, until = 16, 60.0
     plan = afp.load(PLAN)
     afpc = os.environ.get("AFPC", "afpc")
@@ -105,14 +108,14 @@ def sweep_gain() -> float:
 
 
 def reset_time() -> float:
-    """Milliseconds that a new episode takes in a room that is given."""
+    """Milliseconds of a new episode in a given room."""
     env = afp.gym.CarbotEnv(afp.World.random(3))
     env.reset(seed=0)
     return best(lambda: seconds(lambda: [env.reset() for _ in range(50)])) / 50 * 1e3
 
 
 def env_cost() -> float:
-    """A step of the environment against the same drive of the robot alone."""
+    """A step of the environment compared with the same drive of the robot without one."""
     room, steps = afp.World.random(3), 500
     env, alone = afp.gym.CarbotEnv(room, ends=[], observe=["motion"]), afp.Carbot(room)
     env.reset(seed=0)
@@ -127,7 +130,7 @@ def env_cost() -> float:
 
 
 def against_envpool() -> float:
-    """Steps a second of 16 robots against those of 16 lunar landers of EnvPool, both on two threads."""
+    """Steps per second of 16 robots compared with 16 lunar landers of EnvPool, both on two threads."""
     envpool = importlib.import_module("envpool")
     many, steps = 16, 200
     landers = envpool.make("LunarLander-v2", env_type="gymnasium", num_envs=many, num_threads=2)
@@ -147,7 +150,9 @@ def against_envpool() -> float:
 
 
 def ppo_share() -> float:
-    """What part of the time PPO of stable-baselines3 spends in 16 environments, with its own settings."""
+    """The share of time that PPO of stable-baselines3 spends in 16 environments, with its default
+    settings.
+    """
     ppo = importlib.import_module("stable_baselines3").PPO
     envs = importlib.import_module("afp.gym.sb3").CarbotVecEnv(16, seed=0, max_episode_steps=600)
     step, within = envs.step_wait, [0.0]
@@ -170,33 +175,33 @@ def ppo_share() -> float:
 
 
 def simulate(seed: int) -> None:
-    """A run that a thread makes."""
+    """A run in a thread."""
     afp.Simulation(afp.load(PLAN), seed=seed).run_to(UNTIL)
 
 
 def count(_: int) -> None:
-    """Arithmetic that a process makes."""
+    """Arithmetic in a process."""
     total = 0
     for number in range(4_000_000):
         total += number * number
 
 
 def gain(pool: ThreadPoolExecutor | ProcessPoolExecutor, work: Callable[[int], None]) -> float:
-    """How much faster two workers are than one, per piece of work."""
+    """The speed-up of two workers over one."""
     list(pool.map(work, range(2)))
     alone = seconds(lambda: list(pool.map(work, [0]))) * 2
     return alone / seconds(lambda: list(pool.map(work, range(2))))
 
 
 def threads_gain() -> float:
-    """What two threads gain on runs, against what two processes gain on arithmetic."""
+    """The speed-up of runs on two threads, compared with that of arithmetic in two processes."""
     with ThreadPoolExecutor(2) as threads, ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
         pairs = [(gain(threads, simulate), gain(processes, count)) for _ in range(ROUNDS)]
     return max(ours for ours, _ in pairs) / max(theirs for _, theirs in pairs)
 
 
 def robots_gain() -> float:
-    """What many robots at once gain on one after the other, against what two processes gain on arithmetic."""
+    """The speed-up of many robots at once, compared with that of arithmetic in two processes."""
     many, steps = 16, 25
     room = afp.World.random(3)
     one, all = afp.gym.CarbotEnv(room, ends=[]), afp.gym.CarbotVectorEnv(many, room, ends=[])
@@ -236,7 +241,7 @@ def interrupted() -> float:
 
 
 def interrupted_sweep() -> float:
-    """The same in a sweep on two cores whose components hang."""
+    """Milliseconds from Ctrl-C to its exception in a sweep on two cores with hanging components."""
     tools = afp.Toolbox("tools")
 
     @tools.actor(states=["Done"])
@@ -250,7 +255,9 @@ def interrupted_sweep() -> float:
 
 
 def supervised() -> float:
-    """How many times as fast as real time a plan is with a supervisor in Python polled every millisecond."""
+    """The speed as a multiple of real time of a plan with a Python supervisor polled every
+    millisecond.
+    """
     tools = afp.Toolbox("tools")
 
     @tools.supervisor(events=["Near"], every="1 ms")
@@ -279,13 +286,13 @@ BARS: list[tuple[str, Callable[[], float], str, float]] = [
     ("supervisor at 1 kHz, times real time", supervised, ">=", 20.0),
 ]
 
-# What is compared with packages that are large.
+# The large packages needed for comparisons.
 WANTS: dict[Callable[[], float], str] = {against_envpool: "envpool", ppo_share: "stable_baselines3"}
 
 
 def main() -> int:
-    """Prints the figures; fails with `--check` where one misses its bar."""
-    # A shell that starts this in the background has Ctrl-C ignored.
+    """Print the figures; with `--check`, fail if one misses its bar."""
+    # A shell that starts this in the background ignores Ctrl-C.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     failed = 0
     wanted = [word for word in sys.argv[1:] if not word.startswith("-")]

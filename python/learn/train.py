@@ -1,10 +1,11 @@
-"""Trains a policy for a task of `afp.gym` and compares it with the plan written by hand and with random actions.
+"""Trains a policy for a task of `afp.gym`, and compares it with the handwritten plan.
 
     pip install stable-baselines3
     python train.py ReachGoal --steps 300000 --seed 0
 
-The policy is trained by PPO in rooms made up from one range of seeds and judged in those of another one, as are the others.
-The same seed gives the same policy on the same machine and versions.
+PPO trains the policy in random rooms from one range of seeds. The policy, the plan and random
+actions are judged in rooms from a different range. The same seed gives the same policy on the same
+machine and versions.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ def policy_of(model: PPO, envs: VecNormalize) -> Callable[[NDArray[np.float32]],
 
 
 def train(task: str, steps: int, seed: int) -> Callable[[NDArray[np.float32]], Any]:
-    """Trains a policy."""
-    # Two threads for so small a network are in each other's way.
+    """Train a policy."""
+    # Two threads would slow down so small a network.
     torch.set_num_threads(1)
     seconds = next(known.seconds for known in TASKS.values() if known.name == task)
     raw = CarbotVecEnv(ENVIRONMENTS, seed=seed * 10_000, task=task, max_episode_steps=round(seconds * 10))
@@ -50,12 +51,12 @@ def train(task: str, steps: int, seed: int) -> Callable[[NDArray[np.float32]], A
 
 
 def shown(name: str, score: Score) -> None:
-    """Prints a score."""
+    """Print a score."""
     print(f"  {name:<16} {score.mean:7.2f} ± {score.error:.2f}   {score.ended.mean():4.0%} ended by the task", flush=True)
 
 
 def main() -> None:
-    """Trains and compares."""
+    """Train and compare."""
     names = [task.name for task in TASKS.values()]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("task", choices=names)

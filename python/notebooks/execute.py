@@ -1,6 +1,6 @@
-"""Executes the notebooks beside this file; a cell that raises fails.
+"""Executes the notebooks next to this file; a cell that raises fails.
 
-They run in a copy of what they need, so that no outcomes of earlier versions are found.
+They run in a copy of their files, without outcomes of earlier versions.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from nbclient import NotebookClient
 
 
 def main() -> int:
-    """Runs them one after the other."""
+    """Run them one after the other."""
     folder = Path(__file__).resolve().parent
     root = folder.parents[1]
     with tempfile.TemporaryDirectory() as copy:

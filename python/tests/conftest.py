@@ -1,4 +1,4 @@
-"""What the tests share."""
+"""Shared parts of the tests."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PLANS = sorted((ROOT / "plans").glob("*.afp"))
 
 
 def interrupted(work: Callable[[], object], after: float = 0.3) -> float:
-    """Seconds from Ctrl-C to its exception; it comes so many seconds after the work has begun."""
+    """Seconds from Ctrl-C to its exception; Ctrl-C comes some seconds after the work has begun."""
     sent: list[float] = []
 
     def send() -> None:
@@ -33,7 +33,9 @@ def interrupted(work: Callable[[], object], after: float = 0.3) -> float:
 
 @pytest.fixture(autouse=True)
 def interruptible() -> Iterator[None]:
-    """Ctrl-C raises, even where a shell has started the tests in the background with SIGINT ignored."""
+    """Make Ctrl-C raise, even if a shell has started the tests in the background with SIGINT
+    ignored.
+    """
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -47,7 +49,7 @@ def wall_following() -> afp.Plan:
 
 @pytest.fixture
 def afpc() -> str:
-    """The command line to compare with."""
+    """The command line for comparisons."""
     path = os.environ.get("AFPC")
     if path is None:
         pytest.skip("AFPC does not name an afpc; 'cargo xtask test python' sets it")

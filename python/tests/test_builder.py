@@ -1,4 +1,4 @@
-"""Worlds put together in the program."""
+"""Worlds built in Python."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_a_world_is_that_of_the_toml_which_it_writes(tmp_path: Path) -> None:
 
 
 def test_every_key_of_a_world_file_can_be_written() -> None:
-    """Nothing of the format is left out; `map` comes from maps alone."""
+    """Every key of the format can be written, except `map`, which only maps have."""
     written = {line.split(" = ")[0] for line in EVERYTHING.toml.splitlines() if " = " in line}
     schema = (Path(__file__).resolve().parents[1] / "worlds/world.schema.json").read_text(encoding="utf-8")
     import json

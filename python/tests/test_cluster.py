@@ -1,4 +1,4 @@
-"""Sweeps on a local Ray: as the local engine has it, even if a worker dies."""
+"""Sweeps on a local Ray give the local engine's outcomes, even if a worker dies."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_a_worker_dies_and_no_run_is_lost_or_doubled(monkeypatch: pytest.MonkeyP
     marks.mkdir()
 
     def watched(spec: bytes, identity: str, runs: list[int]) -> tuple[int, list[str]]:
-        """Leaves a mark for each chunk while it is being done, and how often it was begun."""
+        """Leave a mark for each chunk in work, with the number of its attempts."""
         mark = marks / f"{os.getpid()}.{runs[0]}"
         mark.touch()
         with open(marks.parent / "begun", "a") as begun:
@@ -81,7 +81,7 @@ def test_a_worker_with_another_plan_refuses(tmp_path: Path) -> None:
 
 
 def creeping(kept: Any) -> afp.Plan:
-    """A plan with an actor that is known to nobody else, and that leads back to its toolbox."""
+    """A plan with an actor that no module exports, and that refers back to its toolbox."""
     tools = afp.Toolbox("tools", doc="Sent along.")
 
     @tools.actor(states={"There": {"went": afp.Length}}, uses=["navigator"])

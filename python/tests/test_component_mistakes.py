@@ -1,4 +1,6 @@
-"""Components and declarations that could not work are refused where they are made, with what to write."""
+"""Components and declarations that could never work are rejected at their definition, with a
+suggestion.
+"""
 
 from __future__ import annotations
 

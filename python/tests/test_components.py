@@ -277,7 +277,7 @@ def test_ctrl_c_in_a_component_ends_the_run() -> None:
     simulation = afp.Simulation(plan)
     with pytest.raises(KeyboardInterrupt):
         simulation.run(until=5.0)
-    # It was told of as a component that panicked.
+    # Previously it was reported as a panic of a component.
     result = simulation.result()
     assert (result.ending, result.fault) == ("error", "python-ended")
     with pytest.raises(afp.AfpError, match=r"after 0\.\d+ s: Ctrl-C, or another exception.*\(python-ended\)"):

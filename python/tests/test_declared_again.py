@@ -1,4 +1,6 @@
-"""What becomes of plans, scenarios and sweeps whose toolbox declares something else now, as when a cell of a notebook is run again."""
+"""Plans, scenarios and sweeps after a change of their toolbox, for example by a repeated notebook
+cell.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,7 @@ scenario "once" for P { expect end }
 
 
 def declare(tools: afp.Toolbox, *states: str) -> None:
-    """Declares the template with its states in this order; its component always says `Good`."""
+    """Declare the template with its states in this order; its component always reports `Good`."""
 
     @tools.actor(states={state: {"got": str} for state in states})
     async def A(n: int, word: str) -> tuple[str, dict[str, str]]:

@@ -1,4 +1,6 @@
-"""The Python blocks of the documentation, each page one session at the root of a copy of the plans; cells of notebooks."""
+"""The Python blocks of the documentation, with one session per page at the root of a copy of the
+plans; cells of notebooks.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,7 @@ def test_what_a_page_shows_is_so(page: Path, tmp_path: Path, monkeypatch: pytest
         shutil.copytree(ROOT / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
-    # Everything outside of the blocks becomes empty lines, so that a failure names the line of the page.
+    # Text outside the blocks becomes empty lines, so that a failure has the line of the page.
     lines = [""] * len(text.splitlines())
     for block in BLOCK.finditer(text):
         first = text[: block.start(1)].count("\n")
@@ -39,7 +41,7 @@ def test_what_a_page_shows_is_so(page: Path, tmp_path: Path, monkeypatch: pytest
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
 def test_the_cells_of_a_notebook_run(notebook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As a program here; as a notebook at night, where there is a kernel."""
+    """As a program by default; as a notebook at night, if there is a kernel."""
     pytest.importorskip("matplotlib").use("Agg")
     for folder in ("plans", "worlds"):
         shutil.copytree(ROOT / folder, tmp_path / folder)

@@ -1,4 +1,4 @@
-"""What people get wrong, and what they are told."""
+"""Common mistakes and their errors."""
 
 from __future__ import annotations
 
@@ -346,7 +346,7 @@ def test_a_number_in_an_array_of_one_is_a_number() -> None:
     ],
 )
 def test_a_default_is_of_its_type(hint: Any, default: Any, said: str) -> None:
-    """Each was accepted, or told of by a place in a text that nobody has written."""
+    """Previously each was accepted, or was reported at a place of generated text."""
     tools = afp.Toolbox("tools")
 
     def Far(x: Any = default) -> str:

@@ -1,4 +1,4 @@
-"""What is read and written: nothing that is read is written over, and what goes wrong names the file."""
+"""Reading and writing: inputs are never overwritten, and errors name the file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What tells two versions of a metric or a component apart."""
+"""Fingerprints of metrics and components."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import pytest
 import afp
 from afp.fingerprint import digest, fingerprint
 
-# Programs that make 'it', which reads K, or differs by it; each K gives another fingerprint.
+# Programs that make 'it', which reads or contains K; each K gives another fingerprint.
 SOURCES = {
     "what it does": "def it(r): return K * r.time",
     "a global": "k = K\ndef it(r): return k * r.time",

@@ -29,14 +29,14 @@ MODES: list[dict[str, Any]] = [{}, {"render_mode": "rgb_array"}, {"render_mode":
 
 @pytest.fixture
 def window(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
-    """What a window shows that stands in for one of the system's, which tests may not have."""
+    """A stand-in for a system window, and its contents."""
     shown: list[bytes] = []
 
     class Widget:
         asked: list[Any] = []
 
         def protocol(self, name: str, handler: Any) -> None:
-            """Whoever closes the window calls the handler."""
+            """Closing the window calls the handler."""
             self.asked.append(handler)
 
         def __init__(self, *given: Any, data: bytes = b"", **more: Any) -> None:
@@ -319,7 +319,7 @@ def test_at_the_end_of_the_sensors_range_silence_is_known() -> None:
 
 
 def random_faults(rng: np.random.Generator) -> list[Any]:
-    """Each fault of each device, now and then, for a while."""
+    """Random faults of all devices, each for a while."""
     return [
         (device, kind, {"at": rng.uniform(0, 20), "lasting": rng.uniform(0, 20)})
         for device, kind in afp.faults()
@@ -328,7 +328,7 @@ def random_faults(rng: np.random.Generator) -> list[Any]:
 
 
 def test_nothing_raises_whatever_breaks() -> None:
-    """`AFP_GYM_STEPS` says in how many steps; the nightly run takes a million."""
+    """`AFP_GYM_STEPS` sets the number of steps; the nightly run takes a million."""
     steps, count = int(os.environ.get("AFP_GYM_STEPS", "12000")), 16
     parts = ["distance", "odometry", "motion", "bumper", "fan", "target", "glow", "color", "battery", "valid"]
     settings: dict[str, Any] = {"task": "ReachGoal", "observe": parts, "faults": random_faults}

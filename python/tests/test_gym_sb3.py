@@ -1,4 +1,4 @@
-"""The environments in stable-baselines3, where it is installed."""
+"""The environments in stable-baselines3, if it is installed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Many robots at once: the same figures as many environments of one."""
+"""Many robots at once give the same figures as many single environments."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ ROAM = "afp/Carbot-v0"
 
 
 def same(ours: Any, theirs: Any) -> bool:
-    """Whether arrays, and dictionaries of them, are the same to the last bit."""
+    """Whether arrays, and dictionaries of them, are bit-identical."""
     if isinstance(ours, dict):
         return ours.keys() == theirs.keys() and all(same(ours[key], theirs[key]) for key in ours)
     ours, theirs = np.asarray(ours), np.asarray(theirs)
@@ -38,7 +38,7 @@ def same(ours: Any, theirs: Any) -> bool:
 @pytest.mark.parametrize("name", [ROAM, "afp/CarbotReachGoal-v0"])
 @pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
 def test_many_come_to_what_each_alone_comes_to(mode: Any, name: str) -> None:
-    """Gymnasium's own vector environment of single ones is the judge, infos included."""
+    """Compared with Gymnasium's own vector environment of single ones, including infos."""
     ours = gymnasium.make_vec(name, num_envs=COUNT, autoreset_mode=mode, max_episode_steps=40)
     single = gymnasium.make_vec(
         name, num_envs=COUNT, vectorization_mode="sync", vector_kwargs={"autoreset_mode": mode}, max_episode_steps=40
@@ -151,7 +151,7 @@ def test_wrappers_of_gymnasium_fit() -> None:
 
 
 def test_a_plan_is_judged_as_an_environment_is() -> None:
-    """A plan that drives as an environment's actions do gets what the environment gives."""
+    """A plan that drives like an environment's actions gets the environment's reward."""
     room = afp.WorldBuilder("hall", start=(1.0, 2.0, 0.2)).room(6.0, 4.0).infrared("beacon", (3.0, 2.0)).build()
     score = afp.gym.run_plan("FindInfrared", [0, 1], world=room)
     assert (score.rewards > 10.5).all() and (score.steps < 300).all() and score.ended.all()

@@ -1,4 +1,4 @@
-"""Logs: what is written is what is read."""
+"""Logs: reading returns the written data."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_a_log_holds_the_toolboxes_that_its_plan_uses_beyond_the_built_in_ones(t
 
     @tools.actor(states=["Done"])
     class Rest:
-        """Says that it is done."""
+        """Is done at once."""
 
         def poll(self) -> str:
             return "Done"

@@ -1,4 +1,4 @@
-"""Pictures of logs: path, sonar map, film, coverage, as `afpc log` draws them."""
+"""Pictures of logs: path, sonar map, film and coverage, as drawn by `afpc log`."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_a_run_is_drawn_as_far_as_it_has_come(log: afp.Log, wall_following: afp.
     before = simulation.picture()
     assert ">0.0 s<" in before.svg
     simulation.run(until=6.0)
-    # A log places what happened between two looks at the robot where it was before.
+    # A log places events between two poses at the earlier one.
     drawn = [[line for line in picture.svg.splitlines() if 'class="mark"' not in line] for picture in (simulation.picture(), log.picture())]
     assert drawn[0] == drawn[1] and simulation.picture() != before
 

@@ -1,4 +1,4 @@
-"""Components that run simulations themselves, circles of references, and how long work is interrupted."""
+"""Components that run simulations themselves, reference cycles, and the delay of interruptions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ GO = "use tools\nplan P { start go actor go: Go { Done -> terminate } }"
 
 
 def tools_with(poll: Callable[..., Any]) -> afp.Toolbox:
-    """A toolbox with an actor that polls so."""
+    """A toolbox with an actor that has this poll."""
     tools = afp.Toolbox("tools")
 
     @tools.actor(states=["Done"], name="Go")

@@ -1,4 +1,4 @@
-"""A robot of a project: chosen before anything else, built and kept, driven as the Carbot is."""
+"""A project's robot: chosen first, built and cached, and driven like the Carbot."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ built = pytest.mark.skipif(
 
 
 def python(text: str, folder: Path = VACUUM, **variables: str) -> subprocess.CompletedProcess[str]:
-    """Another process: each has one robot."""
+    """A new process, since each has one robot."""
     text = text.replace("VACUUM", str(VACUUM))
     environment = {name: value for name, value in os.environ.items() if name != "AFP_PROJECT"}
     return subprocess.run(

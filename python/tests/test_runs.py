@@ -1,4 +1,4 @@
-"""What a sweep takes, and what can be done with its runs."""
+"""The arguments of a sweep, and operations on its runs."""
 
 from __future__ import annotations
 

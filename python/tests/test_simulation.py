@@ -287,7 +287,7 @@ def test_a_run_can_be_stopped_from_another_thread(wall_following: afp.Plan) -> N
 
 def test_ctrl_c_interrupts_a_long_run(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
-    # 100 ms is the bar of the benchmark; a busy machine gets more here.
+    # The benchmark's limit is 100 ms; a busy machine gets more here.
     assert interrupted(lambda: simulation.run(until=1e6)) < 1.0
     assert simulation.ending == "running"
     assert simulation.run(until=simulation.time + 0.5).ending == "interrupted"

@@ -1,4 +1,4 @@
-"""Moments that are saved, and simulations that are read while another thread drives them."""
+"""Saved moments, and simulations that are read while another thread drives them."""
 
 from __future__ import annotations
 

@@ -1,7 +1,9 @@
-"""Looks for what breaks the package, in processes of their own: even a crash is told with what led to it.
+"""Searches for failures of the package in separate processes: even a crash is reported with its
+last steps.
 
-AFP_STRESS is for how many seconds (the nightly run sets 600), AFP_SIMULATIONS how many simulations must leave the
-memory flat (10000); without them, it is a short search that is the same each time.
+AFP_STRESS is the number of seconds (the nightly run sets 600), AFP_SIMULATIONS the number of
+simulations after which the memory must be flat (10000). The default is a short search that is
+always the same.
 """
 
 from __future__ import annotations

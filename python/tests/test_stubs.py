@@ -1,4 +1,6 @@
-"""The stubs of the native half say what it says itself: editors show nothing else. `AFP_BLESS=1` writes them."""
+"""The stubs of the native half have its documentation, since editors show nothing else.
+`AFP_BLESS=1` writes them.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +20,13 @@ Item = ast.ClassDef | ast.FunctionDef
 
 
 def items(text: str) -> Iterator[tuple[Item, str | None, int]]:
-    """Classes and what of them is for others: each with its runtime documentation and how deep it stands."""
+    """Public classes and methods, each with its runtime documentation and its depth."""
     for node in ast.parse(text).body:
         if not isinstance(node, Item) or node.name.startswith("_"):
             continue
         there = getattr(_afp, node.name, None)
         if there is None:
-            # What a process with another robot does not have.
+            # A process with another robot does not have it.
             continue
         yield node, documented(there), 0
         for inner in node.body if isinstance(node, ast.ClassDef) else []:
@@ -33,7 +35,7 @@ def items(text: str) -> Iterator[tuple[Item, str | None, int]]:
 
 
 def documented(thing: Any) -> str | None:
-    """What it says of itself, not what it inherits."""
+    """Its own documentation, without inherited text."""
     thing = getattr(thing, "__func__", thing)
     return inspect.cleandoc(thing.__doc__) if thing.__doc__ else None
 
@@ -51,7 +53,7 @@ def with_documentation(text: str) -> str:
         if ast.get_docstring(node) is not None:
             lines[first.lineno - 1 : first.end_lineno] = block
         elif isinstance(first, ast.Expr) and len(node.body) == 1:
-            # In place of the three dots behind the colon.
+            # Replace the three dots after the colon.
             line = lines[first.lineno - 1]
             lines[first.lineno - 1 : first.end_lineno] = [line[: first.col_offset].rstrip(), *block]
         else:

@@ -1,4 +1,4 @@
-"""The types as a program of a user sees them."""
+"""The types from the point of view of a user's program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Quantities are those of the literals in plans."""
+"""Quantities match the literals in plans."""
 
 from __future__ import annotations
 

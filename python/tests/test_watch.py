@@ -1,4 +1,4 @@
-"""Runs that are watched in a notebook."""
+"""Live views of runs in a notebook."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from conftest import ROOT
 
 @pytest.fixture
 def cell(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, str]]:
-    """What the cell of a notebook shows, one after the other."""
+    """The outputs of a notebook cell, in order."""
     shown: list[dict[str, str]] = []
 
     class Handle:
@@ -38,7 +38,7 @@ def cell(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, str]]:
 
 
 def pictures(bundle: dict[str, str]) -> list[str]:
-    """The drawings of a moment."""
+    """The drawings of a view."""
     return [base64.b64decode(found).decode() for found in re.findall(r"base64,([A-Za-z0-9+/=]+)", bundle["text/html"])]
 
 

@@ -110,7 +110,7 @@ __all__ = [
     "use",
 ]
 
-# What is asked for is loaded then, so that a robot can be chosen before.
+# Modules are loaded on first use, so that a robot can be chosen before.
 _WHERE = {
     "_afp": "AfpError Broken Carbot Diagnostic Event PlanError Robot Scenario Verdict World __version__ faults",
     "units": "Angle AngularSpeed Duration Length Quantity Speed cm deg deg_per_s kmh m m_per_s minutes mm ms rad rad_per_s s",

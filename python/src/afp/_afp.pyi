@@ -1,4 +1,4 @@
-# The native half of the package; its stubs are in two parts, which are no modules.
+# The native half of the package. Its stubs are in two parts, which are not modules.
 
 import os
 from typing import Any

@@ -1,4 +1,4 @@
-# Stubs of the native half, `_afp`: plans, toolboxes, worlds, scenarios. There is no such module.
+# Stubs of the native half, `_afp`: plans, toolboxes, worlds, scenarios. It is not a module.
 
 import os
 from collections.abc import Callable, Mapping, Sequence

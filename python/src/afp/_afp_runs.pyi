@@ -1,4 +1,4 @@
-# Stubs of the native half, `_afp`: what runs, and what it says. There is no such module.
+# Stubs of the native half, `_afp`: runs, events, sweeps. It is not a module.
 
 import os
 from collections.abc import Callable, Mapping, Sequence

@@ -1,4 +1,4 @@
-"""Which robot this process drives: the Carbot, or that of a project."""
+"""The robot of this process: the Carbot, or a project's robot."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _VARIABLE = "AFP_PROJECT"
 
 
 def use(project: str | os.PathLike[str]) -> None:
-    """Links in what the project in a folder has of its own: its robot, and toolboxes written in Rust.
+    """Use a project's own robot and its toolboxes written in Rust.
 
-    A process has one robot, chosen before anything else of the package is used; the variable `AFP_PROJECT` chooses
-    for programs that do not say it. The first call builds the extension, which needs Rust, and keeps it until
-    something that it was built from changes. A project without such things changes nothing.
+    A process has one robot. Choose it before you use anything else of the package, or set the
+    variable `AFP_PROJECT`. The first call builds the extension, which needs Rust. It is built again
+    only after a change of its sources. For a project without Rust, the call has no effect.
     """
     folder = Path(project).resolve()
     if not folder.is_dir():
@@ -39,7 +39,7 @@ _chosen: Path | None = None
 
 
 def _link(folder: Path) -> None:
-    """Puts the project's extension in the place of that of the wheel."""
+    """Replace the wheel's extension with the project's."""
     global _chosen
     from . import _afp as wheel
 
@@ -49,7 +49,7 @@ def _link(folder: Path) -> None:
         _forget()
         raise
     _chosen = folder
-    # Processes that this one starts have the same robot.
+    # Child processes use the same robot.
     os.environ[_VARIABLE] = str(folder)
     if built is None:
         return
@@ -64,7 +64,7 @@ def _link(folder: Path) -> None:
 
 
 def _forget() -> None:
-    """Leaves the choice open again."""
+    """Reset the choice."""
     del sys.modules[_NATIVE]
     delattr(sys.modules[__package__], "_afp")
 

@@ -1,4 +1,4 @@
-"""`WorldBuilder`: worlds for the Carbot, put together in the program."""
+"""`WorldBuilder`: worlds for the Carbot, built in Python."""
 
 from __future__ import annotations
 
@@ -17,10 +17,12 @@ Point = tuple[float, float]
 
 
 class WorldBuilder:
-    """A world that is being put together. Each method gives a new one with something more in it; `build` gives the world.
+    """A world under construction. Each method returns a new builder with one more part; `build`
+    returns the world.
 
-    Lengths are metres and angles radians, plain or as `afp.cm(30)` and `afp.deg(20)`. What is wrong is said at once, by the
-    method that adds it. `toml` is the text of the world's file; the world that is read from it is the same.
+    Lengths are metres and angles are radians, as plain numbers or as `afp.cm(30)` and
+    `afp.deg(20)`. An invalid part raises at once, in its own method. `toml` is the text of the
+    world's file, which reads as the same world.
 
     >>> hall = WorldBuilder("Hall", start=(0.8, 0.8)).room(5.0, 4.0).box("crate", (2.0, 2.0), size=(0.4, 0.4), height=0.5)
     >>> hall.build()
@@ -60,7 +62,7 @@ class WorldBuilder:
         echo: float | None = None,
         mapped: bool | None = None,
     ) -> WorldBuilder:
-        """A wall from point to point; `closed` leads back to the first."""
+        """Add a wall from point to point; `closed` connects the last one to the first."""
         table = {
             "name": name,
             "points_m": _points("points", points),
@@ -72,7 +74,7 @@ class WorldBuilder:
         return self._with("wall", table)
 
     def room(self, length: float, width: float, *, name: str = "room", **more: Any) -> WorldBuilder:
-        """Four walls, from the origin to (length, width); `more` is as for `wall`."""
+        """Add four walls, from the origin to (length, width); `more` is as for `wall`."""
         far = [number_in("length", length, "m"), number_in("width", width, "m")]
         corners = [(0.0, 0.0), (far[0], 0.0), (far[0], far[1]), (0.0, far[1])]
         return self.wall(corners, name=name, closed=True, **more)
@@ -91,7 +93,9 @@ class WorldBuilder:
         echo: float | None = None,
         mapped: bool | None = None,
     ) -> WorldBuilder:
-        """A box around a place (x, y, perhaps heading). With `mass` (kg) it can be pushed; see `mover` for `path`."""
+        """Add a box at a place (x, y, optional heading). With `mass` (kg) it can be pushed; see
+        `mover` for `path`.
+        """
         table = {
             "name": name,
             "pose_m_deg": _pose("at", at),
@@ -117,9 +121,10 @@ class WorldBuilder:
         start: float | None = None,
         **more: Any,
     ) -> WorldBuilder:
-        """A box that goes its own way: to places seen from its start, there and back or, `closed`, round and round.
+        """Add a box that moves to places relative to its start, there and back or, with `closed`,
+        in a circle.
 
-        It waits `wait` seconds at each place, and sets out after `start`.
+        It waits `wait` seconds at each place, and sets out after `start` seconds.
         """
         path = {
             "by_m": _points("by", by),
@@ -142,7 +147,7 @@ class WorldBuilder:
         echo: float | None = None,
         mapped: bool | None = None,
     ) -> WorldBuilder:
-        """Something with these corners, which must be convex."""
+        """Add a convex polygon with these corners."""
         table = {
             "name": name,
             "points_m": _points("points", points),
@@ -153,7 +158,7 @@ class WorldBuilder:
         return self._with("polygon", table)
 
     def patch(self, points: Iterable[Point], color: str, *, name: str | None = None) -> WorldBuilder:
-        """A patch of colour on the floor, `#rrggbb`; the last one lies on top."""
+        """Add a patch of colour on the floor, `#rrggbb`; the last one is on top."""
         return self._with("patch", {"name": name, "points_m": _points("points", points), "color": color})
 
     def infrared(
@@ -164,7 +169,7 @@ class WorldBuilder:
         height: float | None = None,
         strength: float | None = None,
     ) -> WorldBuilder:
-        """A source of infrared light; one of strength 1 reads as 1 at one metre."""
+        """Add a source of infrared light; a strength of 1 reads as 1 at a distance of one metre."""
         table = {
             "name": name,
             "position_m": _point("at", at),
@@ -179,11 +184,11 @@ class WorldBuilder:
         return "\n".join(self._parts)
 
     def build(self) -> World:
-        """The world."""
+        """Build the world."""
         return World.parse(self.toml)
 
     def save(self, path: str | os.PathLike[str]) -> World:
-        """Writes the world's file, for `afpc run --world` and the like, and reads it."""
+        """Write the world's file, for example for `afpc run --world`, and read it."""
         if os.path.splitext(os.fspath(path))[1] != ".toml":
             raise ValueError(f"a world is saved as .toml, not as {os.fspath(path)!r}")
         write_text("cannot write the world", path, self.toml)
@@ -197,7 +202,7 @@ class WorldBuilder:
         return more
 
     def _check(self, what: str) -> None:
-        """Reads the last part with the start alone, so that many things take no time by the square of their number."""
+        """Check only the last part with the start, so that checks of many parts take linear time."""
         start = self._parts[:2]
         try:
             World.parse("\n".join([*start, *self._parts[len(start) :][-1:]]))
@@ -205,11 +210,11 @@ class WorldBuilder:
             self._check_all(what)
 
     def _check_all(self, what: str) -> None:
-        """Says what is wrong, by the names that unnamed things have in the whole."""
+        """Check the whole, with the final names of unnamed parts."""
         try:
             World.parse(self.toml)
         except AfpError as why:
-            # The place in a text that nobody wrote says nothing.
+            # Positions in generated text are useless.
             message = str(why).split(": ", 1)[-1]
             raise AfpError(f"{what}: {message}") from None
 
@@ -242,7 +247,7 @@ def _points(what: str, points: Iterable[Sequence[float]]) -> list[list[Any]]:
 
 
 def _pose(what: str, pose: Sequence[float]) -> list[Any]:
-    """Degrees in the file, without the last digits of the conversion."""
+    """Convert to degrees for the file, without rounding noise."""
     if len(pose) not in (2, 3):
         raise ValueError(f"{what} has x, y and perhaps a heading, not {len(pose)} numbers")
     heading = number_in(what, pose[2], "rad") if len(pose) == 3 else 0.0
@@ -257,7 +262,7 @@ def _text(what: str, text: Any) -> str:
 
 def _toml(value: Any) -> str:
     if isinstance(value, str):
-        # As in JSON, but for the one control character that JSON lets through.
+        # As in JSON, except for the only control character that JSON allows.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, bool):
         return "true" if value else "false"

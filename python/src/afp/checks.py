@@ -1,4 +1,4 @@
-"""What callers give, refused in their words where it is of another type."""
+"""Checks of arguments, with errors in the caller's words."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ __all__ = ["flag", "keys", "text", "toolboxes_of"]
 
 
 def text(what: str, value: Any) -> str:
-    """A text, which `what` names."""
+    """Check that an argument is a string; `what` names it in the error."""
     if not isinstance(value, str):
         raise TypeError(f"{what} is a text, not {value!r}")
     return value
 
 
 def flag(what: str, value: Any) -> bool:
-    """A truth value."""
+    """Check that an argument is a boolean."""
     truth = plain(value)
     if not isinstance(truth, bool):
         raise TypeError(f"{what} is True or False, not {value!r}")
@@ -27,7 +27,7 @@ def flag(what: str, value: Any) -> bool:
 
 
 def keys(what: str, values: Mapping[str, Any] | None, does: str) -> dict[str, Any]:
-    """What has names, and does that; nothing where nothing is given."""
+    """Check that an argument is a mapping with string keys; `None` counts as empty."""
     if values is None:
         return {}
     if not isinstance(values, Mapping):
@@ -36,7 +36,7 @@ def keys(what: str, values: Mapping[str, Any] | None, does: str) -> dict[str, An
 
 
 def toolboxes_of(toolboxes: Any) -> list[_afp.Toolbox]:
-    """Toolboxes, several of them."""
+    """Check that an argument is a list of toolboxes."""
     if isinstance(toolboxes, _afp.Toolbox):
         raise TypeError(f"toolboxes is a list, also of one: toolboxes=[{toolboxes.name}]")
     if isinstance(toolboxes, str) or not isinstance(toolboxes, Sequence):

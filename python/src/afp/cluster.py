@@ -1,14 +1,16 @@
-"""Sweeps on a Ray cluster; it needs ray.
+"""Sweeps on a Ray cluster; needs ray.
 
     afp.sweep(plan, seeds=range(10_000), backend="ray", out="runs.parquet")
 
-The runs go out in chunks, as tasks of one CPU each. A chunk whose worker or machine dies is done again elsewhere; each
-run counts once, whatever was done twice. Ray is started on this machine unless `ray.init` has been called.
+The runs are sent in chunks, as tasks of one CPU each. If a worker or machine dies, its chunk is
+repeated elsewhere; each run counts once. Ray is started on this machine unless you have called
+`ray.init`.
 
-Workers need the package, and the plan's files and worlds under the same paths: a shared folder, or the driver's folder
-sent along with `ray.init(runtime_env={"working_dir": "."})` and paths relative to it. A worker that sees other texts
-refuses. Components in Python go along by value or, those of modules that workers can import, by reference
-(cloudpickle); workers run them in processes of their own, so that they do not wait for one another.
+Workers need the package, and the plan's files and worlds under the same paths. Use a shared folder,
+or relative paths and `ray.init(runtime_env={"working_dir": "."})`, which sends the driver's folder
+along. A worker with different files raises an error. Components in Python are sent by value
+(cloudpickle), or by reference if workers can import their module. Each worker runs them in separate
+processes, so that they do not wait for one another.
 """
 
 from __future__ import annotations
@@ -33,7 +35,7 @@ WAITING = 64
 
 @dataclass(frozen=True)
 class Sent:
-    """What a worker makes the sweep of."""
+    """The data from which a worker makes the sweep."""
 
     text: str
     path: str | None
@@ -43,12 +45,12 @@ class Sent:
 
     @staticmethod
     def of(plan: Plan, spec: Spec) -> Sent:
-        """For a plan, with its components in Python."""
+        """Collect the data of a plan, with its components in Python."""
         path = None if plan.path is None else os.fspath(plan.path)
         return Sent(plan.text, path, plan.name, plan.toolboxes, spec)
 
     def packed(self) -> bytes:
-        """What is sent to workers."""
+        """Pack the data for workers."""
         try:
             packed: bytes = need("ray.cloudpickle").dumps(self)
         except (TypeError, pickle.PicklingError) as error:
@@ -58,7 +60,7 @@ class Sent:
         return packed
 
     def sweeper(self) -> Sweeper:
-        """The sweep."""
+        """Make the sweep."""
         return self.spec.sweeper(Plan(self.text, self.path, name=self.name, toolboxes=self.toolboxes))
 
 
@@ -71,7 +73,9 @@ def run(
     *,
     chunk: int | None = None,
 ) -> None:
-    """Does runs on the cluster; `sweeper` keeps their outcomes, `tell` hears how many of all are done, `on_run` of each."""
+    """Do runs on the cluster. `sweeper` keeps their outcomes, `tell` receives the number of
+    finished runs, and `on_run` receives each row.
+    """
     ray = need("ray")
     if not ray.is_initialized():
         ray.init(include_dashboard=False, log_to_driver=False)
@@ -86,7 +90,7 @@ def run(
         while chunks or waiting:
             while chunks and len(waiting) < max(WAITING, 2 * cpus):
                 waiting.append(task.remote(packed, identity, chunks.pop(0)))
-            # With a limit, so that Ctrl-C is seen.
+            # The timeout lets Ctrl-C through.
             ready, waiting = ray.wait(waiting, timeout=0.5)
             for each in ready:
                 worker, lines = ray.get(each)
@@ -99,7 +103,7 @@ def run(
 
 
 def work(packed: bytes, identity: str, runs: list[int]) -> tuple[int, list[str]]:
-    """Does a chunk, in a worker: its process, and outcomes as lines of JSON."""
+    """Do a chunk in a worker; return its process and outcomes as lines of JSON."""
     sent: Sent = pickle.loads(packed)
     sweeper = sent.sweeper()
     if sweeper.identity != identity:
@@ -109,4 +113,4 @@ def work(packed: bytes, identity: str, runs: list[int]) -> tuple[int, list[str]]
 
 
 def collected(worker: int) -> None:
-    """A chunk has come from a worker; for tests that disturb workers."""
+    """Called for each chunk from a worker; a hook for tests that disturb workers."""

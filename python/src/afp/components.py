@@ -1,7 +1,7 @@
 """Components in Python: actors, supervisors and computations for plans.
 
-A `Toolbox` is read from a toolbox file, whose templates are then implemented, or is made here, where decorators and
-type hints declare the templates.
+Read a `Toolbox` from a toolbox file and implement its templates, or make one here: decorators and
+type hints then declare the templates.
 
 >>> tools = Toolbox("tools")
 >>> @tools.computation(states=["Odd", "Even"])
@@ -46,12 +46,12 @@ class _Tick:
 
 
 def tick() -> Awaitable[None]:
-    """To be awaited by an `async def` actor: until its next poll."""
+    """Await this in an `async def` actor to wait for its next poll."""
     return _Tick()
 
 
 class Toolbox(_afp.Toolbox):
-    """A toolbox whose templates are implemented in Python: a new one by name, or `Toolbox.load(path)`."""
+    """A toolbox with templates implemented in Python: a new one by name, or `Toolbox.load(path)`."""
 
     def __new__(cls, name: str, *, version: str | None = None, doc: str = "") -> Toolbox:
         lines = "".join(f"/// {line}\n" for line in text("doc", doc).splitlines())
@@ -61,12 +61,12 @@ class Toolbox(_afp.Toolbox):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Toolbox:
-        """Reads a toolbox file; `implement` says what its templates do."""
+        """Read a toolbox file; `implement` adds the implementations."""
         return cls.parse(read_text("cannot read the toolbox", path), path)
 
     @classmethod
     def parse(cls, text: str, path: str | os.PathLike[str] | None = None) -> Toolbox:
-        """Reads the text of a toolbox file."""
+        """Read the text of a toolbox file."""
         toolbox = _afp.Toolbox.__new__(cls, text, path)
         toolbox._path = path
         return toolbox
@@ -76,10 +76,10 @@ class Toolbox(_afp.Toolbox):
     """What implements each template."""
 
     def implement(self, component: Component, template: str | None = None) -> Component:
-        """Names the class or function that implements a template, by its own name unless told otherwise.
+        """Set the class or function that implements a template; the default name is its own.
 
-        It may be used as a decorator. Parameters are the template's inputs by name, and `robot`, which computations do
-        not have; `poll` takes those that are live.
+        You can use it as a decorator. Parameters are the template's inputs by name, and `robot`
+        except for computations; `poll` takes the live inputs.
         """
         name = _name(component) if template is None else text("a template", template)
         about = self._template(name)
@@ -89,12 +89,12 @@ class Toolbox(_afp.Toolbox):
         return component
 
     def fingerprints(self) -> dict[str, Fingerprint]:
-        """What tells two versions of what implements the templates apart, by template."""
+        """Hashes of the implementations, by template."""
         known = getattr(self, "_components", {})
         return {template: fingerprint(component) for template, component in sorted(known.items())}
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Components as they are, in the state: they may lead back to their toolbox.
+        # Components go into the state, since they may refer back to their toolbox.
         return _again, (type(self), self.text, self._path), getattr(self, "_components", {})
 
     def __setstate__(self, components: dict[str, Component]) -> None:
@@ -111,7 +111,7 @@ class Toolbox(_afp.Toolbox):
         stop: str | float | None = None,
         icon: str | None = None,
     ) -> Callable[[Component], Component]:
-        """Declares and implements an actor: a class with `poll`, or an `async def` function."""
+        """Declare and implement an actor: a class with `poll`, or an `async def` function."""
         timing = _timing(every=every, stop=stop)
         return self._declarer("actor", states, name, uses, timing, icon)
 
@@ -126,14 +126,14 @@ class Toolbox(_afp.Toolbox):
         budget: str | float | None = None,
         icon: str | None = None,
     ) -> Callable[[Component], Component]:
-        """Declares and implements a supervisor: a class with `poll`, or a function that is called at each poll."""
+        """Declare and implement a supervisor: a class with `poll`, or a function for each poll."""
         timing = _timing(every=every, deadline=every if deadline is None else deadline, budget=budget)
         return self._declarer("supervisor", events, name, uses, timing, icon)
 
     def computation(
         self, *, states: Outcomes, name: str | None = None, icon: str | None = None
     ) -> Callable[[Component], Component]:
-        """Declares and implements a computation: a function."""
+        """Declare and implement a computation: a function."""
         return self._declarer("computation", states, name, (), "", icon)
 
     def _declarer(
@@ -159,7 +159,7 @@ class Toolbox(_afp.Toolbox):
         return declare
 
     def _alone(self, template: str, why: _afp.AfpError) -> str:
-        """What is wrong with a template, without what is said of others; `why` where they are part of it."""
+        """The errors of a template, without those of other templates; `why` adds a reason."""
         try:
             _afp.Toolbox.__new__(_afp.Toolbox, f"toolbox {self.name}\n{template}", "its declaration")
         except _afp.AfpError as alone:
@@ -194,7 +194,7 @@ def _name(component: Callable[..., Any]) -> str:
 
 
 def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
-    """Says so at once if a component can never work."""
+    """Raise at once if a component can never work."""
     if not callable(component):
         raise TypeError(f"a component is a class or a function, not {component!r}")
     is_class = isinstance(component, type)
@@ -213,7 +213,7 @@ def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
 
 
 def _fits_interrupt(name: str, stop: Any) -> None:
-    """Says so at once if an actor would not hear that it is interrupted."""
+    """Raise at once if an actor cannot be interrupted."""
     if stop is None:
         return
     if not callable(stop):
@@ -227,7 +227,7 @@ def _fits_interrupt(name: str, stop: Any) -> None:
 
 
 def _timing(**times: str | float | None) -> str:
-    """The times of a template, those that are given."""
+    """The given times of a template."""
     return " ".join(f"{word} {spelled_time(time)}" for word, time in times.items() if time is not None)
 
 
@@ -235,7 +235,7 @@ def _timing(**times: str | float | None) -> str:
 
 
 def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
-    """What the native half calls to make a component."""
+    """The function that the native half calls to make a component."""
     if kind == "computation":
         takes = _takes(component, inputs, (), dict.fromkeys(GIVEN, "a computation has its inputs alone"))
         return lambda values: component(**{name: values[name] for name in takes})
@@ -255,7 +255,9 @@ _AN_ACTOR = {"wanted": "only supervisors are told what is wanted"}
 def _takes(
     function: Callable[..., Any], ports: Sequence[str], given: Sequence[str], others: Mapping[str, str]
 ) -> list[str]:
-    """The parameters of a function, each of which must be a port or given; `others` says why some are neither."""
+    """The parameters of a function, each of which must be a port or a known name; `others` explains
+    why some are neither.
+    """
     names = [name for name in parameters_of(function) if name != "self"]
     for name in names:
         if name in ports or name in given:
@@ -267,7 +269,7 @@ def _takes(
 
 
 def _own_ports(kind: str, component: Callable[..., Any]) -> tuple[list[str], list[str]]:
-    """The inputs that a component declares by its parameters: those that are read once, and those that are live."""
+    """The inputs declared by a component's parameters: those read once, and live ones."""
     if isinstance(component, type):
         start = start_of(component)
         return _ports(start) if start else [], _ports(method_of(component, "poll"))
@@ -279,7 +281,7 @@ def _ports(function: Callable[..., Any]) -> list[str]:
 
 
 class _Running:
-    """A component that runs, as the native half polls it."""
+    """A running component, in the form that the native half polls."""
 
     __slots__ = ("interrupt", "poll")
 
@@ -289,7 +291,7 @@ class _Running:
 
 
 def _poll(method: Callable[..., Any], takes: Sequence[str], robot: Robot, has_live: bool) -> Callable[..., Any]:
-    """A poll that takes the live inputs, if there are any, and passes on what the method wants."""
+    """Poll with the live inputs, if there are any, and pass on the wanted parameters."""
     if not has_live:
         if not takes:
             return method
@@ -319,7 +321,7 @@ def _class_maker(kind: str, component: type, inputs: Sequence[str], live: Sequen
 
 
 def _interrupt(stop: Callable[..., Any] | None, robot: Robot) -> None:
-    """What the actor does when it is interrupted; the robot is told to stop in any case."""
+    """Call the actor's method for an interruption; the robot stops in any case."""
     try:
         if stop is not None:
             stop(robot) if inspect.signature(stop).parameters else stop()
@@ -367,13 +369,13 @@ def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str], live: 
 
         return _Running(poll, interrupt)
 
-    # What it returns is its end; the native half knows by this that None is none.
+    # Its return value is its end; the native half then accepts None.
     setattr(make, "ends", True)
     return make
 
 
 def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None:
-    """Runs a coroutine up to its next `tick`; what it returned in a tuple, if it did."""
+    """Run a coroutine up to its next `tick`; return its result in a tuple if it has ended."""
     try:
         waits = coroutine.send(None)
     except StopIteration as end:
@@ -381,7 +383,7 @@ def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None
             raise TypeError(f"the actor '{named(coroutine)}' returned None, not a state") from None
         return (end.value,)
     except RuntimeError as why:
-        # What asyncio says when it is awaited here.
+        # The error of asyncio for an await here.
         if str(why) != "no running event loop":
             raise
         raise TypeError("an actor can await afp.tick() only; no event loop of asyncio runs it") from why

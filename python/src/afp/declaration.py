@@ -1,4 +1,4 @@
-"""What the templates of components in Python look like: the texts of their declarations, from signatures and type hints."""
+"""Declarations of Python components as text, from signatures and type hints."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["GIVEN", "Outcomes", "declaration", "method_of", "named", "outcomes_o
 
 Outcomes = Sequence[str] | Mapping[str, Mapping[str, Any]]
 
-# What a component may ask for by name besides its ports.
+# The names that a component may request in addition to its ports.
 GIVEN = ("robot", "wanted")
 
 _TYPES = {bool: "bool", int: "int", float: "float", str: "string"}
@@ -61,7 +61,7 @@ def declaration(
 
 
 def outcomes_of(given: Any) -> Outcomes:
-    """States or events as they were given, read once."""
+    """A list of the given states or events."""
     if isinstance(given, str):
         raise TypeError(f"'{given}' is one name; states and events are a list: [{given!r}]")
     if not isinstance(given, Iterable):
@@ -81,7 +81,7 @@ def outcomes_of(given: Any) -> Outcomes:
 
 
 def start_of(component: type) -> Callable[..., Any] | None:
-    """What makes an instance, if the class says so itself."""
+    """The constructor, if the class itself defines it."""
     start: Callable[..., Any] = getattr(component, "__init__")
     return None if start is object.__init__ else start
 
@@ -95,12 +95,12 @@ def method_of(component: type, name: str) -> Callable[..., Any]:
 
 
 def named(component: Any) -> str:
-    """The name of a component without that of the function in which it was written."""
+    """The name of a component without its enclosing function."""
     return re.sub(r".*<locals>\.", "", getattr(component, "__qualname__", None) or repr(component))
 
 
 def _type(hint: Any, where: str) -> str:
-    """The type of the language that a hint stands for."""
+    """The language's type for a hint."""
     for extra in getattr(hint, "__metadata__", ()):
         if isinstance(extra, str):
             return extra
@@ -119,7 +119,7 @@ def _shown(hint: Any) -> str:
 
 
 def _constant(value: Any, type: str, where: str) -> str:
-    """A default as it stands in a toolbox file."""
+    """A default value as a literal of a toolbox file."""
     value = plain(value)
     unit = UNITS.get(type, "")
     what = f"{where} is {type}{f' in {unit}' if unit else ''}, its default"
@@ -139,7 +139,7 @@ def _constant(value: Any, type: str, where: str) -> str:
 
 
 def _literal(text: str, type: str, what: str) -> str:
-    """A text that stands for a value of a type, `30 cm`; what is none of the known types' is refused."""
+    """A string as a literal of a type, `30 cm`; raises if the type does not match."""
     if type in _TYPES.values() or type in UNITS:
         try:
             _afp.Toolbox.__new__(_afp.Toolbox, f"toolbox t\ncomputation C {{\nin x: {type} = {text}\nstate S\n}}\n")
@@ -150,7 +150,7 @@ def _literal(text: str, type: str, what: str) -> str:
 
 
 def _hints(function: Callable[..., Any]) -> dict[str, Any]:
-    """The hints of a function, those that are written as texts too."""
+    """The hints of a function, also if they are strings."""
     try:
         return get_type_hints(function, include_extras=True)
     except NameError as error:
@@ -159,7 +159,7 @@ def _hints(function: Callable[..., Any]) -> dict[str, Any]:
 
 
 def parameters_of(function: Callable[..., Any]) -> Mapping[str, inspect.Parameter]:
-    """The parameters of a function, each of which can be given by its name."""
+    """The parameters of a function; all must be usable by name."""
     parameters = inspect.signature(function).parameters
     for name, parameter in parameters.items():
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
@@ -184,7 +184,7 @@ def _ports(function: Callable[..., Any], live: bool) -> list[str]:
 
 
 def text_of(value: str) -> str:
-    """A text as the language quotes it."""
+    """A string as a quoted literal."""
     return '"' + value.translate(_ESCAPES) + '"'
 
 

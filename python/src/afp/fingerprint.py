@@ -1,8 +1,8 @@
-"""What tells two versions of a function or a class apart: what it does, and what it reads.
+"""Fingerprints of functions and classes: their code, and everything that they read.
 
-What it does is its compiled code. What it reads are the variables around it, global ones and those of enclosing functions,
-defaults and attributes of its class; functions and classes among them count with what they do and read in turn. What comes
-from libraries counts by its name and their version. Hashes are the same in every process.
+The code is the compiled code. The inputs are global variables, variables of enclosing functions,
+defaults and attributes of the class. Functions and classes among them count with their own code and
+inputs. Library code counts by its name and version. Hashes are equal in every process.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Fingerprint = tuple[str, dict[str, str]]
 
 _PLAIN = (type(None), bool, int, float, complex, str, bytes, type(...))
 
-# What a class has besides what was written in it.
+# The attributes of every class.
 _OF_CLASSES = {
     *("__dict__", "__weakref__", "__module__", "__qualname__", "__doc__", "__annotations__", "__firstlineno__"),
     *("__static_attributes__", "__annotate__", "__annotate_func__", "__annotations_cache__", "__slotnames__"),
@@ -37,31 +37,31 @@ _OF_CLASSES = {
 
 
 def fingerprint(component: Callable[..., Any]) -> Fingerprint:
-    """The fingerprint of a function, a class, or whatever else can be called."""
+    """The fingerprint of a callable, such as a function or a class."""
     functions, reads = _anatomy(component)
     if not functions:
         return digest(component), {}
     for owner, function in functions.items():
         for name, value in _reads(function, owner).items():
-            # The methods of a class may mean different things by one name.
+            # Different methods of a class may use one name for different things.
             reads[name if reads.get(name, value) is value else f"{owner}.{name}"] = value
     does = digest([(name, function.__code__) for name, function in functions.items()])
     return does, {name: digest(value) for name, value in sorted(reads.items())}
 
 
 def digest(value: Any) -> str:
-    """The hash of a value with all that it leads to."""
+    """The hash of a value with everything that it refers to."""
     walk = _Walk()
     try:
         walk.see(value)
     except RecursionError:
-        # What is nested that deep is told by its kind alone.
+        # At that depth only the type counts.
         return digest(f"deep {type(value).__qualname__}")
     return walk.hash.hexdigest()[:16]
 
 
 def _anatomy(component: Any) -> tuple[dict[str, types.FunctionType], dict[str, Any]]:
-    """The functions of a component by name, and the attributes of classes that it reads."""
+    """The functions of a component by name, and the class attributes that it reads."""
     if isinstance(component, types.FunctionType):
         return {component.__qualname__: component}, {}
     functions: dict[str, types.FunctionType] = {}
@@ -82,12 +82,12 @@ def _anatomy(component: Any) -> tuple[dict[str, types.FunctionType], dict[str, A
 
 
 def _written(kind: type) -> Iterator[tuple[str, Any]]:
-    """What was written in a class."""
+    """The attributes written in a class."""
     return ((name, value) for name, value in sorted(vars(kind).items()) if name not in _OF_CLASSES)
 
 
 def _inner(value: Any) -> Iterator[types.FunctionType]:
-    """The functions of an attribute of a class: a method, or what makes up a property and the like."""
+    """The functions of a class attribute: a method, or the parts of a property and similar."""
     value = getattr(value, "__func__", value)
     parts = (value.fget, value.fset, value.fdel) if isinstance(value, property) else (value,)
     return (part for part in parts if isinstance(part, types.FunctionType))
@@ -101,9 +101,9 @@ def _reads(function: types.FunctionType, owner: str) -> dict[str, Any]:
         try:
             reads[name] = cell.cell_contents
         except ValueError:
-            # Nothing has been written to it yet.
+            # The variable is unset.
             reads[name] = None
-    # The class that 'super' means is the method's own.
+    # The class of 'super' is the method's own.
     reads.pop("__class__", None)
     takes, defaults = function.__code__.co_varnames, function.__defaults__ or ()
     last = function.__code__.co_argcount
@@ -119,7 +119,7 @@ def _names(code: types.CodeType) -> Iterator[str]:
 
 
 def _globals(among: dict[str, Any], names: set[str], of: str = "") -> Iterator[tuple[str, Any]]:
-    """The variables of these names; of a module of one's own, those in it."""
+    """The variables with these names; for a module of the user, its variables."""
     for name in sorted(names & among.keys()):
         value = among[name]
         if isinstance(value, types.ModuleType) and not _is_of_library(value.__name__):
@@ -130,14 +130,14 @@ def _globals(among: dict[str, Any], names: set[str], of: str = "") -> Iterator[t
 
 @functools.lru_cache(maxsize=None)
 def _libraries() -> tuple[str, ...]:
-    """The folders of what others have written: Python's own, packages that are installed, this one."""
+    """The folders of library code: Python's own, installed packages, and this package."""
     folders = [sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")]
     folders += [*site.getsitepackages(), site.getusersitepackages(), os.path.dirname(__file__)]
     return tuple({os.path.join(os.path.realpath(folder), "") for folder in folders if folder})
 
 
 def _is_of_library(module: str | None) -> bool:
-    """Whether a module is written by others."""
+    """Whether a module is library code."""
     there = sys.modules.get(module or "")
     if module is None or module == "__main__" or there is None:
         return False
@@ -148,16 +148,16 @@ def _is_of_library(module: str | None) -> bool:
 
 
 class _Walk:
-    """Hashes a value with what it leads to."""
+    """Hashes a value with everything that it refers to."""
 
     def __init__(self) -> None:
         self.hash = hashlib.sha256()
         self._within: list[int] = []
-        # Values too, so that no other one gets the same number.
+        # Values stay alive, so that their ids are not reused.
         self._done: dict[int, tuple[str, Any]] = {}
 
     def see(self, value: Any) -> None:
-        """Adds a value."""
+        """Add a value."""
         number = id(value)
         if type(value) in _PLAIN:
             self._say(type(value).__name__, repr(value))
@@ -191,7 +191,7 @@ class _Walk:
 
     def _say(self, *words: str) -> None:
         for word in words:
-            # With its length, so that no two become one.
+            # With its length, so that two words cannot merge.
             self.hash.update(f"{len(word)} {word}".encode("utf-8", "surrogatepass"))
 
     def _sequence(self, values: list[Any] | tuple[Any, ...]) -> None:
@@ -225,7 +225,7 @@ class _Walk:
         self._sequence(code.co_consts)
 
     def _named(self, value: Any) -> None:
-        """A function or a class: those of libraries by name, others by what they do and read."""
+        """Add a function or a class: library code by name, other code with its inputs."""
         module = getattr(value, "__module__", None)
         self._say(str(module), value.__qualname__)
         bound = getattr(value, "__self__", None)
@@ -242,7 +242,7 @@ class _Walk:
             self.see(dict(_written(value)))
 
     def _object(self, value: Any) -> None:
-        """Anything else, as it would be copied; what cannot be copied, by its attributes."""
+        """Add any other value by its pickled form, or else by its attributes."""
         inner = getattr(value, "__wrapped__", None)
         try:
             copied = value.__reduce_ex__(4)
@@ -253,11 +253,11 @@ class _Walk:
         made_by, *rest = copied
         if made_by not in (copyreg.__newobj__, copyreg.__newobj_ex__):  # type: ignore[attr-defined]
             self.see(made_by)
-        # Items come as iterators.
+        # Items may be iterators.
         self.see((inner, *(list(each) if isinstance(each, Iterator) else each for each in rest)))
 
 
 def _version(module: str | None) -> str:
-    """The version of the package of a module, if it says so."""
+    """The version of a module's package, if it has one."""
     package = sys.modules.get((module or "").partition(".")[0])
     return str(getattr(package, "__version__", ""))

@@ -1,4 +1,4 @@
-"""Logs: what an MCAP file of a run holds."""
+"""Logs: the contents of a run's MCAP file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NO_TOOLBOX = "E0238"
 
 
 class Log(tables.Events):
-    """A log, read whole; one that was cut short yields what it holds."""
+    """A log in memory; an incomplete file gives its readable part."""
 
     facts: dict[str, str]
     """What the log says of the run: plan, world, seed, ..."""
@@ -55,7 +55,7 @@ class Log(tables.Events):
         self.cut_short = told["cut_short"]
 
     def entry(self, name: str) -> tuple[NDArray[np.float64], list[Any]]:
-        """The times and values of an entry: when it got its first value, and whenever it changed."""
+        """The times and values of an entry: its first value and all changes."""
         known = sorted({name for _, values in self.configurations for name in values})
         if name not in known:
             others = f"there are: {', '.join(known)}" if known else "it has none at all"
@@ -68,12 +68,14 @@ class Log(tables.Events):
         return np.array([time for time, _ in rows]), [value for _, value in rows]
 
     def simulation(self, at: float = 0.0, *, toolboxes: Sequence[Toolbox] = ()) -> Simulation:
-        """The run again up to a moment, from the log alone; it goes on from there as it did, or otherwise if it is disturbed.
+        """Repeat the run up to a moment, from only the log. It continues like the original unless
+        you change something.
 
-        Whatever came from outside comes again, later than that moment, too. Components in Python come from `toolboxes`.
+        All stimuli are repeated, also after that moment. Components in Python come from
+        `toolboxes`.
 
         Raises:
-            ValueError: a toolbox that the plan uses is neither linked nor among `toolboxes`.
+            ValueError: a toolbox of the plan is neither linked nor among `toolboxes`.
         """
         at = seconds("at", at)
         files, name, world, seed = read_recipe(self.file)
@@ -95,25 +97,27 @@ class Log(tables.Events):
         return simulation
 
     def _missing(self, toolboxes: Sequence[Toolbox]) -> list[str]:
-        """The toolboxes that the log carries, because they are not built in, and that are not among these."""
+        """The log's own toolboxes, which are not built in, without the given ones."""
         carried = [name.removeprefix("toolbox/") for name in self.attachments if name.startswith("toolbox/")]
         given = {toolbox.name for toolbox in toolboxes}
         return [name for name in carried if name not in given]
 
     def picture(self) -> Picture:
-        """The path of the run in its world, as `afpc log --svg` draws it."""
+        """The path of the run in its world, as drawn by `afpc log --svg`."""
         return Picture(draw_log(self.file, "path"))
 
     def sonar(self) -> Picture:
-        """The echoes of the range sensor over the true walls, as `afpc log --sonar` draws them."""
+        """The echoes of the range sensor over the true walls, as drawn by `afpc log --sonar`."""
         return Picture(draw_log(self.file, "sonar"))
 
     def film(self) -> Picture:
-        """What the camera saw, as `afpc log --film` draws it; for logs of `Simulation(..., log=..., camera=True)`."""
+        """The camera's pictures, as drawn by `afpc log --film`; for logs of `Simulation(...,
+        log=..., camera=True)`.
+        """
         return Picture(draw_log(self.file, "film"))
 
     def plot_timeline(self, ax: Any = None) -> Any:
-        """Draws what was active when; needs matplotlib."""
+        """Draw the activity over time; needs matplotlib."""
         end = max((event.time for event in self.events), default=0.0)
         return plots.timeline(self.events, end, self.facts.get("plan", self.file), ax)
 

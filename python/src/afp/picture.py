@@ -1,4 +1,4 @@
-"""`Picture`: a drawing that a notebook shows and a file keeps."""
+"""`Picture`: a drawing for notebooks and files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Picture:
         self.svg = svg
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes it as an SVG file."""
+        """Write it as an SVG file."""
         ending = os.path.splitext(os.fspath(path))[1].lower()
         if ending not in ("", ".svg"):
             raise ValueError(f"a picture is saved as .svg, not as '{ending}'; 'afpc log' and 'afpc graph' write .png")
@@ -40,5 +40,5 @@ class Picture:
 
 
 def address(svg: str) -> str:
-    """A drawing as the address of an image: its styles are its own there."""
+    """A drawing as the address of an image, with its own styles."""
     return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"

@@ -1,4 +1,4 @@
-"""Where a plan runs, as people give it: a file, a text such as `random:7`, or a World."""
+"""The world argument of a run: a file, a string such as `random:7`, or a World."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Place = World | str | os.PathLike[str]
 
 
 def place_of(world: object) -> World | str:
-    """The world, or the text that names it."""
+    """The world, or the string that names it."""
     if isinstance(world, World):
         return world
     if hasattr(world, "build"):
@@ -31,7 +31,9 @@ OF_WORLD = "world."
 def changed(
     world: World, values: dict[str, Any], start: Sequence[float] | None
 ) -> tuple[World, dict[str, Any], list[tuple[str, str]]]:
-    """The world with the values that are its own and a start, those of entries, and all of them as a log has them."""
+    """Split values into those of the world and those of entries: returns the changed world with its
+    start, the entries' values, and all values for the log.
+    """
     own = [(name.removeprefix(OF_WORLD), spelled(values[name])) for name in values if _is_of_world(name)]
     if own or start is not None:
         world = world._changed(own, None if start is None else _pose(start))
@@ -51,7 +53,7 @@ def _shown(value: Any) -> str:
         text = spelled(value) if isinstance(plain(value), (str, int, float)) else str(value)
     except ValueError:
         text = str(value)
-    # What is no text for a plan is told by it.
+    # The plan reports an invalid text.
     return text.encode("utf-8", "replace").decode()
 
 

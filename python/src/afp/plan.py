@@ -18,11 +18,11 @@ __all__ = ["Plan", "load", "new_plan"]
 
 
 class Plan(_afp.Plan):
-    """A plan: its text, what the compiler says of it, its drawings, and changes of it.
+    """A plan: its text, diagnostics, drawings and changes.
 
-    Items are named as in the text: `go`, `go.touch` for a supervisor of an element, `Plan.go` for something of
-    another plan than the first one of the file. A change comes to the smallest edits of the text; comments stay. A
-    change that would alter more than it says is refused with `AfpError`.
+    Items are named as in the text: `go`, `go.touch` for a supervisor of an element, `Plan.go` for
+    an item of a plan other than the file's first. A change makes the smallest edits of the text and
+    keeps comments. `AfpError` rejects a change that would also alter other parts.
 
     >>> text = "actor go: Forward(distance = 1 m) { ForwardSuccessful -> terminate }"
     >>> plan = Plan(f"use carbot\\nplan P {{ start go {text} }}")
@@ -49,7 +49,7 @@ class Plan(_afp.Plan):
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Plan) and self._state() == other._state()
 
-    # It can be changed.
+    # It is mutable.
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
@@ -62,75 +62,83 @@ class Plan(_afp.Plan):
         return "\n".join([self.svg(), *lines])
 
     def save_svg(self, path: str | os.PathLike[str], *, theme: str = "auto", fold: bool = False) -> None:
-        """Writes the drawing to an SVG file."""
+        """Write the drawing to an SVG file."""
         Picture(self.svg(theme=theme, fold=fold)).save(path)
 
     def coverage(self, log: str | os.PathLike[str]) -> Picture:
-        """The drawing with what the run of a log made use of, as `afpc log --coverage` draws it."""
+        """The drawing with the coverage of a logged run, as drawn by `afpc log --coverage`."""
         return Picture(self._coverage(log))
 
     def use(self, toolbox: str, alias: str | None = None) -> None:
-        """Adds `use toolbox as alias`; of another plan file with its path in quotes: `use('"parts/explore.afp"')`."""
+        """Add `use toolbox as alias`; for another plan file give its path in quotes:
+        `use('"parts/explore.afp"')`.
+        """
         self._change("use", {"toolbox": toolbox, "alias": alias})
 
     def add_plan(self, text: str) -> None:
-        """Adds plans, given as text, below the last one."""
+        """Add plans, given as text, after the last one."""
         self._change("add_plan", {"text": text})
 
     def add(self, text: str, *, plan: str | None = None, owner: str | None = None, before: str | None = None) -> None:
-        """Adds entries, elements or supervisors, given as text; supervisors of an element with `owner`."""
+        """Add entries, elements or supervisors, given as text; `owner` names the element of
+        supervisors.
+        """
         self._change("add", {"text": text, "plan": plan, "owner": owner, "before": before})
 
     def remove(self, item: str) -> None:
-        """Removes an item with its comments and the edges to it."""
+        """Remove an item with its comments and the edges to it."""
         self._change("remove", {"item": item})
 
     def rename(self, item: str, to: str) -> None:
-        """Gives an item another name wherever the files refer to it."""
+        """Rename an item in all files."""
         self._change("rename", {"item": item, "to": to})
 
     def connect(self, item: str, outcome: str, to: str) -> None:
-        """Leads a state or event to an element, `terminate` or `ignore`."""
+        """Connect a state or event to an element, `terminate` or `ignore`."""
         self._change("connect", {"item": item, "outcome": outcome, "to": to})
 
     def disconnect(self, item: str, outcome: str) -> None:
-        """Removes the edge of a state or event."""
+        """Remove the edge of a state or event."""
         self._change("disconnect", {"item": item, "outcome": outcome})
 
     def set_start(self, to: str, *, plan: str | None = None) -> None:
-        """Lets the plan start with an element."""
+        """Set the first element of a plan."""
         self._change("start", {"to": to, "plan": plan})
 
     def reorder(self, item: str, before: str | None = None) -> None:
-        """Moves an item above another one of its list, or below its like."""
+        """Move an item before another one of its list, or after the last of its kind."""
         self._change("reorder", {"item": item, "before": before})
 
     def bind(self, item: str, port: str, formula: str | float) -> None:
-        """Binds an input port to a formula such as `"2 * far"`, or a value such as `afp.cm(30)`.
+        """Bind an input port to a formula such as `"2 * far"`, or to a value such as `afp.cm(30)`.
 
-        A formula may be wrong, which `diagnostics` tells; a value that does not fit the port is refused.
+        `diagnostics` reports an invalid formula; an invalid value raises.
         """
         parts = {"item": item, "port": port, "formula": spelled(formula)}
         self._change("bind", parts, not isinstance(formula, str))
 
     def bind_output(self, item: str, port: str, entry: str) -> None:
-        """Binds an output port to an entry."""
+        """Bind an output port to an entry."""
         self._change("bind", {"item": item, "port": port, "entry": entry})
 
     def unbind(self, item: str, port: str) -> None:
-        """Removes the binding of a port."""
+        """Remove the binding of a port."""
         self._change("unbind", {"item": item, "port": port})
 
     def set_template(self, item: str, template: str) -> None:
-        """Makes an element or supervisor from another template."""
+        """Change the template of an element or supervisor."""
         self._change("template", {"item": item, "template": template})
 
     def set_every(self, supervisor: str, value: str | float | None) -> None:
-        """Sets the poll period of a supervisor, such as `"10 ms"` or `afp.ms(10)`; the template's with `None`."""
+        """Set the poll period of a supervisor, such as `"10 ms"` or `afp.ms(10)`; `None` restores
+        the template's.
+        """
         self._set_timing(supervisor, "every", value)
 
     def set_deadline(self, supervisor: str, value: str | float | None) -> None:
-        """Sets the deadline of a supervisor, such as `"20 ms"` or `afp.ms(20)`; the template's with `None`."""
+        """Set the deadline of a supervisor, such as `"20 ms"` or `afp.ms(20)`; `None` restores the
+        template's.
+        """
         self._set_timing(supervisor, "deadline", value)
 
     def _set_timing(self, supervisor: str, keyword: str, value: str | float | None) -> None:
@@ -138,33 +146,35 @@ class Plan(_afp.Plan):
         self._change("timing", {"item": supervisor, "keyword": keyword, "value": text})
 
     def set_entry_kind(self, entry: str, keyword: str) -> None:
-        """Makes an entry an `in`, `out`, `var` or `const`."""
+        """Make an entry an `in`, `out`, `var` or `const`."""
         self._change("entry_kind", {"item": entry, "keyword": keyword})
 
     def set_entry_type(self, entry: str, type: str | None) -> None:
-        """Sets or removes the type of an entry."""
+        """Set or remove the type of an entry."""
         self._change("entry_type", {"item": entry, "type": type})
 
     def set_entry_value(self, entry: str, value: str | float | None) -> None:
-        """Sets or removes the initial value of an entry, a formula or a value such as `afp.cm(30)`, which must fit."""
+        """Set or remove the initial value of an entry: a formula, or a valid value such as
+        `afp.cm(30)`.
+        """
         parts = {"item": entry, "value": None if value is None else spelled(value)}
         self._change("entry_value", parts, not isinstance(value, (str, type(None))))
 
     def set_doc(self, item: str, text: str) -> None:
-        """Sets the help text above an item; an empty one removes it."""
+        """Set the help text of an item; an empty one removes it."""
         self._change("doc", {"item": item, "text": text})
 
     def move(self, item: str, to_plan: str, owner: str | None = None) -> None:
-        """Moves an entry, element or supervisor to another plan, or a supervisor to another element."""
+        """Move an entry, element or supervisor to another plan, or a supervisor to another element."""
         self._change("move", {"item": item, "to_plan": to_plan, "owner": owner})
 
     def extract(self, elements: Sequence[str], new_plan: str, element: str, *, plan: str | None = None) -> None:
-        """Makes a plan of some elements and puts a sub-plan in their place."""
+        """Move elements into a new plan, with a sub-plan in their place."""
         parts = {"elements": list(elements), "new_plan": new_plan, "element": element, "plan": plan}
         self._change("extract", parts)
 
     def inline(self, element: str, *, plan: str | None = None) -> None:
-        """Puts the elements of a sub-plan in its place."""
+        """Replace a sub-plan by its elements."""
         self._change("inline", {"element": element, "plan": plan})
 
 
@@ -176,29 +186,29 @@ def _again(
     toolboxes: Sequence[Toolbox],
     others: dict[str, str],
 ) -> Plan:
-    """A plan as it was pickled or copied."""
+    """Restore a plan from a pickle or a copy."""
     plan = kind(text, path, name=name, toolboxes=toolboxes)
     plan._set_others(others)
     return plan
 
 
 def _scenario(state: tuple[Any, ...], index: int) -> _afp.Scenario:
-    """A scenario as it was pickled: of a plan, by its place there."""
+    """Restore a scenario from a pickle: its plan, and its index there."""
     return _again(Plan, *state).scenarios[index]
 
 
 def load(path: str | os.PathLike[str], *, plan: str | None = None, toolboxes: Sequence[Toolbox] = ()) -> Plan:
-    """Reads a plan file. It may have errors: `diagnostics` has them, `check()` raises them.
+    """Read a plan file. It may have errors: `diagnostics` lists them, and `check()` raises them.
 
-    `plan` names the plan that runs, where it is not the first one. Toolboxes of an `afp.toml` are found as `afpc`
-    finds them; `toolboxes` are those written in Python.
+    `plan` names the plan that runs; the default is the first one. Toolboxes of an `afp.toml` are
+    found like in `afpc`; `toolboxes` are written in Python.
     """
     text = read_text("cannot read the plan", path)
     return Plan(text, Path(path), name=plan, toolboxes=toolboxes)
 
 
 def new_plan(name: str, *, use: str | Sequence[str] = ("std", "carbot"), toolboxes: Sequence[Toolbox] = ()) -> Plan:
-    """An empty plan, to be filled with `add`, `connect` and the like.
+    """An empty plan, to fill with `add`, `connect` and other methods.
 
     >>> plan = new_plan("Patrol", use=["carbot"])
     >>> plan.add("actor go: Forward(distance = 1 m) { ForwardSuccessful -> terminate }")

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from ._afp import Event
 from .tables import need
 
-# Told apart also by those who see few colours; the same as in the pictures of `afpc run`.
+# Distinct also for colour-blind readers; the same as in the pictures of `afpc run`.
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#6a3d9a", "#56b4e9", "#7f7f7f")
 
 
 def spans(events: Sequence[Event], end: float) -> list[tuple[str, float, float]]:
-    """When each element was active: component, begin, end. Supervisors are left out."""
+    """The activity of elements, without supervisors: component, begin, end."""
     left = {"finished", "interrupted", "faulted"}
     done: list[tuple[str, float, float]] = []
     begun: dict[str, float] = {}
@@ -58,7 +58,7 @@ def path(
 
 
 def timeline(events: Sequence[Event], end: float, title: str, ax: Any = None) -> Any:
-    """What was active when, one row an element, with the events that were taken."""
+    """The activity over time, a row per element, with the events that were taken."""
     pyplot = need("matplotlib.pyplot")
     active = spans(events, end)
     rows = list(dict.fromkeys(component for component, _, _ in active))
@@ -76,7 +76,7 @@ def timeline(events: Sequence[Event], end: float, title: str, ax: Any = None) ->
 
 
 def label(column: str, units: Mapping[str, str]) -> str:
-    """The name of a column with its unit in brackets; `units` has those of entries."""
+    """The name of a column with its unit in parentheses; `units` has those of entries."""
     name, _, end = column.rpartition("_")
     unit = units.get(name, "") if end == "si" else {"s": "s", "m": "m"}.get(end)
     if not name or unit is None:
@@ -85,7 +85,7 @@ def label(column: str, units: Mapping[str, str]) -> str:
 
 
 def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tuple[str, str, str], ax: Any = None) -> Any:
-    """A measure of many runs, a dot for each, told apart by how they ended."""
+    """A measure of many runs, with a dot for each, coloured by its ending."""
     pyplot = need("matplotlib.pyplot")
     ax = ax if ax is not None else pyplot.subplots(figsize=(6, 4), layout="constrained")[1]
     for number, ending in enumerate(dict.fromkeys(endings)):
@@ -98,7 +98,7 @@ def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tup
 
 
 def outcome_map(cells: Mapping[tuple[Any, Any], list[Any]], texts: bool, labels: tuple[str, str, str, str], ax: Any = None) -> Any:
-    """Cells over two axes: the text that most of the runs of each have, or the mean of a measure."""
+    """Cells over two axes: the most frequent string of the cell's runs, or the mean of a measure."""
     pyplot = need("matplotlib.pyplot")
     ax = ax if ax is not None else pyplot.subplots(figsize=(6, 4.5), layout="constrained")[1]
     columns, rows = (list(_ordered({key[axis] for key in cells})) for axis in (0, 1))
@@ -116,7 +116,7 @@ Shown = dict[tuple[int, int], str]
 
 
 def _texts(ax: Any, cells: Mapping[tuple[Any, Any], list[Any]], columns: list[Any], rows: list[Any]) -> Shown:
-    """Draws the most frequent texts; what the cells say."""
+    """Draw the most frequent strings; return the texts of the cells."""
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
 
@@ -138,14 +138,14 @@ def _texts(ax: Any, cells: Mapping[tuple[Any, Any], list[Any]], columns: list[An
 def _means(
     ax: Any, cells: Mapping[tuple[Any, Any], list[Any]], columns: list[Any], rows: list[Any], label: str
 ) -> Shown:
-    """Draws means; nothing has to be said."""
+    """Draw means; return nothing."""
     picture = np.full((len(rows), len(columns)), np.nan)
     for (x, y), values in cells.items():
         known = [value for value in values if value is not None]
         if known:
             picture[rows.index(y), columns.index(x)] = sum(known) / len(known)
     known = picture[~np.isnan(picture)]
-    # What is the same everywhere would get a scale around it that goes below what can be.
+    # A constant value would get a scale around it that includes impossible values.
     bounds = {"vmin": known[0], "vmax": known[0] + 1} if known.size and (known == known[0]).all() else {}
     image = ax.imshow(picture, origin="lower", aspect="auto", cmap="cividis", **bounds)
     ax.figure.colorbar(image, ax=ax, label=label)
@@ -153,7 +153,7 @@ def _means(
 
 
 def _ordered(values: set[Any]) -> list[Any]:
-    """Numbers by size, texts by name, what is missing last."""
+    """Sort numbers by value and strings by name, with missing ones last."""
     return sorted(values, key=lambda value: (value is None, value if value is not None else 0))
 
 

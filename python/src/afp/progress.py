@@ -1,4 +1,4 @@
-"""How far a sweep is: on a terminal, in a notebook, or for whoever wants to know."""
+"""The progress of a sweep: on a terminal, in a notebook, or for a callback."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["Bar", "teller"]
 
 
 def teller(progress: bool | Callable[[int, int], Any], total: int) -> Callable[[int, int], Any]:
-    """What is told how many runs are done; -1 at the end."""
+    """A function that receives the number of finished runs, and -1 at the end."""
     if callable(progress):
         return lambda done, all: progress(done, all) if done >= 0 else None
     if progress and notebook.is_here():
@@ -24,7 +24,7 @@ def teller(progress: bool | Callable[[int, int], Any], total: int) -> Callable[[
 
 
 class Bar:
-    """Shows how many runs are done, at most ten times a second, and at the end."""
+    """Shows the number of finished runs, at most ten times a second, and at the end."""
 
     EVERY = 0.1
     WIDTH = 30

@@ -1,10 +1,11 @@
-"""The pytest plug-in: scenarios of `.afp` files as tests, and fixtures for plans, worlds and simulations.
+"""The pytest plug-in: scenarios of `.afp` files as tests, and fixtures for plans, worlds and
+simulations.
 
-Every `.afp` file with scenarios below the folders that pytest looks into is collected; `-k` selects scenarios by
-words of their names. A scenario runs on the engine of `afpc test`. When it fails, what broke is shown with its place
-and the timeline around it, and the run is recorded below `target/afp/tests`.
+pytest collects every `.afp` file with scenarios in its folders; `-k` selects scenarios by words of
+their names. A scenario runs on the engine of `afpc test`. A failure shows the broken line with its
+place and the timeline around it, and the run is recorded below `target/afp/tests`.
 
-A `conftest.py` gives the plans their components in Python:
+A `conftest.py` can define the plans' components in Python:
 
     def pytest_afp_toolboxes(path):
         return [tools]
@@ -30,11 +31,11 @@ LOGS = Path("target/afp/tests")
 
 
 class Hooks:
-    """What a `conftest.py` may say."""
+    """The hooks for a `conftest.py`."""
 
     @pytest.hookspec
     def pytest_afp_toolboxes(self, path: Path) -> list[Toolbox] | None:
-        """The toolboxes written in Python for the plans of a file."""
+        """The Python toolboxes for the plans of a file."""
 
 
 def pytest_addhooks(pluginmanager: pytest.PytestPluginManager) -> None:
@@ -79,7 +80,7 @@ class AfpFile(pytest.File):
 
 
 class Failed(Exception):
-    """A scenario that did not go as expected."""
+    """A failed scenario."""
 
     def __init__(self, verdict: Verdict, log: Path | None) -> None:
         super().__init__(verdict.report)
@@ -101,7 +102,7 @@ class AfpScenario(pytest.Item):
         self.user_properties.append(("trace", verdict.trace_hash))
         if verdict.passed:
             return
-        # The same run once more, since passing ones need no log.
+        # Repeat the run, since passing tests need no log.
         log = _log(self.config, self.nodeid)
         if log is not None:
             self.scenario.run(log=log)
@@ -125,7 +126,7 @@ class AfpScenario(pytest.Item):
 
 
 class InvalidScenario(pytest.Item):
-    """A scenario that cannot be run as it is written: a test that fails, beside those of the file that can."""
+    """An invalid scenario: a failing test next to the valid ones of its file."""
 
     def __init__(self, *, line: int, said: str, **options: Any) -> None:
         super().__init__(**options)
@@ -148,14 +149,14 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _log(config: pytest.Config, nodeid: str) -> Path | None:
-    """Where the log of a test goes, one for each; `None` where there can be none."""
+    """The log file of a test; `None` if it cannot have one."""
     folder = config.rootpath / str(config.getini("afp_logs"))
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
         return None
     readable = re.sub(r"[^a-z0-9.]+", "_", nodeid.lower()).strip("_.")
-    # Names that differ in other letters are alike by now.
+    # Replaced characters may make names equal.
     return folder / f"{readable}-{hashlib.sha256(nodeid.encode()).hexdigest()[:8]}.mcap"
 
 
@@ -182,14 +183,16 @@ class _WorldMaker(Protocol):
 
 
 def _find(request: pytest.FixtureRequest, path: str | os.PathLike[str]) -> Path:
-    """A file beside the test, or else below pytest's root folder."""
+    """Find a file next to the test, or else below pytest's root folder."""
     beside = request.path.parent / path
     return beside if beside.exists() else request.config.rootpath / path
 
 
 @pytest.fixture
 def afp_plan(request: pytest.FixtureRequest) -> _PlanMaker:
-    """Loads plans: `afp_plan("plans/patrol.afp")`, seen from the test's folder or pytest's root folder."""
+    """Load plans: `afp_plan("plans/patrol.afp")`, relative to the test's folder or to pytest's root
+    folder.
+    """
 
     def make(path: str | os.PathLike[str], *, plan: str | None = None) -> TypedPlan:
         file = _find(request, path)
@@ -202,7 +205,7 @@ def afp_plan(request: pytest.FixtureRequest) -> _PlanMaker:
 
 @pytest.fixture
 def afp_world(request: pytest.FixtureRequest) -> _WorldMaker:
-    """Loads worlds: `afp_world("worlds/hall.toml")`, `afp_world("random:7")`."""
+    """Load worlds: `afp_world("worlds/hall.toml")`, `afp_world("random:7")`."""
 
     def make(path: str | os.PathLike[str]) -> World:
         return World.load(path if str(path).startswith("random:") else _find(request, path))
@@ -214,9 +217,10 @@ def afp_world(request: pytest.FixtureRequest) -> _WorldMaker:
 def afp_simulation(
     request: pytest.FixtureRequest, afp_plan: _PlanMaker, afp_world: _WorldMaker, tmp_path: Path
 ) -> Iterator[_SimulationMaker]:
-    """Makes simulations: `afp_simulation("plans/patrol.afp", seed=3)`.
+    """Make simulations: `afp_simulation("plans/patrol.afp", seed=3)`.
 
-    They are recorded into the test's `tmp_path`; when the test fails, their timelines are shown with the logs.
+    They are recorded into the test's `tmp_path`. If the test fails, their timelines are shown with
+    the paths of the logs.
     """
     made: list[tuple[Simulation, Path]] = []
 
@@ -247,7 +251,7 @@ _MADE = pytest.StashKey[list[tuple[Simulation, Path]]]()
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Adds the timelines of the simulations to the report of a failed test."""
+    """Add the timelines of the simulations to the report of a failed test."""
     report = yield
     if report.when == "call" and report.failed:
         for simulation, log in item.stash.get(_MADE, []):

@@ -1,4 +1,4 @@
-"""What came of a run: figures, events, path, tables, plots."""
+"""The result of a run: figures, events, path, tables, plots."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ class ComponentError:
         try:
             error = pickle.loads(pickle.dumps(self.error))
         except Exception:
-            # Not every exception can be pickled: its text can.
+            # Some exceptions cannot be pickled, but their texts can.
             error = RuntimeError(f"{type(self.error).__name__}: {self.error}")
         return ComponentError, (self.time, self.element, self.template, error, self.traceback)
 
 
 @dataclass(frozen=True)
 class Collision:
-    """A stretch of time in which the robot touched something."""
+    """A time span in which the robot touched an obstacle."""
 
     obstacle: str
     begin: float
@@ -54,7 +54,7 @@ class Collision:
 
 
 class Result(tables.Events):
-    """What came of a run; it does not change when the simulation goes on."""
+    """The result of a run; it does not change if the simulation continues."""
 
     plan: str
     """The name of the plan."""
@@ -118,27 +118,28 @@ class Result(tables.Events):
 
     @property
     def distance(self) -> float:
-        """How far the robot drove, metres."""
+        """The distance driven, in metres."""
         steps = np.diff(self.path[:, 1:3], axis=0)
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
     def check(self) -> Result:
-        """Raises what ended the plan in `Error`: the exception of the component, or `AfpError` with another fault.
+        """Raise the reason for an end in `Error`: the component's exception, or `AfpError` for
+        another fault.
 
-        Gives the result otherwise.
+        Otherwise return the result.
         """
         if self.fault == "python-exception" and self.errors:
             last = self.errors[-1]
-            # Each raise puts frames of its own in front.
+            # Each raise adds frames at the front.
             raise last.error.with_traceback(last._frames)
         if self.fault is not None:
             raise AfpError(f"the plan ended in Error after {self.time:.3f} s: {self.fault_text} ({self.fault})")
         return self
 
     def picture(self) -> Picture:
-        """The path in its world, as `afpc log --svg` draws that of a log; notebooks show it with the result.
+        """The path in its world, as drawn by `afpc log --svg`; notebooks show it with the result.
 
-        A result that was pickled or copied has no picture, but `plot_path`.
+        A pickled or copied result has no picture; use `plot_path` instead.
         """
         if self._names is None:
             raise AfpError("a result that was pickled has no names for a picture; plot_path() draws it without")
@@ -149,18 +150,18 @@ class Result(tables.Events):
         return {**self.__dict__, "_names": None}
 
     def plot_path(self, ax: Any = None) -> Any:
-        """Draws the robot's path in its world; needs matplotlib."""
+        """Draw the robot's path in its world; needs matplotlib."""
         return plots.path(self.path, self._world.outlines(), self.events, self._title(), ax)
 
     def plot_timeline(self, ax: Any = None) -> Any:
-        """Draws what was active when; needs matplotlib."""
+        """Draw the activity over time; needs matplotlib."""
         return plots.timeline(self.events, self.time, self._title(), ax)
 
     def _title(self) -> str:
         return f"{self.plan} in {self.world}, seed {self.seed}"
 
     def _key(self) -> tuple[Any, ...]:
-        """What is the same for two results of the same run."""
+        """The part that is equal for two results of the same run."""
         return self.plan, self._world, self.seed, self.ending, self.stopped_by, self.time, self.trace_hash
 
     def __eq__(self, other: object) -> bool:
@@ -190,7 +191,7 @@ class Result(tables.Events):
         return f"<table>{cells}</table>{self._image()}"
 
     def _image(self) -> str:
-        """The picture as an element of a page, where there is one."""
+        """The picture as an HTML element, if there is one."""
         if self._names is None or not len(self.path):
             return ""
         return f'<img alt="the path in its world" style="width:560px;max-width:100%" src="{address(self.picture().svg)}">'

@@ -1,4 +1,4 @@
-"""The outcomes of a sweep as a table that can be cut, drawn and followed back to its runs."""
+"""The outcomes of a sweep as a table that can be filtered, drawn and traced back to its runs."""
 
 from __future__ import annotations
 
@@ -29,7 +29,9 @@ BROKEN = ("not_started", "panicked")
 
 
 class Runs:
-    """The outcomes of a sweep, a row for each run: `runs[3]` is a row, `runs[:10]` and `runs.where(ending="ok")` are others."""
+    """The outcomes of a sweep, a row for each run. `runs[3]` is a row; `runs[:10]` and
+    `runs.where(ending="ok")` are tables.
+    """
 
     columns: dict[str, list[Any]]
     """The table by column: `run`, `world`, `seed`, what was varied (numbers in SI units as `..._si` too), `ending`,
@@ -51,7 +53,7 @@ class Runs:
 
     @classmethod
     def of(cls, plan: Plan, sweeper: Sweeper, until: float) -> Runs:
-        """What a sweep has done so far."""
+        """The outcomes of a sweep so far."""
         table = sweeper.columns()
         columns = {name: cells for name, (cells, _) in table.items()}
         kinds = {name: kind for name, (_, kind) in table.items()}
@@ -79,9 +81,9 @@ class Runs:
     def where(self, columns: Mapping[str, Any] | None = None, /, **more: Any) -> Runs:
         """The runs with these values in these columns: `where(ending="error", seed=3)`.
 
-        What was varied is found by its value, however it was written: `where(walldist=afp.cm(30))`, `where(walldist=0.3)`
-        in SI units, `where(walldist="30 cm")`. Columns whose names are no names of Python go into a dictionary:
-        `where({"world.robot.charge": 0.5})`.
+        Varied values compare by number: `where(walldist=afp.cm(30))`, `where(walldist=0.3)` in SI
+        units, `where(walldist="30 cm")`. For columns whose names are not Python names, give a
+        dictionary: `where({"world.robot.charge": 0.5})`.
         """
         wanted = {**(columns or {}), **more}
         tests = [self._test(name, plain(value)) for name, value in wanted.items()]
@@ -101,7 +103,7 @@ class Runs:
         return lambda row: bool(row[name] == value)
 
     def _found(self, name: str, value: Any) -> float | None:
-        """The number that is looked for in what was varied; `None` where the text of the column is."""
+        """The number to find in a varied column; `None` for a column of strings."""
         unit = self._units.get(name.removeprefix("in."))
         if isinstance(value, Quantity) and unit is not None and value.unit != unit:
             raise TypeError(f"'{name}' is in {unit}, not in {value.unit}")
@@ -125,13 +127,15 @@ class Runs:
 
     @property
     def endings(self) -> dict[str, int]:
-        """How many runs ended in each way."""
+        """The number of runs for each ending."""
         endings = self.columns["ending"]
         return {ending: endings.count(ending) for ending in dict.fromkeys(endings)}
 
     @property
     def groups(self) -> list[dict[str, Any]]:
-        """Runs that ended alike: `ending`, `where`, `why`, `count`, and the `run` that was the first; failures last."""
+        """Runs with equal ending, place and reason: `ending`, `where`, `why`, `count`, and the
+        first `run`; failures last.
+        """
         of = self.columns
         groups = alike(list(zip(of["ending"], of["where"], of["why"], of["run"], strict=True)))
         return [dict(zip(("ending", "where", "why", "count", "run"), group, strict=True)) for group in groups]
@@ -139,14 +143,14 @@ class Runs:
     # The runs themselves
 
     def simulation(self, row: int, *, log: str | os.PathLike[str] | None = None, camera: bool = False) -> Simulation:
-        """The run of a row about to begin again, to be watched, logged, drawn or driven otherwise."""
+        """The run of a row before its start, to watch, log, draw or change it."""
         if self._again is None:
             raise RuntimeError("runs that were pickled are a table only: sweep again, or make the simulation from the row")
         row = operator.index(row)
         return self._again.simulation(self.columns["run"][row], self.columns["seed"][row], log, flag("camera", camera))
 
     def result(self, row: int) -> Result:
-        """The run of a row done again: its path, events and entries, which a table has no place for."""
+        """Repeat the run of a row: its path, events and entries, which are not in the table."""
         simulation = self.simulation(row)
         assert self._again is not None
         return simulation.run(self._again.until)
@@ -157,7 +161,7 @@ class Runs:
         """The table as a pandas data frame; needs pandas."""
         kinds = {"count": "uint64", "number": "float64", "text": "string"}
         types = {name: kinds[kind] for name, kind in self._kinds.items()}
-        # Of a run that never started there is nothing to count.
+        # A run that never started has no counts.
         gaps = [name for name, kind in self._kinds.items() if kind == "count" and None in self.columns[name]]
         types |= dict.fromkeys(gaps, "UInt64")
         return tables.need("pandas").DataFrame(self.columns).astype(types)
@@ -176,21 +180,21 @@ class Runs:
         return arrow.table(self.columns, schema=schema)
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """The table for whatever reads Arrow; needs pyarrow."""
+        """The table for libraries that read Arrow; needs pyarrow."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     # Pictures
 
     def plot(self, x: str, y: str = "time_s", ax: Any = None) -> Any:
-        """Draws a measure of each run over what was varied; needs matplotlib."""
+        """Draw a measure of each run over a varied value; needs matplotlib."""
         x = self._number(x)
         return plots.runs(self._column(x), self._column(y), self.columns["ending"], (self._label(x), self._label(y), self.plan), ax)
 
     def plot_map(self, x: str, y: str, value: str = "ending", ax: Any = None) -> Any:
-        """Draws a map over two things that were varied; needs matplotlib.
+        """Draw a map over two varied values; needs matplotlib.
 
-        `value` is a measure, whose mean each cell shows, or a column of texts: then a cell has the colour of the text that
-        most of its runs have, and says which share of them has it.
+        `value` is a measure, whose mean each cell shows, or a column of strings: then a cell has
+        the colour of its runs' most frequent string, and shows that string's share.
         """
         names = (self._number(x), self._number(y), value)
         cells: dict[tuple[Any, Any], list[Any]] = {}
@@ -202,7 +206,7 @@ class Runs:
         return plots.label(column, self._units)
 
     def _number(self, column: str) -> str:
-        """The column of the numbers of what was varied, where it has numbers."""
+        """The column of a varied value's numbers, if it has numbers."""
         return f"{column}_si" if f"{column}_si" in self.columns else column
 
     # As they are shown
@@ -211,7 +215,7 @@ class Runs:
         return {**self.__dict__, "_again": None}
 
     def __eq__(self, other: object) -> bool:
-        """Whether they are the same runs with the same outcomes, however long each took."""
+        """Whether they are the same runs with the same outcomes, apart from durations."""
         return isinstance(other, Runs) and self.plan == other.plan and self._outcomes() == other._outcomes()
 
     __hash__ = None  # type: ignore[assignment]
@@ -234,7 +238,9 @@ class Runs:
         return table + "".join(self._images(groups))
 
     def _images(self, groups: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-        """The first run of each group done again, failures first, as elements of a page; what takes long is left out."""
+        """The repeated first run of each group, failures first, as HTML elements; slow ones are
+        left out.
+        """
         if self._again is None or not self._again.is_quiet:
             return
         left = SHOWN_S
@@ -251,7 +257,7 @@ class Runs:
 
 
 class _Again:
-    """Makes runs of a sweep again."""
+    """Repeats runs of a sweep."""
 
     def __init__(self, plan: Plan, sweeper: Sweeper, until: float) -> None:
         self.until = until
@@ -260,7 +266,7 @@ class _Again:
 
     @property
     def is_quiet(self) -> bool:
-        """Whether a run calls nothing of the user's, so that it may be done again to be looked at."""
+        """Whether a run calls no user code, so that it may be repeated for display."""
         return self._sweeper.is_quiet
 
     def simulation(self, run: int, seed: int, log: str | os.PathLike[str] | None, camera: bool) -> Simulation:

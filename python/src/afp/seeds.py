@@ -1,4 +1,4 @@
-"""Seeds, as the native half takes them."""
+"""Seeds for the native half."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MOST = 2**64 - 1
 
 
 def seed_of(seed: int) -> int:
-    """A seed; what is none is refused with its value."""
+    """Check a seed; an invalid one is rejected with its value."""
     try:
         number = operator.index(seed)
     except TypeError:

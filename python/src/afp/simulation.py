@@ -27,14 +27,19 @@ __all__ = ["Simulation"]
 class Simulation(Driven):
     """A plan in a world. The same plan, world, seed and stimuli give the same run, bit for bit.
 
-    `world` is a `World`, the path of its file, or `None` for the one that `afpc run` would take. `set` gives `in`
-    entries their values: `afp.cm(30)`, plain floats in SI units, texts as on the command line (`"30cm"`), names of
-    enum values; and values of the world's file theirs: `{"world.robot.charge": 0.5}`. `start` is where the robot starts
-    instead of where the world says: x, y in metres and a heading in radians. `log` is the MCAP file to be written: whole once the plan has ended or the simulation is closed, which
-    `with` does; nothing can be driven on then. With `camera` it gets what the camera sees, twice a second.
+    `world` is a `World`, the path of its file, or `None` for the default of `afpc run`. `set` gives
+    `in` entries their values: `afp.cm(30)`, plain floats in SI units, strings as on the command
+    line (`"30cm"`), or names of enum values. It also sets values of the world's file:
+    `{"world.robot.charge": 0.5}`. `start` overrides the world's start: x, y in metres and a heading
+    in radians.
 
-    While it runs, other threads of Python run too; a simulation itself belongs to one caller at a time. Meanwhile others
-    may read `time`, `ending`, `active` and `pose` (and print it): as they were at most a few hundredths of a second ago.
+    `log` is an MCAP file to write. It is complete after the end of the plan, or after `close`,
+    which `with` calls; the run cannot continue then. With `camera` the log contains the camera's
+    pictures, twice a second.
+
+    During a run other Python threads continue, but only one caller at a time can drive a
+    simulation. Others may meanwhile read `time`, `ending`, `active` and `pose`, and print the
+    simulation; these values are at most a few hundredths of a second old.
     """
 
     def __init__(
@@ -62,7 +67,7 @@ class Simulation(Driven):
 
     @classmethod
     def _of(cls, runner: Runner, plan: Plan, world: World, seed: int) -> Simulation:
-        """Around a run that has been made."""
+        """Wrap a run."""
         self = cls.__new__(cls)
         self.plan, self.world, self.seed = plan, world, seed
         self._failures = []
@@ -72,29 +77,33 @@ class Simulation(Driven):
     # Driving
 
     def run(self, until: float = 60.0) -> Result:
-        """Runs the plan to its end, or to `until` (seconds since the start), where it is stopped.
+        """Run the plan to its end, or to `until` (seconds since the start), where it is stopped.
 
-        Ctrl-C interrupts it; the simulation can be driven on afterwards.
+        Ctrl-C interrupts it; you can continue the simulation afterwards.
         """
         self._runner.run(seconds("until", until), True)
         return self.result()
 
     def run_to(self, time: float) -> bool:
-        """Lets time pass up to `time` (seconds since the start) and leaves the plan running; whether it still runs."""
+        """Advance to `time` (seconds since the start) without stopping the plan; return whether it
+        is still running.
+        """
         return self._runner.run(seconds("time", time), False)
 
     def watch(self, until: float = 60.0, *, speed: float = 1.0) -> Result:
-        """Runs the plan as `run` does and shows it meanwhile in the cell of a notebook: robot, plan and entries.
+        """Run the plan like `run`, and show robot, plan and entries in a notebook cell.
 
-        It goes on `speed` times as fast as the clock on the wall. Interrupting the kernel interrupts it; it can be
-        driven on then.
+        It runs at `speed` times real time. Interrupting the kernel interrupts it; you can continue
+        it then.
         """
         until = seconds("until", until)
         watch(self, until, speed)
         return self.run(until)
 
     def stream(self, until: float | None = None) -> Iterator[Event]:
-        """Drives the plan and yields its events as they happen, up to `until` (seconds since the start)."""
+        """Drive the plan and yield its events as they happen, up to `until` (seconds since the
+        start).
+        """
         until = moment("until", until)
         seen = self._runner.event_count
         while True:
@@ -109,15 +118,15 @@ class Simulation(Driven):
         return self.stream()
 
     def request_stop(self) -> None:
-        """Asks the plan to stop, from any thread."""
+        """Request the plan to stop, from any thread."""
         self._runner.request_stop()
 
     def result(self) -> Result:
-        """What has come of it so far."""
+        """The result so far."""
         return Result(self._runner, self.plan.name, self.world, self.seed, self.errors)
 
     def close(self) -> None:
-        """Ends the log, where there is one."""
+        """End the log, if there is one."""
         self._runner.close()
 
     def __reduce__(self) -> NoReturn:
@@ -134,16 +143,18 @@ class Simulation(Driven):
     # Moments
 
     def save(self) -> Snapshot:
-        """The simulation as it is now: plan, robot, world, noise and what is to come. `restore` goes back to it.
+        """Save the current state: plan, robot, world, noise and pending stimuli. `restore` goes
+        back to it.
 
-        Components written in Python cannot be copied, so that plans with such cannot be saved.
+        Components written in Python cannot be copied, so plans with them cannot be saved.
         """
         return Snapshot(self._runner.keyframe(), self.plan, self.world, self.seed)
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Goes back, or forth, to a moment that this simulation or a clone of it saved; what comes then is the same.
+        """Go back, or forwards, to a moment saved by this simulation or a clone; the continuation
+        is the same.
 
-        A simulation with a log cannot: what is in the log has happened.
+        A simulation with a log cannot be restored, because its log cannot be undone.
         """
         if not isinstance(snapshot, Snapshot):
             raise TypeError(f"a simulation is restored from what save() gave, not from {snapshot!r}")
@@ -152,7 +163,7 @@ class Simulation(Driven):
         self._runner.restore(snapshot._runner)
 
     def clone(self) -> Simulation:
-        """Another simulation that goes on from here as this one would; it writes no log."""
+        """An independent copy that continues from here; it writes no log."""
         return Simulation._of(self._runner.keyframe(), self.plan, self.world, self.seed)
 
     def __copy__(self) -> Simulation:
@@ -162,7 +173,7 @@ class Simulation(Driven):
 
     @property
     def time(self) -> float:
-        """The time, seconds since the start."""
+        """The time, in seconds since the start."""
         return self._runner.time
 
     @property
@@ -177,35 +188,35 @@ class Simulation(Driven):
 
     @property
     def pose(self) -> tuple[float, float, float]:
-        """Where the robot truly is: x, y in metres, heading in radians."""
+        """The robot's true pose: x, y in metres, heading in radians."""
         return self._runner.pose
 
     @property
     def events(self) -> list[Event]:
-        """What has happened so far."""
+        """The events so far."""
         return self._runner.events(0)
 
     @property
     def path(self) -> NDArray[np.float64]:
-        """Where the robot was every 20 ms: rows of time, x, y, heading."""
+        """The robot's pose every 20 ms: rows of time, x, y, heading."""
         return self._runner.path()
 
     @property
     def trace_hash(self) -> str:
-        """The hash of the trace so far; `afpc run` tells the same one for the same run."""
+        """The hash of the trace so far, as in `afpc run`."""
         return self._runner.trace_hash
 
     def picture(self) -> Picture:
-        """The path so far in its world, as `afpc run --svg` draws it."""
+        """The path so far in its world, as drawn by `afpc run --svg`."""
         return Picture(self._runner.draw(self.plan.name, self.world, self.seed))
 
     def sense(self, sensor: str) -> Any:
-        """What a sensor says: see `afp.Robot`. Arrays are copies."""
+        """The value of a sensor; see `afp.Robot`. Arrays are copies."""
         return self._runner.sense(text("a sensor", sensor))
 
     @property
     def camera(self) -> NDArray[np.uint8] | None:
-        """The latest picture, rows x columns x 3, a copy; `None` before the first one."""
+        """A copy of the latest picture, rows x columns x 3; `None` before the first one."""
         picture: NDArray[np.uint8] | None = self._runner.sense("camera")
         return picture
 
@@ -222,17 +233,18 @@ class Simulation(Driven):
 
     @property
     def entries(self) -> dict[str, Any]:
-        """The values of all entries of the plan; `None` for those that nobody has written."""
+        """The values of all entries of the plan; `None` for unset ones."""
         return self._runner.entries()
 
     def set(self, entry: str, value: Any, *, at: float | None = None) -> None:
-        """Writes an entry, now (at the next step) or at a time to come."""
+        """Write an entry, now (at the next step) or at a later time."""
         self._runner.set(text("an entry", entry), value, moment("at", at))
 
     # Stimuli
 
     def press(self, control: str | None = None, *, at: float | None = None, hold: float = 0.2) -> None:
-        """Presses a control of the robot, now or at a time to come; without a name, the one that ends what runs.
+        """Press a control of the robot, now or at a later time; the default is the control that
+        ends a run.
 
         The Carbot has the button `escape` and the bumper, `touch`.
         """
@@ -240,7 +252,7 @@ class Simulation(Driven):
         self._runner.hold(control, moment("at", at), seconds("hold", hold))
 
     def bump(self, *, at: float | None = None, hold: float = 0.2) -> None:
-        """Presses the bumper, now or at a time to come: `press("touch")`."""
+        """Press the bumper, now or at a later time: `press("touch")`."""
         self.press("touch", at=at, hold=hold)
 
     def fire(
@@ -251,19 +263,20 @@ class Simulation(Driven):
         *,
         at: float | None = None,
     ) -> None:
-        """Lets an active actor or supervisor report an outcome that it did not see, at its next poll.
+        """Make an active actor or supervisor report an outcome at its next poll.
 
-        `outputs` are the values that come with it, one for each output of it that the plan has connected:
-        `fire("find", "WallFound", {"angle": afp.deg(10)})`.
+        `outputs` are its values, one for each connected output: `fire("find", "WallFound",
+        {"angle": afp.deg(10)})`.
         """
         component, outcome = text("an actor or supervisor", component), text("an outcome", outcome)
         values = keys("outputs", outputs, "gives outputs their values, such as {'angle': afp.deg(10)}")
         self._runner.fire(component, outcome, values, moment("at", at))
 
     def idle(self, element: str | None = None, *, at: float | None = None) -> None:
-        """Lets an actor, those of a sub-plan, or all actors do nothing from their next start on, as in scenarios.
+        """Make an actor, the actors of a sub-plan, or all actors do nothing from their next start
+        on, as in scenarios.
 
-        They are active until they are interrupted, or `fire` lets them report a state.
+        They are active until they are interrupted, or until `fire` makes them report a state.
         """
         element = None if element is None else text("an element", element)
         self._runner.idle(element, moment("at", at))
@@ -278,16 +291,17 @@ class Simulation(Driven):
         delay: float | None = None,
         share: float | None = None,
     ) -> None:
-        """Breaks something, for good or for `lasting` seconds: `fail("ultrasonic", "frozen")`.
+        """Inject a fault, permanently or for `lasting` seconds: `fail("ultrasonic", "frozen")`.
 
-        `delay` is for `delayed` and `slow`, `share` for `slip` and `low`; `afp.faults()` has all pairs.
+        `delay` is for `delayed` and `slow`, `share` for `slip` and `low`; `afp.faults()` lists all
+        pairs.
         """
         times = (moment("at", at), moment("lasting", lasting), moment("delay", delay))
         self._runner.fail(text("a device", device), text("a kind", kind), *times, share)
 
     @property
     def errors(self) -> list[ComponentError]:
-        """The exceptions of components written in Python, in the order in which they were raised."""
+        """The exceptions of components written in Python, in order."""
         for time, element, template, error in self._runner.failures(len(self._failures)):
             lines = "".join(traceback.format_exception(type(error), error, error.__traceback__))
             self._failures.append(ComponentError(time, element, template, error, lines, error.__traceback__))

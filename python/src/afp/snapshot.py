@@ -10,7 +10,7 @@ __all__ = ["Snapshot"]
 
 
 class Snapshot:
-    """A moment of a simulation, which `Simulation.restore` goes on from as often as one likes."""
+    """A moment of a simulation, from which `Simulation.restore` can continue any number of times."""
 
     def __init__(self, runner: Runner, plan: Plan, world: World, seed: int) -> None:
         self._runner = runner
@@ -20,7 +20,7 @@ class Snapshot:
 
     @property
     def time(self) -> float:
-        """When it was, seconds since the start."""
+        """The time of the moment, in seconds since the start."""
         return self._runner.time
 
     def _is_of(self, plan: Plan, world: World, seed: int) -> bool:

@@ -47,27 +47,30 @@ def sweep(
     restart: bool = False,
     backend: str = "local",
 ) -> Runs:
-    """Runs a plan once for every combination of world, values and seed, on all cores.
+    """Run a plan once for every combination of world, values and seed, on all cores.
 
-    `worlds` are files, `random:7`, or worlds, also such that were made in the program; without any, it is the plan's
-    own. `seeds` is how many from 0 on, or any seeds: `range(0, 100, 10)`, `[1, 5]`. `vary` gives entries, or values of
-    the world's file (`"world.robot.charge"`), the values to try: one (`afp.cm(30)`), several (`[afp.cm(30), "40cm", 0.5]`,
-    an array) or a range as on the command line (`"20cm..60cm:5cm"`). Each run is stopped at `until` seconds.
+    `worlds` are files, `random:7`, or `World` objects; the default is the plan's world. `seeds` is
+    a number of seeds from 0 on, or the seeds: `range(0, 100, 10)`, `[1, 5]`. `vary` maps entries,
+    or values of the world's file (`"world.robot.charge"`), to values: one (`afp.cm(30)`), several
+    (`[afp.cm(30), "40cm", 0.5]`, an array) or a range as on the command line (`"20cm..60cm:5cm"`).
+    Each run is stopped at `until` seconds.
 
-    `press` and `fail` are what happens in each run, as on the command line: `"escape@1s"`, `"ultrasonic.frozen@5s..7s"`,
-    `["wheels.slip=0.3@2s", "touch.lost@1s"]`.
+    `press` and `fail` apply to each run, as on the command line: `"escape@1s"`,
+    `"ultrasonic.frozen@5s..7s"`, `["wheels.slip=0.3@2s", "touch.lost@1s"]`.
 
-    `metrics` adds columns: functions that get the `Result` of a run and give a number, or `None` where there is none.
-    `on_run` is called with the row of each run as it comes. Both are called in the thread that called this.
+    `metrics` adds columns: functions that take the `Result` of a run and return a number or `None`.
+    `on_run` receives the row of each finished run. Both are called in the calling thread.
 
-    `jobs` is the number of threads. Runs are done by the engine of `afpc sweep` while other threads of Python go on;
-    components written in Python take turns for the interpreter, unless a cluster has several processes.
-    `progress` shows a bar on a terminal or in a notebook, or is called with how many runs are done of how many.
+    `jobs` is the number of threads. The engine of `afpc sweep` does the runs while other Python
+    threads continue. Components written in Python take turns for the interpreter; a cluster has
+    several processes. `progress` shows a bar on a terminal or in a notebook, or is a function of
+    the finished and the total number of runs.
 
-    `out` (`runs.csv`, `runs.parquet`, or a folder for both) keeps each outcome as it comes: the same call goes on
-    where an earlier one was stopped or killed, unless `restart` is set; `afpc sweep` goes on with it too.
+    `out` (`runs.csv`, `runs.parquet`, or a folder for both) keeps each outcome immediately. The
+    same call resumes a stopped or killed sweep, unless `restart` is set; `afpc sweep` can resume
+    it, too.
 
-    `backend="ray"` spreads the runs over a Ray cluster; it needs ray, see `afp.cluster`.
+    `backend="ray"` distributes the runs over a Ray cluster; it needs ray, see `afp.cluster`.
     """
     if not isinstance(plan, Plan):
         raise TypeError(f"a sweep needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
@@ -110,7 +113,7 @@ def sweep(
 
 @dataclass(frozen=True)
 class Spec:
-    """What a sweep is asked for, as the native half takes it."""
+    """The arguments of a sweep, for the native half."""
 
     worlds: list[World | str | None]
     seeds: tuple[int, int] | list[int]
@@ -121,12 +124,12 @@ class Spec:
     """What is pressed, and what fails."""
 
     def sweeper(self, plan: Plan, is_kept: bool = True) -> Sweeper:
-        """The sweep of a plan; one that is neither kept nor sent needs not tell what it is."""
+        """The sweep of a plan; fingerprints are needed only if it is kept or sent."""
         parts = dict(self._parts(plan.toolboxes)) if is_kept else {}
         return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, self.stimuli, list(self.metrics), parts)
 
     def _parts(self, toolboxes: Iterable[Toolbox]) -> Iterator[tuple[str, Fingerprint]]:
-        """What is written in Python, each with what tells two versions of it apart."""
+        """The Python parts with their fingerprints."""
         for toolbox in toolboxes:
             yield f"the toolbox '{toolbox.name}'", (digest(toolbox.text), {})
             if isinstance(toolbox, components.Toolbox):
@@ -136,7 +139,7 @@ class Spec:
             yield f"the metric '{name}'", fingerprint(metric)
 
     def judge(self, plan: str) -> Callable[[Runner, World, int], dict[str, float | None]] | None:
-        """Gives the figures of a run that the metrics add; none without metrics."""
+        """A function that computes a run's metrics; `None` without metrics."""
         if not self.metrics:
             return None
 
@@ -176,7 +179,7 @@ def _figure(name: str, value: float | None) -> float | None:
         figure = float(value)
     except (TypeError, ValueError):
         raise TypeError(f"the metric '{name}' gives a number or None, not {value!r}") from None
-    # What is no number is a figure that a run does not have.
+    # A figure that is not a number counts as missing.
     if math.isinf(figure):
         raise ValueError(f"the metric '{name}' gave {figure}; give None where there is no number")
     return None if math.isnan(figure) else figure
@@ -220,7 +223,9 @@ def _count(seeds: int) -> int:
 
 
 def _values(name: str, values: Any) -> str | list[tuple[str, str | None]]:
-    """The values of an entry as texts, each with its unit, which a bare number leaves open; a text has none."""
+    """The values of an entry as strings, each with its unit: empty for a bare number, `None` for a
+    string.
+    """
     if isinstance(values, str):
         return values
     each = values if isinstance(values, Iterable) else [values]

@@ -43,7 +43,7 @@ EXTRAS = {"pyarrow": "arrow", "matplotlib": "plot", "gymnasium": "gym", "stable_
 
 
 def need(module: str) -> Any:
-    """A module of another package."""
+    """Import a module of another package."""
     try:
         return importlib.import_module(module)
     except ImportError as error:
@@ -53,7 +53,9 @@ def need(module: str) -> Any:
 
 
 def columns(events: Sequence[Event]) -> dict[str, list[Any]]:
-    """The events as lists by column; values of entries and inputs as numbers and as texts, where they are such."""
+    """The events as lists by column; values of entries and inputs have a column of numbers and one
+    of strings.
+    """
     table: dict[str, list[Any]] = {name: [getattr(event, name) for event in events] for name in COLUMNS}
     for name, (number, text) in VALUES.items():
         values = [getattr(event, name) for event in events]
@@ -88,7 +90,7 @@ def to_arrow(events: Sequence[Event]) -> Any:
 
 
 class Events:
-    """What has events, as tables."""
+    """A mixin for tables of events."""
 
     events: Sequence[Event]
 
@@ -110,5 +112,7 @@ class Events:
         return to_arrow(self.events)
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """The events for whatever reads Arrow, as in `polars.DataFrame(result)`; needs pyarrow."""
+        """The events for libraries that read Arrow, as in `polars.DataFrame(result)`; needs
+        pyarrow.
+        """
         return self.to_arrow().__arrow_c_stream__(requested_schema)

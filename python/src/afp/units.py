@@ -1,11 +1,11 @@
-"""Quantities: floats in SI units that remember their unit.
+"""Quantities: floats in SI units with their unit.
 
 >>> cm(30)
 Quantity(0.3, 'm')
 >>> cm(30) + 0.1
 0.4
 
-Entries and ports take a quantity only of their own dimension; a plain float is one in SI units.
+Entries and ports accept only quantities of their own dimension; a plain float is in SI units.
 """
 
 from __future__ import annotations
@@ -39,7 +39,8 @@ __all__ = [
 
 
 class Quantity(float):
-    """A number in an SI unit, which multiples, quotients and sums of like quantities keep; else plain floats come out.
+    """A number in an SI unit. Multiples, quotients and sums of like quantities keep the unit; other
+    operations give plain floats.
 
     >>> 2 * cm(30)
     Quantity(0.6, 'm')
@@ -56,7 +57,7 @@ class Quantity(float):
 
     def __new__(cls, value: float, unit: str | None = None) -> Quantity:
         if unit is None:
-            # Whatever makes a result of the type of its numbers, as 'statistics' does, gets a plain one.
+            # Code that makes results of the numbers' type, like 'statistics', gets a plain float.
             return float(value)  # type: ignore[return-value]
         self = super().__new__(cls, value)
         self.unit = unit
@@ -69,7 +70,7 @@ class Quantity(float):
         return f"Quantity({float(self)!r}, {self.unit!r})"
 
     def __array_ufunc__(self, function: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
-        """What functions of numpy make of it: operators what they make of it here, others plain numbers."""
+        """Functions of numpy: operators behave as here, others give plain numbers."""
         if method == "__call__" and not options and function in _OPERATORS and len(inputs) <= 2:
             own, turned = _OPERATORS[function]
             first, *rest = inputs
@@ -84,7 +85,9 @@ class Quantity(float):
         return getattr(function, method)(*numbers, **options)
 
     def _like(self, value: Any, other: object) -> Any:
-        """`value` in the unit, if `other` is of it, too; quantities of two units have no sum."""
+        """`value` in the unit, if `other` has the same; quantities with different units have no
+        sum.
+        """
         if not isinstance(other, Quantity):
             return value
         if other.unit != self.unit:
@@ -112,7 +115,7 @@ class Quantity(float):
         return self._like(float(self) + plain_number(other), other)
 
     def __radd__(self, other: Any) -> Any:
-        # What sum() begins with is of every unit.
+        # The start value of sum() fits every unit.
         nothing = type(other) is int and other == 0
         return self if nothing else self._like(plain_number(other) + float(self), other)
 
@@ -129,7 +132,7 @@ class Quantity(float):
         return self._scaled(plain_number(other) * float(self), other)
 
     def _comparable(self, other: object) -> float:
-        """The number of `other`, unless it is a quantity of another unit."""
+        """The number of `other`, unless its unit differs."""
         if isinstance(other, Quantity) and other.unit != self.unit:
             raise TypeError(f"a quantity in {self.unit} and one in {other.unit} are not to be compared")
         return plain_number(other)  # type: ignore[no-any-return]
@@ -191,18 +194,18 @@ def _number(name: str, value: float) -> float:
 
 
 def plain_number(value: Any) -> Any:
-    """A number without its unit and without its type of numpy; arrays are of plain numbers."""
+    """A number without its unit and its numpy type; arrays become arrays of plain numbers."""
     value = plain(value)
     return float(value) if isinstance(value, Quantity) else value
 
 
 def plain(value: Any) -> Any:
-    """A value of numpy as Python has it; others as they are."""
+    """A numpy value as a Python value; other values unchanged."""
     return value.item() if isinstance(value, np.generic) else value
 
 
 def seconds(what: str, value: float) -> float:
-    """A time in seconds, plain or with its unit; `what` names it when it is none."""
+    """A time in seconds, plain or with its unit; `what` names it in the error."""
     if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
         raise TypeError(f"{what} is a time in seconds, such as 2.5 or afp.ms(300), not {value!r}")
     if getattr(value, "unit", "s") != "s":
@@ -211,12 +214,12 @@ def seconds(what: str, value: float) -> float:
 
 
 def moment(what: str, value: float | None) -> float | None:
-    """As `seconds`, where there may be none."""
+    """Like `seconds`, but optional."""
     return None if value is None else seconds(what, value)
 
 
 def number_in(what: str, value: Any, unit: str | None = None) -> Any:
-    """A finite number, if there is one; a quantity of another unit than this is refused."""
+    """A finite number or `None`; a quantity with a different unit is rejected."""
     if value is None:
         return None
     if isinstance(value, Quantity) and value.unit != unit:
@@ -231,7 +234,7 @@ def number_in(what: str, value: Any, unit: str | None = None) -> Any:
 
 
 def spelled(value: object) -> str:
-    """A value as it stands in a plan: texts are taken as they are, plain numbers have no unit."""
+    """A value in plan syntax: strings are unchanged, plain numbers have no unit."""
     value = plain(value)
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -243,7 +246,7 @@ def spelled(value: object) -> str:
 
 
 def spelled_time(value: str | float) -> str:
-    """A time as it stands in a plan: a text such as `20 ms`, or seconds."""
+    """A time in plan syntax: a string such as `20 ms`, or seconds."""
     if isinstance(value, str):
         return value
     time = seconds("a time", value)
@@ -259,7 +262,7 @@ def _text(value: object) -> str:
 
 
 def _in_si(value: float, scale: Fraction) -> float:
-    """A number times a scale as a literal in a plan has it: as it is written in decimals, rounded once."""
+    """A number times a scale, computed like a literal in a plan: in decimals, rounded once."""
     value = float(value)
     return float(Fraction(repr(value)) * scale) if math.isfinite(value) else value
 
@@ -285,17 +288,17 @@ rad_per_s = _unit("rad_per_s", "rad/s", 1, "So many radians a second.")
 
 
 def deg(value: float) -> Quantity:
-    """So many degrees, in radians."""
+    """An angle in degrees, as radians."""
     return Quantity(math.radians(_number("deg", value)), "rad")
 
 
 def deg_per_s(value: float) -> Quantity:
-    """So many degrees a second, in radians a second."""
+    """A turn rate in degrees per second, as radians per second."""
     return Quantity(math.radians(_number("deg_per_s", value)), "rad/s")
 
 
 def kmh(value: float) -> Quantity:
-    """So many kilometres an hour, in metres a second."""
+    """A speed in kilometres per hour, as metres per second."""
     return Quantity(_in_si(_number("kmh", value), Fraction(10, 36)), "m/s")
 
 

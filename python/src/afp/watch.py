@@ -1,4 +1,4 @@
-"""A run to be watched in a notebook while it goes on: the robot in its world, the plan, the entries."""
+"""A live view of a run in a notebook: the robot in its world, the plan, the entries."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ KINDS = ".actor,.subplan,.computation"
 
 
 def watch(simulation: Simulation, until: float, speed: float) -> None:
-    """Drives a simulation to its end or to `until`, `speed` times as fast as the clock on the wall, and shows it."""
+    """Drive a simulation to its end or to `until` at `speed` times real time, and show it."""
     if not notebook.is_here():
         raise RuntimeError("watch() shows the run in a notebook's cell, and this is none; run() runs it")
     if not speed > 0:
@@ -35,21 +35,21 @@ def watch(simulation: Simulation, until: float, speed: float) -> None:
         cell.show(view.bundle())
         shown += EVERY
         time.sleep(max(0.0, shown - time.monotonic()))
-        # What is late is not made up for all at once: a picture may take longer than its time.
+        # A late frame is skipped, since drawing may take longer than the interval.
         shown = max(shown, time.monotonic() - EVERY)
         going = simulation.run_to(min(until, first + (time.monotonic() - begin) * speed))
     cell.show(view.bundle())
 
 
 class _View:
-    """What is shown of a simulation."""
+    """The view of a simulation."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
         self._plan = simulation.plan.svg(theme="light")
 
     def bundle(self) -> dict[str, str]:
-        """The moment as data by media types."""
+        """The current view as data by media types."""
         simulation = self._simulation
         active = simulation.active
         words = f"{simulation.plan.name}, {simulation.time:.1f} s, {active or simulation.ending}"

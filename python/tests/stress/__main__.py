@@ -1,7 +1,8 @@
-"""`python tests/stress [--seconds 600] [--seed 0]`: looks for what breaks the package, and stops at the first thing.
+"""`python tests/stress [--seconds 600] [--seed 0]`: searches for failures of the package, and stops
+at the first.
 
-Without seconds it does a fixed number of examples, the same each time. The last steps are kept in the file that
-`--steps` names, so that even a crash can be told.
+Without seconds it runs a fixed number of examples, always the same. The last steps are kept in the
+file named by `--steps`, so that they are known even after a crash.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ STUCK = 60.0
 
 
 class Watched(Stress):
-    """With somebody who notices when nothing happens any more."""
+    """A context with a watchdog for hanging calls."""
 
     def note(self, text: str, anew: bool = False) -> None:
         faulthandler.dump_traceback_later(STUCK, exit=True)
@@ -37,7 +38,7 @@ class Watched(Stress):
 
 
 def ring(*_: object) -> None:
-    """Interrupts a call, as Ctrl-C does."""
+    """Interrupt a call, like Ctrl-C."""
     raise TooLong
 
 
@@ -65,7 +66,7 @@ def main() -> int:
         print_blob=False,
         phases=[Phase.generate] if options.as_found else [Phase.generate, Phase.shrink],
     )
-    # What callbacks raise where nobody can catch it, such as in __del__, is told to nobody.
+    # Exceptions that cannot be caught, such as in __del__, are ignored.
     sys.unraisablehook = lambda *_: None
     begin, number = time.monotonic(), options.seed
     try:

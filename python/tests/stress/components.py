@@ -1,4 +1,4 @@
-"""Components that do what no component should, in an order that the test decides."""
+"""Misbehaving components, in an order that the test decides."""
 
 from __future__ import annotations
 
@@ -57,14 +57,14 @@ SAID: dict[str, Any] = {
 
 
 def own(machine: Stress) -> afp.Simulation:
-    """The simulation whose component this is."""
+    """The simulation of this component."""
     if not machine.driven:
         raise ValueError("no simulation is being driven")
     return machine.driven[-1]
 
 
 def thread(work: Callable[[], object]) -> None:
-    """Does something in another thread; what it raises there is its own."""
+    """Do something in another thread, which raises its own exceptions."""
 
     def quietly() -> None:
         try:
@@ -81,7 +81,7 @@ machine_exceptions = (Exception, Planned, KeyboardInterrupt, SystemExit, Generat
 
 
 def forget(machine: Stress) -> None:
-    """Lets go of everything that the test holds."""
+    """Drop everything that the test holds."""
     machine.sims.clear()
     machine.plans.clear()
     machine.results.clear()
@@ -89,14 +89,14 @@ def forget(machine: Stress) -> None:
 
 
 def nested(machine: Stress) -> None:
-    """Runs another simulation of some plan."""
+    """Run another simulation of some plan."""
     if machine.nested > 0 and machine.plans:
         machine.nested -= 1
         machine.drive(afp.Simulation(machine.plans[0], seed=1), lambda sim: sim.run(until=0.03))
 
 
 def redefine(machine: Stress) -> None:
-    """Puts another implementation in the place of the one that runs."""
+    """Replace the running implementation."""
     machine.tools[-1].implement(lambda value: "Done", "Compute")
 
 
@@ -126,13 +126,13 @@ DEEDS: dict[str, Callable[[Stress, Any], object]] = {
     "keep the robot": lambda machine, robot: machine.robots.append(robot),
     "use a kept robot": lambda machine, robot: [kept.time for kept in machine.robots[-3:]],
 }
-# Computations have none.
+# Computations have no robot.
 WITH_ROBOT = {"drive", "drive wrong", "drive far too fast", "sense", "sense wrong", "keep the robot", "robot in a thread"}
 ACTIONS = [*SAID, *RAISED, *DEEDS]
 
 
 class Script:
-    """What the callbacks of a plan do, one after the other, over and over."""
+    """The actions of a plan's callbacks, in a loop."""
 
     def __init__(self, machine: Stress, actions: list[str]) -> None:
         self.machine = machine
@@ -140,7 +140,7 @@ class Script:
         self.next = 0
 
     def act(self, robot: Any = None) -> Any:
-        """Does the next thing."""
+        """Do the next action."""
         action = self.actions[self.next % len(self.actions)]
         self.next += 1
         self.machine.told += 1

@@ -1,4 +1,4 @@
-"""A state machine over the whole API: everything in any order, with values that fit and values that do not."""
+"""A state machine over the whole API: everything in any order, with valid and invalid values."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ LONG = 0.2
 """Seconds after which a call is interrupted, as Ctrl-C does it."""
 DOCUMENTED = (afp.AfpError, TypeError, ValueError, KeyError, OverflowError, RuntimeError, OSError)
 FORBIDDEN = ("panick", "broke in an earlier call", "has no attribute '_", "NoneType' object has no")
-# They draw, need extras that are tested elsewhere, or write wherever they are told to.
+# These draw, need other packages that are tested elsewhere, or write to any path.
 LEFT_OUT = ("plot", "to_", "save")
-# The package alone makes these.
+# Only the package makes these.
 MADE = (afp.Result, afp.Runs, afp.Collision, afp.ComponentError)
 
 few = st.integers(0, 5)
@@ -39,7 +39,7 @@ outcomes = st.sampled_from(["Done", "Told", "Seen", "TouchSensorPressed", "Error
 
 
 class TooLong(BaseException):
-    """A call took longer than it should, and was interrupted."""
+    """A call took too long and was interrupted."""
 
 
 class Stress(RuleBasedStateMachine):
@@ -68,7 +68,7 @@ class Stress(RuleBasedStateMachine):
     # What is done, and what may come of it
 
     def note(self, text: str, anew: bool = False) -> None:
-        """Writes down what is about to happen, should it be the last thing that does."""
+        """Record the next action, in case it is the last one."""
         if self.steps is not None:
             if anew:
                 self.steps.seek(0)
@@ -77,7 +77,7 @@ class Stress(RuleBasedStateMachine):
             self.steps.flush()
 
     def attempt(self, what: str, call: Callable[[], T], alarm: bool = True) -> T | None:
-        """Does something that may be refused, in one of the documented ways."""
+        """Do something that may be refused in a documented way."""
         self.note(what)
         self.nested, self.told = 4, 0
         main = alarm and threading.current_thread() is threading.main_thread()
@@ -94,20 +94,20 @@ class Stress(RuleBasedStateMachine):
             return None
 
     def judge(self, what: str, error: BaseException) -> None:
-        """Passes on what nobody has documented."""
+        """Pass on undocumented exceptions."""
         text = str(error)
         expected = isinstance(error, (*DOCUMENTED, *self.raised))
-        # No such sensor, no such attribute of the robot: as everywhere in Python.
+        # Unknown sensors and attributes raise AttributeError, as usual in Python.
         expected |= isinstance(error, AttributeError) and ("its sensors are" in text or "'smell'" in text)
         expected |= isinstance(error, StopIteration) and "iterate" in what
-        # What a component raised, whatever it was.
+        # Any exception of a component.
         expected |= isinstance(error, Exception) and what == "check"
         if not expected or any(word in text for word in FORBIDDEN):
             raise AssertionError(f"{what} raised {type(error).__name__}: {text}") from error
         self.note(f"  = {type(error).__name__}: {text}")
 
     def drive(self, sim: afp.Simulation, drive: Callable[[afp.Simulation], T]) -> T:
-        """Drives a simulation, whose components find it in `driven`."""
+        """Drive a simulation, which its components find in `driven`."""
         self.driven.append(sim)
         try:
             return drive(sim)
@@ -312,7 +312,7 @@ class Stress(RuleBasedStateMachine):
     def pickled(self, which: int) -> None:
         for thing in [*self.plans[-1:], *self.worlds]:
             ways: list[Callable[[Any], Any]] = [copy.copy, copy.deepcopy]
-            # Its components here are classes of a function, of which pickle knows none.
+            # Pickle cannot find its components, which are classes inside a function.
             if not getattr(thing, "toolboxes", []):
                 ways.append(lambda thing: pickle.loads(pickle.dumps(thing)))
             for way in ways:
@@ -343,7 +343,7 @@ class Stress(RuleBasedStateMachine):
 
     @invariant()
     def sound(self) -> None:
-        """What can always be asked."""
+        """Read everything that is always readable."""
         for sim in self.sims:
             assert 0.0 <= sim.time and sim.ending in {"running", "ok", "interrupted", "error"}, sim
         del self.robots[:-5]

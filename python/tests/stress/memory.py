@@ -1,10 +1,12 @@
-"""`python tests/stress/memory.py [10000]`: makes so many simulations and says by how much memory has grown, in megabytes.
+"""`python tests/stress/memory.py [10000]`: makes simulations and reports the growth of memory, in
+megabytes.
 
-What it occupies goes up and down by some megabytes, as the allocators of Python and Rust keep pages and give them back. So it is
-the middle of the second half against the middle of the first; a tenth of the simulations before that are the start.
+The memory of the process varies by some megabytes, since the allocators of Python and Rust keep and
+release pages. The result therefore compares the medians of the second and the first half, after a
+warm-up of a tenth of the simulations.
 
-They are of every kind: to the end and half-way, with logs, with components in Python that raise, that lead back to
-their own simulation, that are interrupted.
+The simulations are of every kind: complete and incomplete, with logs, and with components in Python
+that raise, refer back to their own simulation, or are interrupted.
 """
 
 from __future__ import annotations
@@ -24,13 +26,13 @@ WORLD = afp.World.load(ROOT / "worlds/wall_following.toml")
 
 
 def resident() -> float:
-    """What the process occupies, megabytes."""
+    """The memory of the process, in megabytes."""
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 def shipped(number: int, folder: Path) -> None:
-    """A plan of ours."""
+    """A shipped plan."""
     log = folder / "run.mcap" if number % 20 == 0 else None
     with afp.Simulation(SHIPPED, WORLD, seed=number, log=log) as simulation:
         simulation.run_to(0.1)
@@ -40,7 +42,7 @@ def shipped(number: int, folder: Path) -> None:
 
 
 def circular(number: int) -> None:
-    """A plan with components in Python, which raise, and through which the simulation leads back to itself."""
+    """A plan with components in Python, which raise and refer back to the simulation."""
     tools = afp.Toolbox("tools")
     kept: list[object] = [tools, bytes(10_000)]
 

@@ -1,4 +1,4 @@
-"""Values that fit nowhere, or only just."""
+"""Values that are invalid, or just valid."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ import afp
 
 
 class Planned(BaseException):
-    """What a test raises on purpose, and no `except Exception` catches."""
+    """An exception that a test raises on purpose, and that no `except Exception` catches."""
 
 
 class Evil:
-    """Raises when anything is asked of it."""
+    """Raises on every access."""
 
     def __init__(self, kind: type[BaseException]) -> None:
         self.kind = kind
@@ -35,7 +35,7 @@ class Evil:
 
 
 class Sealed:
-    """Something that nobody must touch before it is used, hypothesis included."""
+    """A value that nothing may touch before its use, including hypothesis."""
 
     def __init__(self, thing: Any) -> None:
         self.thing = thing
@@ -45,7 +45,7 @@ class Sealed:
 
 
 def opened(value: Any) -> Any:
-    """A value of `value` as it is to be used."""
+    """The value inside `value`."""
     return value.thing if isinstance(value, Sealed) else value
 
 

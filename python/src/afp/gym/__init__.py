@@ -4,56 +4,58 @@
     env = gymnasium.make("afp.gym:afp/Carbot-v0")
     envs = gymnasium.make_vec("afp.gym:afp/Carbot-v0", num_envs=16)
 
-What stands before the colon is imported for what stands behind it. After `import afp.gym` the short names do.
+Gymnasium imports the part before the colon to find the part after it. After `import afp.gym` the
+short names work, too.
 
 | environment | task |
 |---|---|
-| `afp/Carbot-v0` | get as far as possible without running into anything (`ROAM`) |
+| `afp/Carbot-v0` | get as far as possible without a collision (`ROAM`) |
 | `afp/CarbotWallFollow-v0` | get ahead along a wall, 30 cm to the left of it (`WALL_FOLLOW`) |
 | `afp/CarbotFindInfrared-v0` | find the beacon and drive to it (`FIND_INFRARED`) |
-| `afp/CarbotReachGoal-v0` | drive to a place that is known (`REACH_GOAL`) |
+| `afp/CarbotReachGoal-v0` | drive to a known place (`REACH_GOAL`) |
 
-**Action**, `Box(-1, 1, (2,))`: speed and turn rate as shares of `SPEED` and `TURN`; backwards and to the right where
-negative. With `point=True` a third number points the range sensor, as a share of 90 degrees to the left. An action lasts
-100 ms of simulated time.
+**Action**, `Box(-1, 1, (2,))`: speed and turn rate as shares of `SPEED` and `TURN`; negative values
+mean backwards and to the right. With `point=True` a third number points the range sensor, as a
+share of 90 degrees to the left. An action lasts 100 ms of simulated time.
 
-**Observation**, `Box(float32)`: the parts that `observe` names, one behind the other.
+**Observation**, `Box(float32)`: the parts listed in `observe`, one after the other.
 
 | part | numbers |
 |---|---|
-| `distance` | what the range sensor reports, m (`RANGE` for silence and the unknown), and 1 if it is known, else 0 |
-| `odometry` | x and y, m, sine and cosine of the heading, speed (m/s), turn rate (rad/s): what the wheels have counted |
-| `motion` | speed and turn rate alone |
+| `distance` | the range sensor's value, m (`RANGE` for silence and unknown values), and 1 if it is known, else 0 |
+| `odometry` | x and y, m, sine and cosine of the heading, speed (m/s), turn rate (rad/s), as counted by the wheels |
+| `motion` | only speed and turn rate |
 | `bumper` | 1 if it is pressed |
-| `fan` | the last distance along each bearing of `fan` (`fan=[0, afp.deg(45)]`), which the range sensor looks along in turns, m |
-| `target` | how far what there is to reach (`reach="goal"` or `"light"`) is by the odometry, m, and sine and cosine of the bearing to it |
+| `fan` | the last distance along each bearing of `fan` (`fan=[0, afp.deg(45)]`), which the range sensor sweeps over, m |
+| `target` | the distance of the target (`reach="goal"` or `"light"`) by the odometry, m, and sine and cosine of its bearing |
 | `glow` | 1 if infrared light is seen, its bearing (rad) and strength |
 | `color` | red, green and blue of the floor, and 1 if they are known |
-| `battery` | its voltage, and the share of its charge that is left |
-| `valid` | 1 for each of odometry, bumper, infrared sensor, colour sensor and battery that answers |
+| `battery` | its voltage, and the remaining share of its charge |
+| `valid` | 1 for each of odometry, bumper, infrared sensor, colour sensor and battery that responds |
 
-A device that is broken is seen as what it said last; no fault raises. What the robot cannot know is in `info` alone: `time`,
-`pose`, `collisions`; after `reset` also `world`, and `target` where there is one.
+A broken device keeps its last value; no fault raises. Ground truth is only in `info`: `time`,
+`pose`, `collisions`; after `reset` also `world`, and `target` if there is one.
 
-**Reward.** The sum of the terms that `reward` weighs; `ends` names those that end the episode.
+**Reward.** The sum of the terms that `reward` weighs; `ends` lists those that end the episode.
 
-| term | is, for a step |
+| term | value for a step |
 |---|---|
-| `ahead` | the way along the robot's heading, m, negative backwards |
-| `crash` | 1 if it ran into something, else 0; may end the episode |
-| `wall` | `ahead` times how well the wall at the right is kept: 1 at a gap of 30 cm, 0 at none and from 60 cm on |
-| `nearer` | by how much what there is to reach is nearer, m |
-| `reached` | 1 the first time that it is reached, else 0; may end the episode |
-| `time` | how long it took, s |
+| `ahead` | the distance along the robot's heading, m, negative backwards |
+| `crash` | 1 for a collision, else 0; may end the episode |
+| `wall` | `ahead` times the quality of wall following at the right: 1 at a gap of 30 cm, 0 at none and from 60 cm on |
+| `nearer` | the decrease of the target's distance, m |
+| `reached` | 1 when the target is first reached, else 0; may end the episode |
+| `time` | the duration, s |
 
-**Episodes.** `gymnasium.make` cuts them off after 60 s (`max_episode_steps`). `reset(options=...)` takes `world`, `pose` (x and
-y in metres, heading in radians), `goal` (x, y) and `faults`, for this episode alone. Without a world each episode has a room
-made up anew. `faults` are tuples of device, kind and perhaps a mapping with `at`, `lasting`, `delay`, `share`, as
-`Simulation.fail` takes them; given to the environment they break in every episode, and a function of a random generator makes
-them up.
+**Episodes.** `gymnasium.make` truncates them after 60 s (`max_episode_steps`). `reset(options=...)`
+takes `world`, `pose` (x and y in metres, heading in radians), `goal` (x, y) and `faults` for only
+this episode. Without a world each episode has a new random room. `faults` are tuples of device,
+kind and optionally a mapping with `at`, `lasting`, `delay`, `share`, as in `Simulation.fail`. Given
+to the environment, they apply in every episode. A function of a random generator can also generate
+them.
 
-**Seeds.** `reset(seed=...)` decides everything: the same seed and actions give the same trajectory, bit for bit, on every
-machine, alone or among others in a vector environment.
+**Seeds.** `reset(seed=...)` decides everything: the same seed and actions give the same trajectory,
+bit for bit, on every machine, in a single or in a vector environment.
 """
 
 from __future__ import annotations

@@ -20,12 +20,13 @@ __all__ = ["CarbotEnv"]
 class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
     """The simulated Carbot; see `afp.gym` for actions, observations, reward and options.
 
-    `world` is a `World` or the path of its file; `None` makes up a room for each episode. `task` is a `Task` or its name;
-    `observe`, `reward`, `ends`, `reach` and `fan` take the place of the task's. `point` lets actions point the range sensor, `faults` break
-    in every episode. After `time_limit` seconds it is truncated; `gymnasium.make` does so by `max_episode_steps`.
+    `world` is a `World` or the path of its file; `None` gives each episode a random room. `task` is
+    a `Task` or its name; `observe`, `reward`, `ends`, `reach` and `fan` override the task's. With
+    `point`, actions point the range sensor. `faults` apply in every episode. An episode is
+    truncated after `time_limit` seconds; `gymnasium.make` sets `max_episode_steps` instead.
 
-    `render_mode` is `rgb_array` or `human`, a window or a picture in a notebook, in real time. `view` is what it shows: the
-    room from `top`, or what the robot's own `camera` sees.
+    `render_mode` is `rgb_array` or `human`: a window or a picture in a notebook, in real time.
+    `view` selects the room from the `top`, or the picture of the robot's `camera`.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": round(1 / STEP)}
@@ -63,7 +64,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
 
     @property
     def task(self) -> Task:
-        """What is to be done."""
+        """The task."""
         return self._setting.task
 
     @property
@@ -78,7 +79,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Puts the robot at the start of its world, or of a new one."""
+        """Put the robot at the start of its world, or of a new one."""
         super().reset(seed=seed)
         courses = self._open()
         start = self._setting.start(self.np_random, options)
@@ -92,7 +93,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
         return seen, info
 
     def step(self, action: Any) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Drives for 100 ms."""
+        """Drive for 100 ms."""
         if self._courses is None or self._start is None:
             raise gymnasium.error.ResetNeeded("call reset() before step()")
         stepped = self._courses.step_first(np.asarray(action, np.float64))
@@ -101,7 +102,9 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
         return stepped
 
     def render(self) -> NDArray[np.uint8] | None:
-        """The room from above, or what the camera sees; `None` where it is shown at each step, or nothing is."""
+        """The room from above or the camera's picture; `None` without pictures, or if each step
+        shows them.
+        """
         if self.render_mode is None:
             gymnasium.logger.warn('render() shows nothing without render_mode="rgb_array" or "human"')
             return None
@@ -111,7 +114,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
         return self._picture()
 
     def close(self) -> None:
-        """Lets go of the simulation and closes the window."""
+        """End the simulation and close the window."""
         self._courses = self._start = None
         if self._screen is not None:
             self._screen.close()
@@ -149,6 +152,6 @@ def _camera(courses: Courses) -> NDArray[np.uint8] | None:
     try:
         seen: NDArray[np.uint8] | None = courses.sense(0, "camera")
     except AfpError:
-        # A camera that is broken shows nothing.
+        # A broken camera shows nothing.
         return None
     return seen

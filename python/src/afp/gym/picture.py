@@ -22,7 +22,7 @@ Moving = Sequence[tuple[int, NDArray[np.float64]]]
 
 
 def _frame(world: World) -> tuple[float, float, float]:
-    """The corner at the lower left, and metres for each pixel: everything with a margin."""
+    """The lower left corner and metres per pixel, so that everything fits with a margin."""
     points = np.vstack([*world.outlines(), [world.start[:2]]])
     low, high = points.min(axis=0), points.max(axis=0)
     size = float((high - low).max()) * 1.04 + 0.1
@@ -31,7 +31,7 @@ def _frame(world: World) -> tuple[float, float, float]:
 
 
 def _centres(world: World) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Where the middle of each pixel lies, rows from the top."""
+    """The middle of each pixel, with rows from the top."""
     left, bottom, metres = _frame(world)
     along = (np.arange(PIXELS) + 0.5) * metres
     x, y = np.meshgrid(left + along, bottom + along[::-1])
@@ -39,7 +39,7 @@ def _centres(world: World) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def draw(world: World, target: tuple[float, float] | None, moving: Moving) -> NDArray[np.uint8]:
-    """The room without what moves in it, with what there is to reach."""
+    """The room without moving things, with the target."""
     left_out = {number for number, _ in moving}
     picture = np.full((PIXELS, PIXELS, 3), 245, np.uint8)
     x, y = _centres(world)
@@ -54,7 +54,7 @@ def draw(world: World, target: tuple[float, float] | None, moving: Moving) -> ND
 def _inside(
     corners: NDArray[np.float64], x: NDArray[np.float64], y: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Which points lie in a polygon: those with an odd number of edges to their right."""
+    """The points inside a polygon, which have an odd number of edges to their right."""
     inside = np.zeros(x.shape, np.bool_)
     for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         if y1 != y2:
@@ -66,7 +66,7 @@ def _inside(
 def with_robot(
     background: NDArray[np.uint8], world: World, pose: Sequence[float], moving: Moving
 ) -> NDArray[np.uint8]:
-    """The picture with what moves and the robot in it: its body, the bow brighter."""
+    """The picture with the moving things and the robot: its body, with a brighter front."""
     picture = background.copy()
     x, y = _centres(world)
     for _, corners in moving:

@@ -1,4 +1,4 @@
-"""Vector environments as stable-baselines3 has them; it needs stable-baselines3."""
+"""Vector environments for stable-baselines3; needs stable-baselines3."""
 
 from __future__ import annotations
 
@@ -17,15 +17,16 @@ __all__ = ["CarbotVecEnv"]
 try:
     _VecEnv: Any = need("stable_baselines3.common.vec_env").VecEnv
 except ImportError:
-    # Whoever makes one is told what to install.
+    # The constructor then raises with the package to install.
     _VecEnv = object
 
 
 class CarbotVecEnv(_VecEnv):  # type: ignore[misc]
-    """A vector environment for stable-baselines3: `PPO("MlpPolicy", CarbotVecEnv(16, task="ReachGoal"))`.
+    """A vector environment for stable-baselines3: `PPO("MlpPolicy", CarbotVecEnv(16,
+    task="ReachGoal"))`.
 
-    `settings` are those of `CarbotVectorEnv`. All robots are simulated in this process on all cores, so `SubprocVecEnv` gains
-    nothing.
+    `settings` are those of `CarbotVectorEnv`. All robots are simulated in this process on all
+    cores, so `SubprocVecEnv` gains nothing.
     """
 
     def __init__(self, num_envs: int, seed: int | None = None, **settings: Any) -> None:
@@ -38,22 +39,22 @@ class CarbotVecEnv(_VecEnv):  # type: ignore[misc]
         super().__init__(num_envs, self.envs.single_observation_space, self.envs.single_action_space)
 
     def seed(self, seed: int | None = None) -> Sequence[int | None]:
-        """The next `reset` begins with this seed, each environment with one more."""
+        """Set the seed of the next `reset`; each environment gets one more than the previous."""
         self._first = seed
         return [None if seed is None else seed + index for index in range(self.num_envs)]
 
     def reset(self) -> NDArray[np.float32]:
-        """Lets all episodes begin."""
+        """Start all episodes."""
         seen, _ = self.envs.reset(seed=self._first)
         self._first = None
         return seen
 
     def step_async(self, actions: Any) -> None:
-        """Takes the next actions."""
+        """Set the next actions."""
         self._actions = np.asarray(actions, np.float64)
 
     def step_wait(self) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
-        """Makes a step."""
+        """Make a step."""
         seen, rewards, ended, late, told = self.envs.step(self._actions)
         infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         for index in np.flatnonzero(ended | late):
@@ -62,7 +63,7 @@ class CarbotVecEnv(_VecEnv):  # type: ignore[misc]
         return seen, rewards.astype(np.float32), ended | late, infos
 
     def close(self) -> None:
-        """Lets go of the simulations."""
+        """End the simulations."""
         self.envs.close()
 
     def get_images(self) -> Sequence[NDArray[np.uint8] | None]:
@@ -70,18 +71,18 @@ class CarbotVecEnv(_VecEnv):  # type: ignore[misc]
         return self.envs.render() or [None] * self.num_envs
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """What all environments have in common."""
+        """An attribute that all environments share."""
         value = getattr(self.envs, attr_name)
         return [value for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
-        """Nothing of a running environment can be set."""
+        """Raises: attributes of a running environment cannot be set."""
         raise AttributeError(f"'{attr_name}' of running environments cannot be set; make them anew")
 
     def env_method(self, method_name: str, *args: Any, indices: Any = None, **kwargs: Any) -> list[Any]:
-        """No environment of many has methods of its own."""
+        """Raises: the single environments have no methods."""
         raise AttributeError(f"environments of many have no method '{method_name}' of their own")
 
     def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
-        """None is."""
+        """Always false."""
         return [False for _ in self._get_indices(indices)]

@@ -1,4 +1,4 @@
-"""What a policy, or a plan written by hand, is worth on the measure of a task."""
+"""Scores of a policy, or of a handwritten plan, for a task."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PLANS = Path(__file__).resolve().parents[1] / "plans"
 
 @dataclass(frozen=True)
 class Score:
-    """What some episodes came to."""
+    """The rewards of some episodes."""
 
     rewards: NDArray[np.float64]
     """The reward of each episode."""
@@ -58,10 +58,10 @@ def evaluate(
     world: Given = None,
     **settings: Any,
 ) -> Score:
-    """What a policy is worth in one episode for each seed; without a policy, what random actions are.
+    """Score a policy with one episode per seed; without a policy, score random actions.
 
-    It gets the observations of all episodes, a row each, and gives an action for each. `settings` are those of the
-    environment.
+    The policy receives the observations of all episodes, a row each, and returns an action for
+    each. `settings` are those of the environment.
     """
     task, seeds = task_of(task), _several(seeds)
     most = round(task.seconds / STEP)
@@ -85,10 +85,10 @@ def evaluate(
 
 
 def run_plan(task: Task | str, seeds: Iterable[int] = range(100), *, world: Given = None) -> Score:
-    """What the plan written by hand for a task is worth in the same episodes, on the same measure.
+    """Score the handwritten plan for a task in the same episodes.
 
-    It begins where the environment does for each seed, in the same room with the same noise, and is judged every 100 ms.
-    When it ends before the episode does, the robot stands.
+    For each seed it begins like the environment, in the same room with the same noise, and is
+    judged every 100 ms. If the plan ends before the episode, the robot stays where it is.
     """
     task = task_of(task)
     if task.plan is None:
@@ -100,7 +100,7 @@ def run_plan(task: Task | str, seeds: Iterable[int] = range(100), *, world: Give
 
 
 def _several(seeds: Iterable[int]) -> list[int]:
-    """Seeds, at least one."""
+    """Check that there is at least one seed."""
     if not isinstance(seeds, Iterable) or isinstance(seeds, str):
         raise TypeError(f"seeds are several whole numbers, such as range(10), not {seeds!r}")
     these = [seed_of(seed) for seed in seeds]
@@ -130,7 +130,7 @@ def _run(plan: Any, setting: Setting, seed: int) -> tuple[float, int, bool]:
 
 
 def _way(room: World, goal: tuple[float, float]) -> dict[str, float]:
-    """Where a goal is, as a plan is told: bearing and distance from the start."""
+    """The plan's inputs for a goal: bearing and distance from the start."""
     x, y, heading = room.start
     dx, dy = goal[0] - x, goal[1] - y
     bearing = math.remainder(math.atan2(dy, dx) - heading, math.tau)

@@ -1,4 +1,4 @@
-"""Where `render_mode="human"` shows pictures: a cell of a notebook, or a window."""
+"""The output of `render_mode="human"`: a notebook cell or a window."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ENLARGED = 2
 
 
 class Screen:
-    """Shows pictures one after the other, each for so many seconds."""
+    """Shows pictures one after the other, each for some seconds."""
 
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
@@ -28,7 +28,7 @@ class Screen:
         self._output: Any = None
 
     def show(self, picture: NDArray[np.uint8]) -> None:
-        """Shows a picture; waits until the one before has been seen for long enough."""
+        """Show a picture, after the previous one has been shown for long enough."""
         left = self._next - time.monotonic()
         if left > 0:
             time.sleep(left)
@@ -38,14 +38,14 @@ class Screen:
         self._output.show(picture)
 
     def close(self) -> None:
-        """Closes the window; a cell keeps its last picture."""
+        """Close the window; a cell keeps its last picture."""
         if self._output is not None:
             self._output.close()
             self._output = None
 
 
 class _Cell:
-    """The output of a notebook's cell."""
+    """The output of a notebook cell."""
 
     def __init__(self) -> None:
         self._cell = notebook.Cell()
@@ -54,11 +54,11 @@ class _Cell:
         self._cell.show({"image/png": png(picture)})
 
     def close(self) -> None:
-        """It stays."""
+        """The picture stays."""
 
 
 class _Window:
-    """A window of the system's; whoever closes it sees no more, and the episode goes on."""
+    """A system window. If the user closes it, the episode continues without pictures."""
 
     def __init__(self) -> None:
         try:
@@ -93,7 +93,7 @@ class _Window:
 def png(picture: NDArray[np.uint8]) -> bytes:
     """A picture as a PNG file."""
     rows, columns, _ = picture.shape
-    # Each row begins with the number of its filter: none.
+    # Each row begins with its filter type: none.
     raw = np.hstack([np.zeros((rows, 1), np.uint8), picture.reshape(rows, -1)]).tobytes()
 
     def chunk(kind: bytes, data: bytes) -> bytes:

@@ -1,4 +1,4 @@
-"""What an environment is set to, alone or as one of many: what is seen, what it is worth, how episodes begin."""
+"""The settings of an environment: observations, reward, starts of episodes."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ Start = tuple[
 
 @dataclass(frozen=True)
 class Setting:
-    """What an environment is set to."""
+    """The settings of an environment."""
 
     task: Task
     world: World | None
@@ -71,7 +71,7 @@ class Setting:
         point: bool,
         steps: int | None,
     ) -> Setting:
-        """Reads what an environment is given."""
+        """Read the arguments of an environment."""
         if isinstance(observe, str) or isinstance(ends, str):
             raise TypeError("observe and ends are lists of names, not one text")
         bearings = None if fan is None else tuple(number_in("fan", bearing, "rad") for bearing in fan)
@@ -86,11 +86,11 @@ class Setting:
             raise ValueError("an episode has at least one step; give a number from 1 on")
         if not callable(faults):
             faults = tuple(faults)
-        # Gymnasium's -1 is for none.
+        # Gymnasium's -1 means no limit.
         return cls(task, world_of(world), faults, point, FOREVER if steps is None or steps < 0 else steps)
 
     def courses(self, count: int) -> Courses:
-        """So many episodes."""
+        """Make a number of episodes."""
         task = self.task
         fan = (list(task.fan), self.point)
         return Courses(count, list(task.observe), fan, list(task.reward.items()), list(task.ends), task.reach, self.steps)
@@ -102,7 +102,7 @@ class Setting:
         return box(-1.0, 1.0, (courses.commands,), np.float32), box(low, high, dtype=np.float32)
 
     def start(self, rng: np.random.Generator, options: Mapping[str, Any] | None) -> Start:
-        """How the next episode begins."""
+        """The start of the next episode."""
         options = options or {}
         unknown = [name for name in options if name not in OPTIONS]
         if unknown:
@@ -116,18 +116,18 @@ class Setting:
         return world, room, noise, _numbers("pose", options, ("m", "m", "rad")), _numbers("goal", options, ("m", "m")), broken
 
     def world_at(self, start: Start) -> World:
-        """The room in which an episode takes place."""
+        """The room of an episode."""
         return start[0] if start[0] is not None else World.random(start[1])
 
 
 def world_of(world: Given) -> World | None:
-    """A world, or that of a file."""
+    """A world, or the world of a file."""
     place = None if world is None else place_of(world)
     return World.load(place) if isinstance(place, str) else place
 
 
 def steps_of(time_limit: float | None) -> int | None:
-    """How many steps a time has."""
+    """The number of steps in a time."""
     if time_limit is None:
         return None
     limit = seconds("time_limit", time_limit)

@@ -1,4 +1,4 @@
-"""Tasks for whoever learns to drive: what is seen, what it is worth, when it is over."""
+"""Tasks for learning: observation, reward and end."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Task:
     """The plan written by hand for it, a file of the package's."""
 
     def __reduce__(self) -> tuple[object, ...]:
-        # A mapping that cannot be changed cannot be pickled.
+        # A read-only mapping cannot be pickled.
         parts = (self.name, dict(self.reward), self.ends, self.observe, self.reach, self.fan, self.seconds, self.plan)
         return Task, parts
 
@@ -94,7 +94,7 @@ TASKS: Mapping[str, Task] = MappingProxyType(
 
 
 def task_of(task: Task | str) -> Task:
-    """A task, or the one of that name."""
+    """A task, or the task with that name."""
     if isinstance(task, Task):
         return task
     names = {known.name: known for known in TASKS.values()}

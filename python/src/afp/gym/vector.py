@@ -1,4 +1,4 @@
-"""`CarbotVectorEnv`: many robots, each in an episode of its own, stepped on all cores."""
+"""`CarbotVectorEnv`: many robots, each in its own episode, stepped on all cores."""
 
 from __future__ import annotations
 
@@ -18,12 +18,13 @@ AutoresetMode = gymnasium.vector.AutoresetMode
 
 
 class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
-    """Many simulated Carbots; see `afp.gym`. What comes of each is what comes of a `CarbotEnv` with its seed.
+    """Many simulated Carbots; see `afp.gym`. Each gives the same results as a `CarbotEnv` with its
+    seed.
 
-    A step simulates all of them on all cores, without Python in between and with the interpreter free for other threads.
-    `autoreset_mode` is that of Gymnasium: a new episode begins with the step after the last (`NEXT_STEP`), with the last
-    itself (`SAME_STEP`, with `final_obs` and `final_info` in `infos`), or when `reset` is asked for it (`DISABLED`, with
-    `options={"reset_mask": ...}`).
+    A step simulates all of them on all cores, without Python in between and with the interpreter
+    released. `autoreset_mode` is Gymnasium's: a new episode begins with the step after the last
+    (`NEXT_STEP`), with the last step (`SAME_STEP`, with `final_obs` and `final_info` in `infos`),
+    or on request (`DISABLED`, with `options={"reset_mask": ...}` of `reset`).
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10, "autoreset_mode": AutoresetMode.NEXT_STEP}
@@ -66,13 +67,15 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
 
     @property
     def task(self) -> Task:
-        """What is to be done."""
+        """The task."""
         return self._setting.task
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Lets all episodes begin, or those of `options["reset_mask"]`; the seed of the first, or one for each."""
+        """Start all episodes, or those of `options["reset_mask"]`; `seed` is the first seed, or one
+        for each.
+        """
         options = dict(options or {})
         which = self._masked(options.pop("reset_mask", None))
         seeds = self._seeds(seed)
@@ -91,7 +94,7 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
     def step(
         self, actions: Any
     ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """Drives all of them for 100 ms."""
+        """Drive all of them for 100 ms."""
         again: list[int] = []
         if self._over.any():
             if self._mode != AutoresetMode.NEXT_STEP:
@@ -115,12 +118,12 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         return tuple(self._picture(index) for index in range(self.num_envs))
 
     def close_extras(self, **_: Any) -> None:
-        """Lets go of the simulations."""
+        """End the simulations."""
         self._courses = self._setting.courses(self.num_envs)
         self._starts = [None] * self.num_envs
 
     def _begin_again(self, seen: NDArray[np.float32], infos: dict[str, Any]) -> NDArray[np.float32]:
-        """Lets what is over begin anew within the same step."""
+        """Start finished episodes again within the same step."""
         which = np.flatnonzero(self._over).tolist()
         times, poses, collisions = self._courses.info()
         for index in which:
@@ -133,7 +136,7 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         return seen
 
     def _begin(self, index: int, options: Mapping[str, Any] | None) -> Start:
-        """How the next episode of one of them begins."""
+        """The start of the next episode of one of them."""
         rng = self._rngs[index]
         if rng is None:
             raise gymnasium.error.ResetNeeded("call reset() before step()")
