@@ -73,7 +73,7 @@ inBrowser("what was typed without a server is kept where another page has the pe
   await other.goto(await restart(false));
   await other.locator(".node text").first().waitFor();
   await page.context().request.get(codeFor(folder));
-  await page.getByText("You watch").waitFor();
+  await page.getByText("This one is read-only").waitFor();
   await shows(page.locator(".saved"), /not saved/);
   assert.equal(await read("plan.afp"), PLAN);
   await page.getByRole("button", { name: "Keep mine" }).click();

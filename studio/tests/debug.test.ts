@@ -143,8 +143,8 @@ inBrowser("why something runs is said; what is forced is shown until it ends", {
   await page.keyboard.press("w");
   const card = page.locator(".why-card");
   await card.waitFor();
-  await shows(card, /Why dark\?[^]*What leads to it[^]*light\.Elapsed[^]*light\.tired\.TimedOut/);
-  await card.getByRole("button", { name: "Let it happen" }).last().click();
+  await shows(card, /Why dark\?[^]*Paths to this element[^]*light\.Elapsed[^]*light\.tired\.TimedOut/);
+  await card.getByRole("button", { name: "Pretend it happens" }).last().click();
   await page.locator(".forced-bar", { hasText: "light.tired.TimedOut" }).waitFor();
   await page.keyboard.press("Control+Shift+U");
   await page.getByRole("button", { name: "Force pause" }).click();
@@ -171,14 +171,14 @@ inBrowser("a stop has a condition, may speak instead, and stands at exits and su
   await page.getByLabel("Condition at line 9").fill("left > 1");
   await page.keyboard.press("Tab");
   await page.locator(".breakpoint-sign").waitFor();
-  await page.getByLabel("Said at line 16 in place").fill("tired at {left}");
+  await page.getByLabel("Message at line 16").fill("tired at {left}");
   await page.keyboard.press("Tab");
   await page.locator("path.breakpoint").waitFor();
   await begun(page);
   await page.locator(".clock.held").waitFor();
   await shows(page.locator(".run-pane dl"), /left\s+2/);
   await page.locator(".run-pane li", { hasText: "tired at 1" }).waitFor();
-  await page.getByLabel("Stop at line 9", { exact: true }).uncheck();
+  await page.getByLabel("Breakpoint at line 9", { exact: true }).uncheck();
   await page.locator("circle.breakpoint.off").waitFor();
 });
 

@@ -225,7 +225,7 @@ inBrowser("who starts a second studio in the folder comes to the first one", { "
   const other = await page.context().newPage();
   await other.goto(address);
   await other.locator(".bar .file", { hasText: "b.afp" }).waitFor();
-  await other.locator(".banner", { hasText: "You watch" }).waitFor();
+  await other.locator(".banner", { hasText: "This one is read-only" }).waitFor();
   assert.equal(new URL(other.url()).hash, "");
 });
 

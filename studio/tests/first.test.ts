@@ -58,7 +58,7 @@ inBrowser("a first plan by the mouse alone", {}, async ({ page, becomes }) => {
   await mouse.choose("new: Forward");
   await becomes("plan.afp", /TouchSensorPressed -> forward2/);
   await mouse.click('.inspector .row:has-text("distance")');
-  await mouse.click('.inspector .value [aria-label="other sign"]');
+  await mouse.click('.inspector .value [aria-label="flip the sign"]');
   await mouse.click('.inspector .value [aria-label="Set"]');
   await becomes("plan.afp", /forward2: Forward\(distance = -1 m\)/);
   await mouse.drag(open("forward2"), [440, 200]);
@@ -78,7 +78,7 @@ inBrowser("a first plan by the mouse alone", {}, async ({ page, becomes }) => {
   const more = mouse.gestures + MORE;
   await mouse.click(".count");
   await mouse.click('.bottom [role=tab]:text-is("Scenarios")');
-  await mouse.click('.jobs-pane button:text-is("Write some")');
+  await mouse.click('.jobs-pane button:text-is("Generate scenarios")');
   await page.locator(".jobs-pane .busy").waitFor({ state: "detached", timeout: 30_000 });
   await mouse.click('.jobs-pane button:text-is("Run scenarios")');
   await page.locator(".jobs-pane .sum", { hasText: "passed" }).waitFor({ timeout: 30_000 });

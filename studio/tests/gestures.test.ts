@@ -110,7 +110,7 @@ inBrowser("a value is set by steps, sign and formula; a name where it stands; a 
   await ready(page, "P.turn");
   await page.mouse.click(...(await middle(page, '.node [data-item="P.turn"] text.formula')));
   const popup = page.locator(".value-popup");
-  await popup.getByRole("button", { name: "other sign" }).click();
+  await popup.getByRole("button", { name: "flip the sign" }).click();
   await popup.getByRole("button", { name: "more" }).click();
   await popup.getByRole("button", { name: "Set" }).click();
   await studio.becomes("plan.afp", /Turn\(angle = -\d+ deg\)/);

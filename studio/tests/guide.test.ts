@@ -44,7 +44,7 @@ inBrowser("the first plan: from nothing to a robot that drives, by the mouse alo
   await page.getByRole("button", { name: /Your first plan/ }).click();
   await says("Make it drive");
   await page.locator(".palette-group").getByText("Forward", { exact: true }).click();
-  await says("Say what comes next");
+  await says("Choose what comes next");
   await page.locator(".stage").getByText("ForwardSuccessful").click({ force: true });
   await page.getByRole("option", { name: /end the plan/ }).click();
   await says("Let it run");

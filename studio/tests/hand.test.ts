@@ -42,7 +42,7 @@ inBrowser("an empty folder shows the world; the robot and what is dropped are dr
   await page.waitForFunction((before) => [...document.querySelectorAll(".floor .loose")].at(-1)!.getAttribute("points") !== before, before);
   const { violations } = await new AxeBuilder({ page }).include(".around").analyze();
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
-  await page.getByRole("button", { name: "Everything back" }).click();
+  await page.getByRole("button", { name: "Reset the world" }).click();
   assert.equal(await page.locator(".floor .thing").count(), things);
 });
 

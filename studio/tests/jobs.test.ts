@@ -83,7 +83,7 @@ inBrowser("a sweep goes on while the page is loaded anew, and is ended there", {
     await page.reload();
     await page.locator(".node text").first().waitFor();
   };
-  const ends = page.getByRole("button", { name: "End it" });
+  const ends = page.getByRole("button", { name: "Cancel", exact: true });
   // A long one goes on after the page is loaded.
   await sweep("0..99999");
   assert.equal(await page.getByLabel("Seeds").inputValue(), "0..99999");

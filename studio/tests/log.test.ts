@@ -34,7 +34,7 @@ inBrowser("a log is shown as a run is, and nothing of it can be changed", { "pla
   await page.locator(".lane.flow rect").nth(1).click();
   await page.waitForFunction((before) => document.querySelector(".floor .robot")!.getAttribute("transform") !== before, begun);
   await page.locator(".run-active").waitFor({ state: "attached" });
-  await page.getByText("What the sensors say").click();
+  await page.getByText("Sensor values").click();
   await shows(page.locator(".sensors"), /ultrasonic\.echo\s+[\dn][^]*rotator\.bearing\s+-?\d/);
   await page.keyboard.press("Control+Shift+U");
   assert.equal(await page.getByRole("button", { name: /^Force/ }).count(), 0);
@@ -78,8 +78,8 @@ inBrowser("errors of a build stand on the elements that they are about, and lead
   await clean(page);
   await wrong.first().getByRole("button").first().click();
   await page.locator(".marks .ring").first().waitFor({ state: "attached" });
-  await wrong.first().getByRole("button", { name: /^What E\d+ means/ }).click();
-  await page.getByRole("dialog", { name: /^What E\d+ means/ }).waitFor();
+  await wrong.first().getByRole("button", { name: /^Explain E\d+/ }).click();
+  await page.getByRole("dialog", { name: /^Explain E\d+/ }).waitFor();
   // Another text has other errors.
   await write("plan.afp", PLAN);
   await page.locator(".failed-frame").waitFor({ state: "detached" });

@@ -112,7 +112,7 @@ inBrowser("completion writes a whole element, a fix mends a mistake, a name is c
 });
 
 inBrowser("an empty folder: nothing is written before something is chosen; plans by name, by examples", {}, async ({ page, read, holds }) => {
-  await page.getByRole("heading", { name: /has no plan yet/ }).waitFor();
+  await page.getByRole("heading", { name: /^No plan in/ }).waitFor();
   assert.equal(await read("plan.afp"), "");
   await page.getByRole("button", { name: /Your first plan/ }).click();
   await holds("plan.afp", "use carbot\n\nplan Plan {\n}\n");
@@ -141,7 +141,7 @@ for (const colorScheme of ["light", "dark"] as const) {
     await page.locator(".count", { hasText: "error" }).click();
     await page.locator(".problems li").first().waitFor();
     await clean("text and problems");
-    await page.getByRole("button", { name: /^What E\d+ means/ }).first().click();
+    await page.getByRole("button", { name: /^Explain E\d+/ }).first().click();
     await page.locator("dialog.book").waitFor();
     await clean("a page of the book");
     await page.keyboard.press("Escape");
@@ -163,7 +163,7 @@ for (const colorScheme of ["light", "dark"] as const) {
 
 inBrowser("a code opens its page of the book, with both examples", { "plan.afp": PLAN.replace("start go", "start gone") }, async ({ page }) => {
   await page.locator(".count", { hasText: "error" }).click();
-  const button = page.getByRole("button", { name: /^What E\d+ means/ }).first();
+  const button = page.getByRole("button", { name: /^Explain E\d+/ }).first();
   const code = await button.textContent();
   await button.click();
   const book = page.getByRole("dialog", { name: `What ${code} means` });

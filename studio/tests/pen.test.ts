@@ -24,7 +24,7 @@ inBrowser("one changes, the other watches; who takes the pen begins a history of
   await other.goto(new URL("/", page.url()).href);
   // The browser remembers which panes are open.
   await other.locator(".cm-content").waitFor();
-  const banner = (who: Page) => who.getByText("Somebody else changes this folder. You watch.");
+  const banner = (who: Page) => who.getByText("Another window edits this folder. This one is read-only.");
   await banner(other).waitFor();
   await type(page, " // one");
   await other.locator(".cm-line", { hasText: "start go // one" }).waitFor();
@@ -32,7 +32,7 @@ inBrowser("one changes, the other watches; who takes the pen begins a history of
   await holds("plan.afp", PLAN.replace("start go", "start go // one"));
   assert.equal(await other.locator(".cm-line", { hasText: "two" }).count(), 0);
 
-  await other.getByRole("button", { name: "Change it myself" }).click();
+  await other.getByRole("button", { name: "Edit here" }).click();
   await banner(page).waitFor();
   await banner(other).waitFor({ state: "detached" });
   await other.getByRole("button", { name: "Nothing to undo" }).waitFor();

@@ -11,7 +11,7 @@ inBrowser("what sensors say is seen on the floor, in a list and as curves", { "w
   assert.equal(await page.locator(".sensors").count(), 0);
   await page.keyboard.press("F5");
   await page.locator(".floor .cone").waitFor({ state: "attached" });
-  await page.getByText("What the sensors say").click();
+  await page.getByText("Sensor values").click();
   await shows(page.locator(".sensors"), /ultrasonic\.echo\s+\d[\d.]* c?m[^]*touch\.touched\s+(true|false)/);
   assert.match((await page.locator(".sensors div", { hasText: "touch.touched" }).getAttribute("title")) ?? "", /pressed/);
   await page.keyboard.press("Control+Shift+Y");

@@ -45,7 +45,7 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await page.locator(".run-active.inside").waitFor();
   assert.ok((await page.locator(".run-eye").count()) >= 1);
   await page.keyboard.press("F8");
-  await page.getByRole("button", { name: "Go on" }).waitFor();
+  await page.getByRole("button", { name: "Continue" }).waitFor();
   await page.locator(".run-active.held").waitFor();
   await page.locator(".count").click();
   await page.getByRole("tab", { name: "Run" }).click();
@@ -63,7 +63,7 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
     await page.locator(".cm-tooltip-hover").waitFor({ state: "detached" });
   }
   await page.getByLabel("Speed").selectOption("20");
-  await page.getByRole("button", { name: "Go on" }).click();
+  await page.getByRole("button", { name: "Continue" }).click();
   const card = page.locator(".end-card");
   await card.waitFor();
   await shows(card, /Outer ended as it says itself, after 6\.5/);
@@ -100,7 +100,7 @@ inBrowser("a change of the text during a run marks it as older", { "plan.afp": P
   await page.locator(".cm-line", { hasText: "plan Outer" }).click();
   await page.keyboard.press("End");
   await page.keyboard.type(" // now");
-  const older = page.getByRole("button", { name: /This run is of an older text/ });
+  const older = page.getByRole("button", { name: /The plan has changed since this run started/ });
   await shows(older, /older text/);
   // What is taken back is the text that runs.
   await page.keyboard.press("Control+z");
@@ -108,7 +108,7 @@ inBrowser("a change of the text during a run marks it as older", { "plan.afp": P
   await page.keyboard.press("Control+Shift+z");
   await older.click();
   await page.locator(".clock.running").waitFor();
-  await page.getByRole("button", { name: /This run is of an older text/ }).waitFor({ state: "detached" });
+  await page.getByRole("button", { name: /The plan has changed since this run started/ }).waitFor({ state: "detached" });
 });
 
 test("breakpoints move with their lines", () => {
@@ -144,7 +144,7 @@ inBrowser("a run stops at a breakpoint, which moves with the text and is remembe
   await page.getByRole("button", { name: "Plans of this file" }).click();
   await page.getByRole("menuitemradio", { name: "Outer" }).click();
   await page.keyboard.press("F5");
-  await page.getByRole("button", { name: "Go on" }).waitFor();
+  await page.getByRole("button", { name: "Continue" }).waitFor();
   await shows(page.locator(".clock"), /^0\.5 s/);
 });
 
@@ -176,12 +176,12 @@ inBrowser("another world and another seed are those of the next run; what fails 
   await page.getByLabel("Seed").fill("7");
   await page.keyboard.press("F5");
   await page.locator(".clock.running").waitFor();
-  await page.getByText("Let something fail").click();
-  await page.getByLabel("What fails").selectOption("battery.low");
+  await page.getByText("Inject a fault").click();
+  await page.getByLabel("Fault", { exact: true }).selectOption("battery.low");
   await page.getByLabel("share").waitFor();
   const { violations } = await new AxeBuilder({ page }).include(".world").analyze();
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
-  await page.getByRole("button", { name: "Let it fail" }).click();
+  await page.getByRole("button", { name: "Inject", exact: true }).click();
   await page.keyboard.press("Control+Shift+U");
   await page.locator(".run-pane li", { hasText: "battery.low" }).waitFor();
 });

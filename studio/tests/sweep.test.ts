@@ -80,7 +80,7 @@ inBrowser("a plan is run many times; a cell of the map says what its runs came t
   await page.locator(".end-card").waitFor({ timeout: 30_000 });
   await shows(page.locator(".given"), /way = 20cm/);
   assert.equal(await page.getByLabel("Seed", { exact: true }).inputValue(), "1");
-  await page.getByRole("button", { name: "Give way what the plan says" }).click();
+  await page.getByRole("button", { name: "Reset way" }).click();
   assert.equal(await page.locator(".given").count(), 0);
 });
 

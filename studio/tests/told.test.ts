@@ -75,7 +75,7 @@ inBrowser("who watches runs the plan, too", { "plan.afp": PLAN.replace("pause: d
   const wrong: string[] = [];
   other.on("pageerror", (why) => wrong.push(String(why)));
   await other.goto(new URL("/", page.url()).href);
-  await other.getByText("Somebody else changes this folder. You watch.").waitFor();
+  await other.getByText("Another window edits this folder. This one is read-only.").waitFor();
   await other.locator('.node [data-item="Inner.first"]').first().waitFor();
   await other.keyboard.press("F5");
   await other.locator(".clock.running").waitFor();
@@ -123,12 +123,12 @@ inBrowser("a name that cannot be is told why and stays to be mended, wherever it
 
 inBrowser("a file without a plan gets one by a button, or by what is put into it", { "wall_following.afp": "use std\n" }, async (studio) => {
   const { page } = studio;
-  await page.getByRole("button", { name: "Begin a plan here" }).click();
+  await page.getByRole("button", { name: "Start a plan" }).click();
   await studio.holds("wall_following.afp", "use std\n\nplan WallFollowing {}\n");
   await page.locator(".first-place").waitFor();
   await page.locator(".board").focus();
   await page.keyboard.press("Control+z");
-  await page.getByRole("button", { name: "Begin a plan here" }).waitFor();
+  await page.getByRole("button", { name: "Start a plan" }).waitFor();
   await page.locator("[data-template=Wait]").click();
   await studio.becomes("wall_following.afp", /^use std\n\nplan WallFollowing \{\n    start wait\n\n    actor wait: Wait \{\}\n\}\n$/);
   assert.match(await settled(() => page.locator(".crumbs").innerText(), (now) => now !== ""), /WallFollowing/);
