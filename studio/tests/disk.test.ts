@@ -219,7 +219,7 @@ inBrowser("who starts a second studio in the folder comes to the first one", { "
   await page.locator(".node text").first().waitFor();
   const second = spawnSync(AFPC, ["studio", join(folder, "b.afp"), "--no-open"], { encoding: "utf8", timeout: 10_000, env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } });
   assert.equal(second.status, 0, second.stderr);
-  assert.match(second.stderr, /serves this folder already/);
+  assert.match(second.stderr, /already serves this folder/);
   const address = /http:\S+/.exec(second.stdout)![0];
   assert.equal(new URL(address).port, new URL(page.url()).port);
   const other = await page.context().newPage();

@@ -157,7 +157,7 @@ impl Reader<'_> {
         }
         // Otherwise cargo has already printed the reason on standard error.
         if !is_built && !messages.iter().any(|message| message.is_error) {
-            let (severity, help) = (Severity::Error, "standard error has what cargo says");
+            let (severity, help) = (Severity::Error, "see cargo's messages on standard error");
             let report = Report { severity, code: "", message: &failed, help, marks: Vec::new() };
             tools(&report.json())?;
         }

@@ -32,7 +32,7 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
     match fs::read_to_string(&manifest) {
         Ok(text) if !text.starts_with(MADE_BY) => {
             return Err(RunError::usage(
-                format!("'{}' holds a crate that 'afpc' did not make", folder.display()),
+                format!("'{}' contains a crate that 'afpc' did not generate", folder.display()),
                 "give an empty folder with '-o DIR'",
             ));
         }
@@ -139,7 +139,7 @@ fn refuse_others(
     match files.iter().find(others) {
         None => Ok(()),
         Some((name, _)) => Err(RunError::usage(
-            format!("'{}' is there, and 'afpc' did not make it", folder.join(name).display()),
+            format!("'{}' exists, and 'afpc' did not generate it", folder.join(name).display()),
             "move it away, or give an empty folder with '-o DIR'",
         )),
     }
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(read("x.afp").as_deref(), Some("2"));
         let refused = build(&[manifest, ("src/hardware.rs", OURS)]).unwrap_err().to_string();
         assert!(
-            refused.contains("src/hardware.rs' is there, and 'afpc' did not make it"),
+            refused.contains("src/hardware.rs' exists, and 'afpc' did not generate it"),
             "{refused}"
         );
         assert_eq!(read("src/hardware.rs").as_deref(), Some("//! Mine.\n"));

@@ -114,7 +114,7 @@ impl Kept {
             Product::Extension => extension_files(&self.options, &declared),
         };
         files.map_err(|path| {
-            RunError::usage(format!("'{path}' is no path of a module"), "mend 'module' in afp.toml")
+            RunError::usage(format!("'{path}' is not a module path"), "fix 'module' in afp.toml")
         })
     }
 

@@ -79,7 +79,7 @@ impl<'a> Parts<'a> {
             let (one, other) = (name(self.robot.as_ref()), name(robot));
             return Err(RunError::usage(
                 format!("these plans are for two robots: {one} and {other}"),
-                "run those of each project apart",
+                "run the plans of each project separately",
             ));
         }
         for toolbox in toolboxes {
@@ -153,7 +153,7 @@ pub fn no_hardware(project: &ProjectFile) -> RunError {
 fn two_of_one_name(one: &OwnToolbox, other: &OwnToolbox) -> RunError {
     let (path, another) = (&one.source.name, &other.source.name);
     RunError::usage(
-        format!("'{path}' and '{another}' are two toolboxes called '{}'", one.name),
-        "one program cannot have both: run what uses them apart",
+        format!("'{path}' and '{another}' are two toolboxes with the name '{}'", one.name),
+        "one program cannot have both: run their plans separately",
     )
 }

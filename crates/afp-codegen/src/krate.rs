@@ -158,7 +158,7 @@ fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Toke
     });
     let about = format!(" The plan `{}`, made from its text by `afpc build`.", graph.main().name);
     let (module, ty) = (&generated.main, &generated.plan);
-    let help = doc("", "Path and text of the plan's file, then of those that it uses.");
+    let help = doc("", "Path and text of the plan's file, then of the files that it uses.");
     let texts = options.texts.iter().map(|(path, _)| {
         let place = format!("../{path}");
         quote!((#path, include_str!(#place)))

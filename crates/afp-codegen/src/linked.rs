@@ -246,7 +246,7 @@ fn extension(options: &LinkOptions, declared: &[&Toolbox]) -> Result<String, Str
 /// Lets the linker on macOS resolve Python's symbols at run time.
 fn build_script() -> String {
     file(quote! {
-        #![doc = " What Python brings is not there when the extension is linked."]
+        #![doc = " Python's symbols are missing when the extension is linked."]
         fn main() {
             if std::env::var("CARGO_CFG_TARGET_VENDOR").is_ok_and(|vendor| vendor == "apple") {
                 println!("cargo::rustc-cdylib-link-arg=-undefined");

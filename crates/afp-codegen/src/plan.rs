@@ -135,7 +135,7 @@ impl Generated {
         let (main, plan) = (&self.main, &self.plan);
         let subs = self.plans.iter().filter(|(module, _)| module != main).cloned();
         let (owners, types): (Vec<_>, Vec<_>) = subs.unzip();
-        let about = doc("", &format!("The plan `{plan}` and what it uses."));
+        let about = doc("", &format!("The plan `{plan}` and the plans that it uses."));
         quote! {
             #about
             #[allow(dead_code, non_camel_case_types, unused_imports, unused_parens, clippy::all)]

@@ -1,7 +1,8 @@
-//! Characters that make a text look different from what it says.
+//! Characters that make a text look different from its meaning.
 //!
-//! At some characters an editor breaks the line although the text goes on, some change the order in which a line is
-//! shown, and some cannot be seen. So code can hide in a comment. `\n` and `\r\n` end lines everywhere.
+//! At some characters an editor breaks the line although the text continues. Others change the
+//! order in which a line is shown, or are invisible. So code can hide in a comment. `\n` and `\r\n`
+//! end lines everywhere.
 
 use std::ops::Range;
 

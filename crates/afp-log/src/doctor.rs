@@ -103,7 +103,7 @@ impl Doctor {
         self.messages += 1;
         let Some(channel) = self.channels.get_mut(&header.channel_id) else {
             let id = header.channel_id;
-            self.found.push(format!("a message stands before its channel {id}"));
+            self.found.push(format!("a message comes before its channel {id}"));
             return;
         };
         channel.messages += 1;

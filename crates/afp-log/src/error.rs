@@ -69,7 +69,7 @@ impl LogError {
                 if part.is_file() {
                     let part = part.display();
                     return format!(
-                        "its run goes on or was killed: name what there is of it, '{part}'"
+                        "its run continues or was killed: use the unfinished log '{part}'"
                     )
                     .into();
                 }

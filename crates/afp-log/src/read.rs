@@ -163,7 +163,7 @@ impl LogData {
         let stretches: Vec<_> = self.missing.iter().map(Missing::to_string).collect();
         if !stretches.is_empty() {
             let stretches = stretches.join(" and ");
-            let said = format!("it was recovered, and misses what was {stretches}");
+            let said = format!("it was recovered, and lacks the messages {stretches}");
             self.cut_short.get_or_insert(said);
         }
     }

@@ -112,7 +112,7 @@ impl fmt::Display for WireError {
             WireError::TooLong { length, longest } => {
                 write!(f, "a message of {length} bytes; the longest may have {longest}")
             }
-            WireError::NoText => f.write_str("a message that is no UTF-8"),
+            WireError::NoText => f.write_str("a message that is not UTF-8"),
             WireError::CutOff => f.write_str("its last message ends before its length"),
         }
     }

@@ -35,7 +35,7 @@ use rapier2d::parry::query;
 /// A world as read from its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct World {
-    /// What it is called.
+    /// The name.
     pub name: String,
     /// The robot's start.
     pub start: Pose,

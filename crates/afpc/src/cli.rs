@@ -195,7 +195,7 @@ fn no_utf8(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
     let wrong: Vec<_> = wrong.map(|argument| argument.to_string_lossy()).collect();
     let names = list(wrong.iter().map(|name| &**name), "and");
     let verb = if wrong.len() == 1 { "is" } else { "are" };
-    let help = "give the file a name in UTF-8, or make a link with such a name: 'ln -s OLD NEW'";
+    let help = "give the file a name in UTF-8, or make a link with a UTF-8 name: 'ln -s OLD NEW'";
     Some(RunError::usage(format!("{names} {verb} not in UTF-8"), help))
 }
 
@@ -211,7 +211,7 @@ fn without_command(error: &clap::Error) -> Option<RunError> {
     (path != name || name.ends_with(".afp")).then(|| {
         RunError::usage(
             format!("'{name}' is a plan, not a command"),
-            format!("'afpc run {name}' runs it; 'afpc --help' lists what else can be done with it"),
+            format!("'afpc run {name}' runs it; 'afpc --help' lists the other commands"),
         )
     })
 }

@@ -76,7 +76,7 @@ fn become_one(parts: Parts<'_>, linked: &Linked<'_>) -> Result<(), NoPlan> {
 /// Those of [`become_one_for`]; this program is a runner itself.
 pub fn built(parts: Parts<'_>, linked: &Linked<'_>) -> Result<PathBuf, NoPlan> {
     if linked.is_runner() {
-        let message = format!("this runner was built for other parts than {}", parts.names());
+        let message = format!("this runner was not built for {}", parts.names());
         return Err(RunError::usage(message, "start 'afpc' instead").into());
     }
     Ok(parts.product(Product::Runner(FEATURES))?)

@@ -74,7 +74,7 @@ fn know_templates(graph: &Graph, own: &OwnToolboxes, target: &Target) -> Result<
             format!("'[target.{}]' of afp.toml: '{toolbox}' has no template '{name}'", target.name);
         let help = match words::nearest(name, names()) {
             Some(near) => format!("write 'budgets.{toolbox}.{near}'"),
-            None => format!("'afpc templates {toolbox}' lists those that there are"),
+            None => format!("'afpc templates {toolbox}' lists its templates"),
         };
         return Err(RunError::usage(message, help));
     }

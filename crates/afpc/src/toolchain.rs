@@ -133,7 +133,7 @@ fn missing(machine: &Linux, library: bool, linker: bool) -> RunError {
         commands.push(format!("rustup target add {triple}"));
     }
     if !linker {
-        things.push("a compiler of C that links for it");
+        things.push("a C compiler and linker for it");
         commands.push(match (is_there("apt-get"), is_there("sudo")) {
             (true, true) => format!("sudo apt-get install -y {compiler} {c_library}"),
             (true, false) => format!("apt-get install -y {compiler} {c_library}"),

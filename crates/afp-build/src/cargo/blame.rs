@@ -108,7 +108,7 @@ impl Generated<'_> {
         let at = message.place.as_ref()?;
         let file = self.files.iter().find(|file| Path::new(&file.path) == at.file);
         let (span, exact) = file.or(self.files.first())?.place(at.at.0);
-        let message = format!("the Rust made from this does not compile: {}", message.title);
+        let message = format!("the generated Rust does not compile: {}", message.title);
         Some((Found { source: self.sources.get(span.file)?, span, message }, exact))
     }
 }

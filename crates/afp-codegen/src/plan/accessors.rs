@@ -69,7 +69,7 @@ fn getter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> 
     quote! {
         #help
         #[doc = ""]
-        #[doc = " `None` while nobody has written it."]
+        #[doc = " `None` before the first write."]
         #at
         pub fn #name(&self) -> Option<#ty> {
             self.config.#field.#body

@@ -73,7 +73,7 @@ fn active(context: &Context<'_>) -> TokenStream {
         let at = at(element.span);
         Some(quote!(#note #at #variant(#holds),))
     });
-    let about = doc("", "The element that is active.");
+    let about = doc("", "The active element.");
     quote! {
         #about
         #[derive(Clone, Default)]
@@ -140,7 +140,7 @@ fn sub_plan(
         }
     });
     let live = live_item(context, element, child, names);
-    let about = doc("", &format!("Where the ids of `{}` begin.", names.text));
+    let about = doc("", &format!("The first ids of `{}` begin.", names.text));
     quote! {
         #about
         #at

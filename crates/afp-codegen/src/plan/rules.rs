@@ -27,12 +27,12 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
     let [n_elements, n_supervisors, n_edges, n_sweeps] =
         [elements.len(), supervisors.len(), edges.len(), sweeps.len()]
             .map(Literal::usize_unsuffixed);
-    let about = doc("", "Where the scheduler reads the rules of the plan.");
+    let about = doc("", "The rules of the plan, for the scheduler.");
     let notes = [
-        "Where each state and event leads.",
+        "The target of each state and event.",
         "The elements.",
-        "The supervisors: global ones, local ones, then global ones for elements of their own.",
-        "Who is polled while an element is active, in order.",
+        "The supervisors: global, local, then global with an element's own edges.",
+        "The supervisors of each active element, in polling order.",
     ];
     let [of_edges, of_elements, of_supervisors, of_sweeps] = notes.map(|note| doc("", note));
     quote! {
@@ -75,7 +75,8 @@ fn reasons(texts: &[String]) -> (TokenStream, Option<TokenStream>) {
     }
     let faults =
         texts.iter().map(|text| quote!(Fault::new(&Reason { code: Fault::FAILED, text: #text })));
-    let (about, length) = (doc("", "Why the plan fails."), Literal::usize_unsuffixed(texts.len()));
+    let (about, length) =
+        (doc("", "The reasons for failures of the plan."), Literal::usize_unsuffixed(texts.len()));
     (quote!(&REASONS), Some(quote!(#about static REASONS: [Fault; #length] = [#(#faults),*];)))
 }
 
@@ -122,7 +123,7 @@ fn supervisor(context: &Context<'_>, index: usize, row: &SupervisorRow) -> Token
     let there = match own {
         _ if index == row.instance.index() => "",
         Some(own) if own.events == row.events => ", where an event of it leads",
-        _ => ", where an element reacts to it",
+        _ => ", with an element's own edge",
     };
     let (note, at) = (comment(&format!("{name}: {template}{there}")), at(supervisor.span));
     let Timing { period, deadline, budget } = row.timing;
@@ -191,7 +192,7 @@ fn edges(context: &Context<'_>) -> Vec<TokenStream> {
         }
         let template = plan.supervisors[row.instance.index()].template;
         let name = &context.supervisors[row.instance.index()].text;
-        let name = format!("{name}, where an element reacts to it");
+        let name = format!("{name}, with an element's own edge");
         add(&name, &outcomes(context, template), rows.edges(row.events));
     }
     edges

@@ -33,7 +33,7 @@ pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Modu
         let items = dimensions.iter().map(|dimension| units(*dimension));
         modules.push(Module {
             name: ident("units"),
-            doc: "The units that a quantity may be written in.".to_owned(),
+            doc: "The units of quantities in texts.".to_owned(),
             imports: quote!(use #core::rt::{Scale, Unit};),
             sections: vec![("Units", quote!(#(#items)*))],
             span: graph.main().span,

@@ -30,7 +30,7 @@ pub fn structure(context: &Context<'_>) -> TokenStream {
     let getters: Vec<_> = read.map(|((entry, name), _)| getter(context, entry, name)).collect();
     let getters = (!getters.is_empty()).then(|| quote!(impl Config { #(#getters)* }));
     let [config, shadow] =
-        ["The configuration.", "What the next commit writes."].map(|t| doc("", t));
+        ["The configuration.", "The values of the next commit."].map(|t| doc("", t));
     quote! {
         #about
         #[derive(Clone, Default)]

@@ -125,9 +125,9 @@ fn reader(
             /// The states, the first one with the columns as outputs.
             #[derive(Clone, Debug, PartialEq)]
             pub enum State {
-                /// There is such a row.
+                /// The row exists.
                 Row { #(#fields: #owned,)* },
-                /// The index is behind the last row.
+                /// The index is after the last row.
                 End,
             }
 

@@ -27,7 +27,7 @@ pub fn devices(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     quote! {
         #[doc = " The devices that the toolbox declares."]
         pub mod devices {
-            #[doc = " Their table, and what its numbers mean."]
+            #[doc = " Their table, and the meaning of its numbers."]
             #[derive(Clone, Copy, Debug)]
             pub struct Devices;
 
@@ -71,7 +71,7 @@ fn controls(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream
     let (names, docs): (Vec<_>, Vec<_>) = all.into_iter().unzip();
     let numbers = numbers(names.len());
     let declared = quote! {
-        #[doc = " What can be held down."]
+        #[doc = " The controls that can be held down."]
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Control { #(#docs #names,)* }
     };
@@ -107,7 +107,7 @@ fn faults(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream) 
     let alone = (accessors.len() == 1).then(|| quote!(#[allow(unreachable_patterns)]));
     let accessors = (!accessors.is_empty()).then(|| quote!(#alone impl Fault { #(#accessors)* }));
     let declared = quote! {
-        #[doc = " What can be broken, and by how much."]
+        #[doc = " The faults, with their amounts."]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum Fault { #(#variants)* }
 
@@ -141,7 +141,7 @@ struct Code {
 impl Code {
     fn sensor(&mut self, core: &TokenStream, device: &Device, name: &str, defects: &[Ident]) {
         let (variant, accessor) = (ident(&camel(name)), ident(name));
-        let help = doc("", &format!("What is wrong with `{}`, as with any sensor.", device.name));
+        let help = doc("", &format!("A common sensor fault of `{}`.", device.name));
         let defect = quote!(#core::devices::Defect);
         self.variants.push(quote!(#help #variant(#defect),));
         self.accessors.push(quote! {
@@ -208,7 +208,7 @@ fn bounds(amount: &Amount) -> String {
         true => format!("{from} to {to} {unit}"),
         false => format!("any {unit}"),
     };
-    format!("`{name}`: {}; {default} where nothing is said", range.trim_end())
+    format!("`{name}`: {}; {default} by default", range.trim_end())
 }
 
 fn numbers(count: usize) -> Vec<Literal> {

@@ -13,13 +13,13 @@ use afp_dsl::types::{Dimension, Type};
 /// The inputs before the start.
 pub fn inputs(core: &TokenStream, template: &Template) -> TokenStream {
     let ports: Vec<_> = read_once(template).collect();
-    structure(core, template, "Inputs", "What is read before the start.", &ports)
+    structure(core, template, "Inputs", "The inputs that are read before the start.", &ports)
 }
 
 /// The inputs at every poll.
 pub fn live(core: &TokenStream, template: &Template) -> TokenStream {
     let ports: Vec<_> = read_live(template).collect();
-    structure(core, template, "Live", "What is read again at every poll.", &ports)
+    structure(core, template, "Live", "The inputs that are read again at every poll.", &ports)
 }
 
 fn structure(
@@ -68,7 +68,7 @@ fn help(port: &InPort) -> String {
         facts.push(format!("from {} to {}", show(&port.ty, least), show(&port.ty, greatest)));
     }
     if let Some(default) = &port.default {
-        facts.push(format!("{} where nothing is bound", constant(&port.ty, default)));
+        facts.push(format!("{} if unbound", constant(&port.ty, default)));
     }
     let facts = facts.join("; ");
     if port.doc.is_empty() { facts } else { format!("{}\n\n{facts}", port.doc) }

@@ -3,7 +3,7 @@
 const HERE: ElementId = ElementId(0);
 const SEEK: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]

@@ -2,7 +2,7 @@
 
 const AREA: ElementId = ElementId(0);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]

@@ -13,7 +13,7 @@ const Q: ElementId = ElementId(9);
 const R: ElementId = ElementId(10);
 const S: ElementId = ElementId(11);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]

@@ -3,11 +3,11 @@ pub const SOURCE: &str = "";
 
 /// The devices that the toolbox declares.
 pub mod devices {
-    /// Their table, and what its numbers mean.
+    /// Their table, and the meaning of its numbers.
     #[derive(Clone, Copy, Debug)]
     pub struct Devices;
 
-    /// What can be held down.
+    /// The controls that can be held down.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Control {
         /// One side of it.
@@ -18,29 +18,29 @@ pub mod devices {
         Panel,
     }
 
-    /// What can be broken, and by how much.
+    /// The faults, with their amounts.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Fault {
-        /// What is wrong with `bumper`, as with any sensor.
+        /// A common sensor fault of `bumper`.
         Bumper(::afp_core::devices::Defect),
-        /// What is wrong with `battery`, as with any sensor.
+        /// A common sensor fault of `battery`.
         Battery(::afp_core::devices::Defect),
         /// So much is left at most.
         BatteryLow {
-            /// `share`: 0 to 1; 0.05 where nothing is said
+            /// `share`: 0 to 1; 0.05 by default
             share: f64,
         },
         /// `wheels.blocked`
         WheelsBlocked,
         /// How much faster than it should.
         WheelsRunaway {
-            /// `by`: any m/s; 0.1 where nothing is said
+            /// `by`: any m/s; 0.1 by default
             by: ::afp_core::quantity::Speed,
         },
     }
 
     impl Fault {
-        /// What is wrong with `bumper`, as with any sensor.
+        /// A common sensor fault of `bumper`.
         pub fn bumper(self) -> ::core::option::Option<::afp_core::devices::Defect> {
             match self {
                 Fault::Bumper(defect) => ::core::option::Option::Some(defect),
@@ -48,7 +48,7 @@ pub mod devices {
             }
         }
 
-        /// What is wrong with `battery`, as with any sensor.
+        /// A common sensor fault of `battery`.
         pub fn battery(self) -> ::core::option::Option<::afp_core::devices::Defect> {
             match self {
                 Fault::Battery(defect) => ::core::option::Option::Some(defect),

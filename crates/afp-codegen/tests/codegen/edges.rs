@@ -1,6 +1,6 @@
 // inner.rs
 
-/// Where the scheduler reads the rules of the plan.
+/// The rules of the plan, for the scheduler.
 #[derive(Clone, Copy, Debug)]
 pub struct Rules;
 
@@ -20,7 +20,7 @@ impl Tables for Rules {
     }
 }
 
-/// Where each state and event leads.
+/// The target of each state and event.
 static EDGES: [Option<Target>; 1] = [
     // pause: Elapsed -> terminate
     Some(Target::Terminate),
@@ -41,15 +41,15 @@ static ELEMENTS: [ElementRow; 1] = [
     },
 ];
 
-/// The supervisors: global ones, local ones, then global ones for elements of their own.
+/// The supervisors: global, local, then global with an element's own edges.
 static SUPERVISORS: [SupervisorRow; 0] = [];
 
-/// Who is polled while an element is active, in order.
+/// The supervisors of each active element, in polling order.
 static SWEEPS: [u16; 0] = [];
 
 // p.rs
 
-/// Where the scheduler reads the rules of the plan.
+/// The rules of the plan, for the scheduler.
 #[derive(Clone, Copy, Debug)]
 pub struct Rules;
 
@@ -69,7 +69,7 @@ impl Tables for Rules {
     }
 }
 
-/// Where each state and event leads.
+/// The target of each state and event.
 static EDGES: [Option<Target>; 9] = [
     // count: Again -> wait
     Some(Target::Element(WAIT)),
@@ -128,7 +128,7 @@ static ELEMENTS: [ElementRow; 3] = [
     },
 ];
 
-/// The supervisors: global ones, local ones, then global ones for elements of their own.
+/// The supervisors: global, local, then global with an element's own edges.
 static SUPERVISORS: [SupervisorRow; 4] = [
     // late: CheckTimeout
     SupervisorRow {
@@ -188,7 +188,7 @@ static SUPERVISORS: [SupervisorRow; 4] = [
     },
 ];
 
-/// Who is polled while an element is active, in order.
+/// The supervisors of each active element, in polling order.
 static SWEEPS: [u16; 4] = [
     // while wait is active
     WAIT_SECOND.0,

@@ -26,7 +26,7 @@ pub struct Config {
     pub half: Entry<f64>,
 }
 
-/// What the next commit writes.
+/// The values of the next commit.
 #[derive(Clone, Default)]
 struct Staged {
     pace: Option<Speed>,
@@ -93,7 +93,7 @@ impl P {
 
     /// `in pace: speed`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn pace(&self) -> Option<Speed> {
         self.config.pace.value().copied()
     }
@@ -110,7 +110,7 @@ impl P {
 
     /// `in often: int`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn often(&self) -> Option<i64> {
         self.config.often.value().copied()
     }
@@ -122,28 +122,28 @@ impl P {
 
     /// `var flag: bool`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn flag(&self) -> Option<bool> {
         self.config.flag.value().copied()
     }
 
     /// `var text: string`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn text(&self) -> Option<&str> {
         self.config.text.value().map(|text| text.as_str())
     }
 
     /// `out size: length^2`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn size(&self) -> Option<Quantity<2, 0, 0, 0, 0, 0>> {
         self.config.size.value().copied()
     }
 
     /// `const half: float`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn half(&self) -> Option<f64> {
         self.config.half.value().copied()
     }

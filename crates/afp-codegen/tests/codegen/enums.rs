@@ -60,7 +60,7 @@ impl ::afp_core::rt::Writable for Mood {
 const SET: ElementId = ElementId(0);
 const LOG: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]

@@ -12,7 +12,7 @@ const Q: ElementId = ElementId(8);
 const R: ElementId = ElementId(9);
 const S: ElementId = ElementId(10);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]

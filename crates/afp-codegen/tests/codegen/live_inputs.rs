@@ -3,7 +3,7 @@
 const WAIT: ElementId = ElementId(0);
 const LOG: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -49,7 +49,7 @@ pub struct Config {
     pub label: Entry<Text>,
 }
 
-/// What the next commit writes.
+/// The values of the next commit.
 #[derive(Clone, Default)]
 struct Staged {
     twice: Option<Speed>,
@@ -104,7 +104,7 @@ impl Inner {
 
     /// `in twice: speed`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn twice(&self) -> Option<Speed> {
         self.config.twice.value().copied()
     }
@@ -121,7 +121,7 @@ impl Inner {
 
     /// `in fixed: int`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn fixed(&self) -> Option<i64> {
         self.config.fixed.value().copied()
     }
@@ -133,7 +133,7 @@ impl Inner {
 
     /// `in size: int`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn size(&self) -> Option<i64> {
         self.config.size.value().copied()
     }
@@ -145,7 +145,7 @@ impl Inner {
 
     /// `in label: string`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn label(&self) -> Option<&str> {
         self.config.label.value().map(|text| text.as_str())
     }
@@ -353,7 +353,7 @@ where
 
 const INNER: ElementId = ElementId(0);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -362,7 +362,7 @@ enum Active {
     Inner(Machine<super::inner::Inner>),
 }
 
-/// Where the ids of `inner` begin.
+/// The first ids of `inner` begin.
 const INNER_PLACE: Child = Child { components: 1, entries: 2 };
 
 /// Inputs of `inner`.
@@ -397,7 +397,7 @@ pub struct Config {
     pub name: Entry<Text>,
 }
 
-/// What the next commit writes.
+/// The values of the next commit.
 #[derive(Clone, Default)]
 struct Staged {
     pace: Option<Speed>,
@@ -426,7 +426,7 @@ impl P {
 
     /// `in pace: speed`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn pace(&self) -> Option<Speed> {
         self.config.pace.value().copied()
     }
@@ -443,7 +443,7 @@ impl P {
 
     /// `var name: string`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn name(&self) -> Option<&str> {
         self.config.name.value().map(|text| text.as_str())
     }

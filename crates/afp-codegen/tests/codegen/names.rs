@@ -4,7 +4,7 @@ const LOOP: ElementId = ElementId(0);
 const ACTIVE: ElementId = ElementId(1);
 const SELF: ElementId = ElementId(2);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]

@@ -3,7 +3,7 @@
 const HERE: ElementId = ElementId(0);
 const SEEK: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -42,7 +42,7 @@ fn seek_live() -> Result<kit::seek::Live, BadValue> {
 const HERE: ElementId = ElementId(0);
 const INNER: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -58,7 +58,7 @@ fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Ba
     Ok(())
 }
 
-/// Where the ids of `inner` begin.
+/// The first ids of `inner` begin.
 const INNER_PLACE: Child = Child { components: 2, entries: 1 };
 
 /// Inputs of `inner`.

@@ -1,6 +1,6 @@
 // p.rs
 
-/// Where the scheduler reads the rules of the plan.
+/// The rules of the plan, for the scheduler.
 #[derive(Clone, Copy, Debug)]
 pub struct Rules;
 
@@ -20,7 +20,7 @@ impl Tables for Rules {
     }
 }
 
-/// Where each state and event leads.
+/// The target of each state and event.
 static EDGES: [Option<Target>; 4] = [
     // wait: Elapsed -> terminate
     Some(Target::Terminate),
@@ -28,7 +28,7 @@ static EDGES: [Option<Target>; 4] = [
     Some(Target::Element(WAIT)),
     // tick: Due -> ignore
     Some(Target::Ignore),
-    // tick, where an element reacts to it: Due -> rest
+    // tick, with an element's own edge: Due -> rest
     Some(Target::Element(REST)),
 ];
 
@@ -58,7 +58,7 @@ static ELEMENTS: [ElementRow; 2] = [
     },
 ];
 
-/// The supervisors: global ones, local ones, then global ones for elements of their own.
+/// The supervisors: global, local, then global with an element's own edges.
 static SUPERVISORS: [SupervisorRow; 2] = [
     // tick: Every
     SupervisorRow {
@@ -74,7 +74,7 @@ static SUPERVISORS: [SupervisorRow; 2] = [
         wanted: Events::from_bits(0b0),
         wanted_in_look: Events::from_bits(0b0),
     },
-    // tick: Every, where an element reacts to it
+    // tick: Every, with an element's own edge
     SupervisorRow {
         instance: TICK,
         timing: Timing {
@@ -90,7 +90,7 @@ static SUPERVISORS: [SupervisorRow; 2] = [
     },
 ];
 
-/// Who is polled while an element is active, in order.
+/// The supervisors of each active element, in polling order.
 static SWEEPS: [u16; 2] = [
     // while wait is active
     1,

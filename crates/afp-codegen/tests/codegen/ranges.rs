@@ -2,7 +2,7 @@
 
 const WAIT: ElementId = ElementId(0);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -36,7 +36,7 @@ pub struct Config {
     pub gap: Entry<f64>,
 }
 
-/// What the next commit writes.
+/// The values of the next commit.
 #[derive(Clone, Default)]
 struct Staged {
     angle: Option<Angle>,
@@ -61,7 +61,7 @@ impl Inner {
 
     /// `in angle: angle`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn angle(&self) -> Option<Angle> {
         self.config.angle.value().copied()
     }
@@ -79,7 +79,7 @@ impl Inner {
 
     /// `out gap: float`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn gap(&self) -> Option<f64> {
         self.config.gap.value().copied()
     }
@@ -292,7 +292,7 @@ impl NamedPlan for Inner {
 const COUNT: ElementId = ElementId(0);
 const INNER: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -325,7 +325,7 @@ fn count_outputs(
     Ok(())
 }
 
-/// Where the ids of `inner` begin.
+/// The first ids of `inner` begin.
 const INNER_PLACE: Child = Child { components: 2, entries: 4 };
 
 /// Inputs of `inner`.
@@ -381,7 +381,7 @@ pub struct Config {
     pub share: Entry<f64>,
 }
 
-/// What the next commit writes.
+/// The values of the next commit.
 #[derive(Clone, Default)]
 struct Staged {
     pace: Option<Speed>,
@@ -432,7 +432,7 @@ impl P {
     ///
     /// `in pace: speed`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn pace(&self) -> Option<Speed> {
         self.config.pace.value().copied()
     }
@@ -449,7 +449,7 @@ impl P {
 
     /// `in often: int`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn often(&self) -> Option<i64> {
         self.config.often.value().copied()
     }
@@ -466,14 +466,14 @@ impl P {
 
     /// `var turns: int`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn turns(&self) -> Option<i64> {
         self.config.turns.value().copied()
     }
 
     /// `var share: float`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn share(&self) -> Option<f64> {
         self.config.share.value().copied()
     }

@@ -3,7 +3,7 @@
 const LOOP: ElementId = ElementId(0);
 const WAIT: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -48,7 +48,7 @@ fn wait_inputs() -> Result<std_templates::wait::Inputs, BadValue> {
 const ROUND: ElementId = ElementId(0);
 const AGAIN: ElementId = ElementId(1);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -59,7 +59,7 @@ enum Active {
     Again(Machine<super::round::Round>),
 }
 
-/// Where the ids of `round` begin.
+/// The first ids of `round` begin.
 const ROUND_PLACE: Child = Child { components: 2, entries: 2 };
 
 /// Inputs of `round`.
@@ -80,7 +80,7 @@ fn round_outputs(
     Ok(())
 }
 
-/// Where the ids of `again` begin.
+/// The first ids of `again` begin.
 const AGAIN_PLACE: Child = Child { components: 5, entries: 6 };
 
 /// Inputs of `again`.

@@ -64,18 +64,18 @@ impl ::afp_core::ActorTemplate for self::Seek {
 
 /// Ports and states of [`Seek`].
 pub mod seek {
-    /// What is read before the start.
+    /// The inputs that are read before the start.
     #[derive(Clone, Copy)]
     pub struct Inputs<'a> {
         /// What it is called.
         ///
         /// `string`
         pub name: &'a str,
-        /// `Side`; Side.left where nothing is bound
+        /// `Side`; Side.left if unbound
         pub side: super::Side,
         /// `Place`
         pub r#where: &'a super::super::Place,
-        /// `int`; from 1 to 9; 3 where nothing is bound
+        /// `int`; from 1 to 9; 3 if unbound
         pub tries: i64,
     }
 
@@ -120,12 +120,12 @@ pub mod seek {
         }
     }
 
-    /// What is read again at every poll.
+    /// The inputs that are read again at every poll.
     #[derive(Clone, Copy, Debug)]
     pub struct Live {
-        /// `speed`; from 0 m/s to 1 m/s; 0.1 m/s where nothing is bound
+        /// `speed`; from 0 m/s to 1 m/s; 0.1 m/s if unbound
         pub speed: ::afp_core::quantity::Speed,
-        /// `bool`; true where nothing is bound
+        /// `bool`; true if unbound
         pub r#loop: bool,
     }
 
@@ -220,7 +220,7 @@ impl<V: ::afp_core::rt::Any> ::afp_core::SupervisorTemplate for self::Watch<V> {
 
 /// Ports and events of [`Watch`].
 pub mod watch {
-    /// What is read before the start.
+    /// The inputs that are read before the start.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs<'a> {
         /// `string`
@@ -248,7 +248,7 @@ pub mod watch {
         }
     }
 
-    /// What is read again at every poll.
+    /// The inputs that are read again at every poll.
     #[derive(Clone, Copy, Debug)]
     pub struct Live<V> {
         /// `any`
@@ -331,7 +331,7 @@ impl ::afp_core::ComputationTemplate for self::Area {
 
 /// Ports and states of [`Area`].
 pub mod area {
-    /// What is read before the start.
+    /// The inputs that are read before the start.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs {
         /// `length`
@@ -425,7 +425,7 @@ impl ::afp_core::ComputationTemplate for self::Here {
 
 /// Ports and states of [`Here`].
 pub mod here {
-    /// What is read before the start.
+    /// The inputs that are read before the start.
     #[derive(Clone, Copy, Debug)]
     pub struct Inputs {}
     impl ::afp_core::rt::Ports for Inputs {

@@ -1,6 +1,6 @@
 // units.rs
 
-//! The units that a quantity may be written in.
+//! The units of quantities in texts.
 
 use ::afp_core::rt::{Scale, Unit};
 
@@ -73,7 +73,7 @@ const PARALLEL_TO_WALL: ElementId = ElementId(3);
 const FOLLOW_WALL: ElementId = ElementId(4);
 const TURN_AFTER_WALL_LOST: ElementId = ElementId(5);
 
-/// The element that is active.
+/// The active element.
 #[derive(Clone, Default)]
 enum Active {
     #[default]
@@ -223,7 +223,7 @@ pub struct Config {
     pub wallangle: Entry<Angle>,
 }
 
-/// What the next commit writes.
+/// The values of the next commit.
 #[derive(Clone, Default)]
 struct Staged {
     walldist: Option<Length>,
@@ -260,7 +260,7 @@ impl WallFollowing {
     ///
     /// `in walldist: length`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn walldist(&self) -> Option<Length> {
         self.config.walldist.value().copied()
     }
@@ -277,7 +277,7 @@ impl WallFollowing {
 
     /// `var wallangle: angle`
     ///
-    /// `None` while nobody has written it.
+    /// `None` before the first write.
     pub fn wallangle(&self) -> Option<Angle> {
         self.config.wallangle.value().copied()
     }
@@ -576,7 +576,7 @@ where
 
 // **** Rules ****
 
-/// Where the scheduler reads the rules of the plan.
+/// The rules of the plan, for the scheduler.
 #[derive(Clone, Copy, Debug)]
 pub struct Rules;
 
@@ -596,7 +596,7 @@ impl Tables for Rules {
     }
 }
 
-/// Where each state and event leads.
+/// The target of each state and event.
 static EDGES: [Option<Target>; 13] = [
     // searchFirstWall: ForwardSuccessful -> searchFirstWall
     Some(Target::Element(SEARCH_FIRST_WALL)),
@@ -696,7 +696,7 @@ static ELEMENTS: [ElementRow; 6] = [
     },
 ];
 
-/// The supervisors: global ones, local ones, then global ones for elements of their own.
+/// The supervisors: global, local, then global with an element's own edges.
 static SUPERVISORS: [SupervisorRow; 4] = [
     // escape: CheckEscapeButton
     SupervisorRow {
@@ -756,7 +756,7 @@ static SUPERVISORS: [SupervisorRow; 4] = [
     },
 ];
 
-/// Who is polled while an element is active, in order.
+/// The supervisors of each active element, in polling order.
 static SWEEPS: [u16; 9] = [
     // while searchFirstWall is active
     SEARCH_FIRST_WALL_TOUCH.0,

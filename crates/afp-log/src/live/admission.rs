@@ -49,17 +49,17 @@ impl Tokens {
         let header = |name: &str| request.headers().get(name).map(|value| value.to_str());
         match header("host") {
             Some(Ok(host)) if is_own_name(host, at) => {}
-            _ => return Err((403, "this server is not known by that name: write its number\n")),
+            _ => return Err((403, "unknown host name: use the server's IP address\n")),
         }
         match header("origin") {
             None => {}
             Some(Ok(origin)) if is_known_page(origin) => {}
-            _ => return Err((403, "pages of that origin may not look at robots\n")),
+            _ => return Err((403, "pages from that origin are not allowed\n")),
         }
         let query = request.uri().query().unwrap_or_default();
         let said = query.split('&').find_map(|pair| pair.strip_prefix("token="));
         let said = said.ok_or((401, "write the address as it was printed, with '?token='\n"))?;
-        self.role(said).ok_or((401, "that token is not the one that was printed\n"))
+        self.role(said).ok_or((401, "wrong token: use the printed address\n"))
     }
 }
 

@@ -65,7 +65,7 @@ fn name(request: &Request) -> Result<&'static str, Refusal> {
     let offered = offered.iter().filter_map(|value| value.to_str().ok());
     let offered: Vec<_> = offered.flat_map(|all| all.split(',')).map(str::trim).collect();
     let known = NAMES.into_iter().find(|name| offered.contains(name));
-    known.ok_or((400, "this server speaks 'foxglove.sdk.v1', which was not asked for\n"))
+    known.ok_or((400, "this server speaks 'foxglove.sdk.v1', which the client did not request\n"))
 }
 
 fn refused(code: u16, why: &str) -> ErrorResponse {

@@ -53,7 +53,7 @@ pub struct PlanEvent {
     /// The SI unit of `old` and `value`.
     #[prost(string, tag = "23")]
     pub unit: ::prost::alloc::string::String,
-    /// What came from outside.
+    /// The external input.
     #[prost(message, optional, tag = "24")]
     pub request: ::core::option::Option<Request>,
     /// The element that was active or being entered when an event was taken, or was not.
@@ -110,7 +110,7 @@ pub mod plan_event {
         Lost = 15,
         /// A test made `component` report `outcome`.
         Injected = 16,
-        /// Something came from outside: `request`.
+        /// An external input: `request`.
         Requested = 17,
         /// An element goes on after an event of `supervisor` that did not interrupt it.
         Resumed = 18,
@@ -251,7 +251,7 @@ pub mod plan_event {
         }
     }
 }
-/// Something that came from outside. Those of a whole log, asked for at their instants, repeat the run.
+/// An external input. The inputs of a whole log, given at their instants, repeat the run.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Request {
     #[prost(enumeration = "request::Kind", tag = "1")]
@@ -269,10 +269,10 @@ pub struct Request {
     /// The SI unit of `value` or `amount`.
     #[prost(string, tag = "6")]
     pub unit: ::prost::alloc::string::String,
-    /// In SI units; as much as the robot declares where there is none.
+    /// In SI units; the robot's default if absent.
     #[prost(double, optional, tag = "7")]
     pub amount: ::core::option::Option<f64>,
-    /// Of a fault, for good where there is none.
+    /// Of a fault, permanent if absent.
     #[prost(uint64, optional, tag = "8")]
     pub lasting_ns: ::core::option::Option<u64>,
     #[prost(message, repeated, tag = "9")]
@@ -313,17 +313,17 @@ pub mod request {
         Write = 1,
         /// The control `name` is held down, for `lasting_ns` or until it is let go.
         Press = 2,
-        /// The control `name` is let go, whoever holds it.
+        /// The control `name` is released, also if a person holds it.
         Release = 3,
         /// The fault `name` begins, by `amount`, for `lasting_ns`.
         Fail = 4,
         /// The supervisor `name` reports `outcome` with `outputs`.
         Fire = 5,
-        /// The actor or sub-plan `name`, or all of them, do nothing any more.
+        /// The actor or sub-plan `name`, or all of them, stop acting.
         Idle = 6,
         /// The plan is stopped.
         Stop = 7,
-        /// The thing `name` of the world, or the robot where there is none, is put at `pose`.
+        /// The thing `name` of the world, or the robot if absent, is put at `pose`.
         Move = 8,
         /// Something new of the shape `name` is put at `pose`.
         Drop = 9,
@@ -410,7 +410,7 @@ pub mod request {
         }
     }
 }
-/// What a device says, whenever it says something else, without a value once it says nothing any more; on /robot/DEVICE/SIGNAL.
+/// A device's reading, at each change, without a value when the device becomes silent; on /robot/DEVICE/SIGNAL.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Sample {
     #[prost(message, optional, tag = "1")]
@@ -421,7 +421,7 @@ pub struct Sample {
     #[prost(string, tag = "3")]
     pub unit: ::prost::alloc::string::String,
 }
-/// A value; none of the fields while nobody has written it.
+/// A value; no field before the first write.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Value {
     #[prost(oneof = "value::Value", tags = "1, 2, 3, 4, 5, 6")]
@@ -473,7 +473,7 @@ pub struct Configuration {
     #[prost(message, repeated, tag = "3")]
     pub entries: ::prost::alloc::vec::Vec<Entry>,
 }
-/// What the plan consists of, sub-plans unfolded; once, on /plan/table.
+/// The parts of the plan, sub-plans unfolded; once, on /plan/table.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PlanTable {
     #[prost(message, optional, tag = "1")]
@@ -489,7 +489,7 @@ pub mod plan_table {
         /// A state or event.
         #[prost(string, tag = "1")]
         pub name: ::prost::alloc::string::String,
-        /// Where it leads; empty where unconnected.
+        /// Its target; empty if unconnected.
         #[prost(string, tag = "2")]
         pub target: ::prost::alloc::string::String,
     }

@@ -80,7 +80,7 @@ fn a_recovered_log_repeats_its_run_up_to_the_first_gap() {
         let log = read(&again).unwrap();
         assert_eq!((log.recipe().until, log.trace()), (Some(last), None));
         let said = log.cut_short.unwrap();
-        assert!(said.starts_with("it was recovered, and misses what was from "), "{said}");
+        assert!(said.starts_with("it was recovered, and lacks the messages from "), "{said}");
         assert_eq!(said.ends_with(" to the end"), until_the_end, "{said}");
     }
 }

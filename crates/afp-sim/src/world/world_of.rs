@@ -9,7 +9,7 @@ use super::{World, WorldError};
 use crate::chassis::Chassis;
 use afp_session::{Drawing, Pose2, Shape};
 
-/// What a robot is to its worlds.
+/// A robot's body for worlds.
 ///
 /// ```
 /// use afp_session::World;
@@ -43,7 +43,7 @@ pub trait Body: Clone + Debug + Send + Sync + 'static {
     type Own: OwnTables;
 }
 
-/// What world files say for one robot alone: keys beside those that all worlds have, read by serde.
+/// The keys of world files for only one robot, in addition to the common keys, read by serde.
 ///
 /// ```
 /// #[derive(Clone, Debug, serde::Deserialize)]

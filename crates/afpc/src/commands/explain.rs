@@ -22,7 +22,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let text = arguments.code.trim().to_uppercase();
     let Some(code) = Code::parse(&text) else {
         let message = format!("there is no error code '{}'", arguments.code);
-        let help = "codes look like E0203; they stand in brackets after 'error' or 'warning'";
+        let help = "codes look like E0203; they follow 'error' or 'warning' in brackets";
         return Err(RunError::usage(message, help).into());
     };
     print(code.explanation())

@@ -64,7 +64,7 @@ fn one(name: &str, check: bool) -> Result<u8, NoPlan> {
             print(&difference(shown, &text, &formatted))?;
             if without_returns(&text) == without_returns(&formatted) {
                 say(format_args!(
-                    "{shown}: lines end in two ways: 'afpc fmt' ends all as the first one"
+                    "{shown}: mixed line ends: 'afpc fmt' uses those of the first line"
                 ));
             }
             Ok(EXIT_FAILED)
@@ -95,7 +95,7 @@ fn formatted(shown: &str, text: &str) -> Result<String, NoPlan> {
         let mut sources = Sources::default();
         sources.add(Source::new(shown, text).into());
         say(diags.render(&sources, true));
-        say(format_args!("{shown}: left as it is, since it has syntax errors"));
+        say(format_args!("{shown}: not formatted because of syntax errors"));
         NoPlan::Wrong
     })
 }

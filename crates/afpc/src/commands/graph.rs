@@ -246,7 +246,7 @@ impl Arguments {
         let Some((_, option, formats)) = wrong else { return Ok(()) };
         let formats: Vec<_> = formats.iter().map(name_of).collect();
         Err(RunError::usage(
-            format!("'{option}' means nothing for '--format {}'", name_of(&format)),
+            format!("'{option}' has no effect on '--format {}'", name_of(&format)),
             format!("it is for {}", formats.join(", ")),
         ))
     }

@@ -6,11 +6,11 @@ use clap::Args;
 
 /// Name, reason, and alternative.
 const LATER: &[(&str, &str, &str)] = &[
-    ("replay", "replay of logs", "'afpc run --again RUN.mcap' makes the run of a log once more"),
+    ("replay", "replay of logs", "'afpc run --again RUN.mcap' repeats the run of a log"),
     (
         "deploy",
         "the Raspberry Pi driver",
-        "'afpc build PLAN.afp --target pi' makes a program that 'scp' takes to the robot",
+        "'afpc build PLAN.afp --target pi' builds a program that you copy to the robot with 'scp'",
     ),
     (
         "attach",
@@ -38,7 +38,7 @@ impl Listen {
         match self.listen {
             None => Ok(()),
             Some(_) => Err(RunError::usage(
-                "'--listen' is not there: what is said between machines would not be encrypted",
+                "'--listen' is not available: the connection would not be encrypted",
                 "start it with '--port 4711'; 'ssh -L 4711:localhost:4711 HOST' on the other machine then brings it there",
             )),
         }
@@ -66,7 +66,7 @@ pub fn refusal(name: &str) -> Option<RunError> {
         // The studio's page is not built by cargo.
         let help = match name {
             "studio" => "in a checkout of AFP, 'cargo studio' builds it and opens it",
-            _ => "'cargo install --path crates/afpc --features full' brings everything there is",
+            _ => "'cargo install --path crates/afpc --features full' installs all commands",
         };
         return Some(RunError::usage(format!("this afpc was built without '{name}'"), help));
     }

@@ -72,7 +72,7 @@ Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong 
 pub fn swapped(first: &str, second: &str) -> Option<RunError> {
     let action = Action::from_str(first, false).ok()?.to_possible_value()?;
     let (action, help) = (action.get_name(), format!("write 'afpc log {second} {first}'"));
-    Some(RunError::usage(format!("'{action}' stands behind the log, not before it"), help))
+    Some(RunError::usage(format!("'{action}' must follow the log's name"), help))
 }
 
 /// Does the selected action.
@@ -82,7 +82,7 @@ pub fn swapped(first: &str, second: &str) -> Option<RunError> {
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if arguments.output.is_some() && arguments.action != Action::Recover {
         let help = "'--svg', '--sonar', '--film' and '--coverage' name the files of pictures";
-        return Err(RunError::usage("'-o' is for 'recover' alone", help).into());
+        return Err(RunError::usage("'-o' is only for 'recover'", help).into());
     }
     pictures::draw(arguments, linked)?;
     match arguments.action {

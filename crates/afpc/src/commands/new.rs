@@ -62,8 +62,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let is_there = folder.symlink_metadata().is_ok();
     // An empty folder is allowed. An unreadable folder is an error.
     if is_there && fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_some()) {
-        let message = format!("'{}' is there already, and is not empty", folder.display());
-        let help = "write the name of a folder that is not there yet, such as 'afpc new patrol'";
+        let message = format!("'{}' already exists and is not empty", folder.display());
+        let help = "write the name of a new folder, such as 'afpc new patrol'";
         return Err(RunError::usage(message, help).into());
     }
     if let Err(why) = write(folder, &files) {

@@ -83,8 +83,8 @@ fn unknown(toolboxes: &Toolboxes, of: Option<&str>, asked: &str) -> RunError {
     };
     let names = toolboxes.iter().map(|toolbox| &*toolbox.name).chain(templates());
     let help = match nearest(name, names) {
-        Some(meant) => format!("write '{meant}'; 'afpc templates' lists what there is"),
-        None => "'afpc templates' lists what there is".to_owned(),
+        Some(meant) => format!("write '{meant}'; 'afpc templates' lists all names"),
+        None => "'afpc templates' lists all names".to_owned(),
     };
     RunError::usage(message, help)
 }

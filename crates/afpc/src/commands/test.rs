@@ -290,11 +290,9 @@ fn coverage<'a>(
         let name = log.facts.get("plan").map_or("", String::as_str);
         let known = plans.iter_mut().find(|(_, known, _)| known.graph.main().name == name);
         if !known.is_some_and(|(.., hits)| hits.add_log(&log)) {
-            let message = format!("'{}' is no log of a plan with scenarios here", path.display());
-            return Err(RunError::usage(
-                message,
-                "leave it out, or run it with the plan as it is now",
-            ));
+            let message =
+                format!("'{}' is not the log of a plan with scenarios here", path.display());
+            return Err(RunError::usage(message, "leave it out, or run the present plan again"));
         }
     }
     let used = plans.into_iter().map(|(plan_file, scenario, hits)| {

@@ -41,14 +41,14 @@ impl Machine {
 }
 
 const PI: Linux = Linux {
-    name: "a Raspberry Pi of 64 bit",
+    name: "a 64-bit Raspberry Pi",
     triple: "aarch64-unknown-linux-gnu",
     gnu: "aarch64-linux-gnu",
     packages: ["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross"],
 };
 
 const PI32: Linux = Linux {
-    name: "a Raspberry Pi of 32 bit",
+    name: "a 32-bit Raspberry Pi",
     triple: "armv7-unknown-linux-gnueabihf",
     gnu: "arm-linux-gnueabihf",
     packages: ["gcc-arm-linux-gnueabihf", "libc6-dev-armhf-cross"],

@@ -25,7 +25,7 @@ fn a_folder_without_a_generated_crate_is_not_changed() {
     let place = Place::with_plan();
     place.write("mine/Cargo.toml", "[package]\nname = \"mine\"\n");
     let said = place.afpc("build wall_following.afp -o mine");
-    said.fails(2, &["'mine' holds a crate that 'afpc' did not make", "'-o DIR'"]);
+    said.fails(2, &["'mine' contains a crate that 'afpc' did not generate", "'-o DIR'"]);
     assert_eq!(place.files(), ["mine/Cargo.toml", "wall_following.afp"]);
 }
 
@@ -36,7 +36,7 @@ fn other_files_are_not_changed_if_there_is_no_crate() {
         let path = format!("mine/{name}");
         place.write(&path, "mine");
         let said = place.afpc("build wall_following.afp -o mine");
-        said.fails(2, &[&format!("'{path}' is there, and 'afpc' did not make it"), "'-o DIR'"]);
+        said.fails(2, &[&format!("'{path}' exists, and 'afpc' did not generate it"), "'-o DIR'"]);
         assert_eq!(place.read(&path), "mine");
         assert_eq!(place.files(), [&path, "wall_following.afp"]);
         std::fs::remove_file(place.path(&path)).unwrap();

@@ -104,7 +104,7 @@ const OF_BUILDS: &[(&str, &str, i32, &str, &str)] = &[
     ("[robot]\ncrate = 1\n", "p.afp", 1, "", "afp.toml"),
     ("", "p.afp --target mcu", 2, "is not in this release", "name 'host'"),
     ("", "missing.afp", 1, "cannot read the plan 'missing.afp'", ""),
-    ("", "p.afp -o mine", 2, "'mine' holds a crate that 'afpc' did not make", "'-o DIR'"),
+    ("", "p.afp -o mine", 2, "'mine' contains a crate that 'afpc' did not generate", "'-o DIR'"),
 ];
 
 #[test]
@@ -145,7 +145,7 @@ fn a_failed_or_missing_cargo_is_an_error() {
     place.write("afp.toml", "[afp]\npath = \"nowhere\"\n");
     let said = place.afpc("build p.afp --json");
     let (all, _) = objects(said.fails(1, &["nowhere"]));
-    assert_eq!(all[1]["help"], "standard error has what cargo says");
+    assert_eq!(all[1]["help"], "see cargo's messages on standard error");
 }
 
 /// A message of cargo about a crate.
@@ -179,7 +179,7 @@ fn errors_of_rust_are_at_their_line_of_the_plan() {
     said.fails(1, &["error: mismatched types", "error: it is far"]);
     let (all, _) = objects(&said);
     let [_, ours, far] = &all[..] else { panic!("{all:?}") };
-    assert_eq!(ours["message"], "the Rust made from this does not compile: mismatched types");
+    assert_eq!(ours["message"], "the generated Rust does not compile: mismatched types");
     let plan_line = PLAN.lines().position(|line| line.contains("Forward(")).unwrap() as u64 + 1;
     assert_eq!((at(ours).0, at(ours).1, &ours["code"]), ("p.afp", plan_line, &Value::Null));
     let rust = json!({ "file": "target/afp/p/src/p.rs", "line": line, "column": 3, "start": 40, "end": 45 });

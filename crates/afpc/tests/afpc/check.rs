@@ -149,10 +149,10 @@ fn positions_come_from_the_side_file_and_broken_lines_are_warnings() {
 fn options_of_other_formats_are_refused() {
     let place = Place::with_plan();
     for (options, said) in [
-        ("--scale 2", "'--scale' means nothing for '--format svg'"),
-        ("--format json --no-data", "'--no-data' means nothing for '--format json'"),
-        ("--format scxml --fold", "'--fold' means nothing for '--format scxml'"),
-        ("--format dot --theme dark", "'--theme' means nothing for '--format dot'"),
+        ("--scale 2", "'--scale' has no effect on '--format svg'"),
+        ("--format json --no-data", "'--no-data' has no effect on '--format json'"),
+        ("--format scxml --fold", "'--fold' has no effect on '--format scxml'"),
+        ("--format dot --theme dark", "'--theme' has no effect on '--format dot'"),
         ("-o x.png --scale 11", "expected a number from 0.1 to 10"),
     ] {
         place.afpc(&format!("graph wall_following.afp {options}")).fails(2, &[said]);

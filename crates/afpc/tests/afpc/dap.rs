@@ -58,7 +58,7 @@ fn invalid_bytes_are_reported() {
         (b"GET / HTTP/1.1\r\n\r\n", "whose messages begin with 'Content-Length: '"),
         (&babble, "whose messages begin with 'Content-Length: '"),
         (b"Content-Length: 9\r\n\r\n{}", "ends before its length"),
-        (b"Content-Length: 1\r\n\r\n\xff", "no UTF-8"),
+        (b"Content-Length: 1\r\n\r\n\xff", "not UTF-8"),
         (long.as_bytes(), "a message of 1073741824 bytes"),
     ] {
         told(bytes).fails(1, &["cannot talk to the editor over 'standard input'", why]);

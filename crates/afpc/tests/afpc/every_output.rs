@@ -130,7 +130,7 @@ fn place() -> Place {
     place
 }
 
-/// What is in a place beside what was there at first and journals of sweeps.
+/// The new files in a place, other than journals of sweeps.
 fn new_files(place: &Place) -> Vec<String> {
     let mut files = place.files();
     files.retain(|name| !["p.afp", "p.mcap", "tests.afp"].contains(&&**name));
@@ -138,10 +138,10 @@ fn new_files(place: &Place) -> Vec<String> {
     files
 }
 
-/// Somebody who owns nothing.
+/// A user who owns nothing.
 const NOBODY: u32 = 65534;
 
-/// Permissions mean nothing to root, so somebody else gets the place and runs the command.
+/// Permissions do not restrict root, so another user gets the place and runs the command.
 fn without_rights(place: &Place, command: &mut Command) {
     if fs::metadata(place.path("")).unwrap().uid() != 0 {
         return;
@@ -154,7 +154,7 @@ fn without_rights(place: &Place, command: &mut Command) {
 }
 
 #[test]
-fn a_new_file_is_whole_and_alone() {
+fn a_new_file_is_whole_and_the_only_one() {
     for writer in WRITERS {
         let place = place();
         writer.call(&place).succeeds();
@@ -164,7 +164,7 @@ fn a_new_file_is_whole_and_alone() {
 }
 
 #[test]
-fn a_device_takes_the_bytes_and_stays_one() {
+fn a_device_gets_the_bytes_and_is_not_replaced() {
     for writer in WRITERS {
         let place = place();
         symlink("/dev/null", place.path(writer.file)).unwrap();
@@ -207,7 +207,7 @@ fn a_pipe_gets_the_whole_output() {
 }
 
 #[test]
-fn a_link_stays_one_and_its_file_gets_the_new_text() {
+fn a_link_is_kept_and_its_file_gets_the_new_text() {
     for writer in WRITERS {
         let place = place();
         place.write("far/old", OLD);
@@ -239,7 +239,7 @@ fn a_read_only_file_is_not_changed() {
 }
 
 #[test]
-fn a_file_in_a_folder_that_takes_no_new_ones_is_written() {
+fn a_file_in_a_read_only_folder_is_written() {
     for writer in WRITERS {
         let place = place();
         place.write(writer.file, OLD);

@@ -39,7 +39,7 @@ fn files_are_formatted_in_place_and_invalid_files_are_not_changed() {
     assert_eq!(fs::read_to_string(path("broken.afp")).unwrap(), BROKEN);
     let errors = text(&output.stderr);
     assert!(errors.contains("broken.afp:1:16"), "{errors}");
-    assert!(errors.contains("broken.afp: left as it is"), "{errors}");
+    assert!(errors.contains("broken.afp: not formatted"), "{errors}");
     assert!(errors.contains("cannot read the plan 'missing.afp'"), "{errors}");
     assert_eq!(fmt(&["ugly.afp"], folder.path(), "").status.code(), Some(0));
 }
@@ -78,7 +78,7 @@ fn line_ends_and_byte_order_marks_stay() {
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(
         text(&output.stderr),
-        "a.afp: lines end in two ways: 'afpc fmt' ends all as the first one\n"
+        "a.afp: mixed line ends: 'afpc fmt' uses those of the first line\n"
     );
     fmt(&["a.afp"], folder.path(), "");
     assert_eq!(fs::read_to_string(&path).unwrap(), pretty);
@@ -91,7 +91,7 @@ fn standard_input_goes_to_standard_output() {
     assert_eq!((output.status.code(), text(&output.stdout)), (Some(0), PRETTY));
     let output = fmt(&["-"], folder.path(), BROKEN);
     assert_eq!((output.status.code(), text(&output.stdout)), (Some(1), ""));
-    assert!(text(&output.stderr).contains("<stdin>: left as it is"));
+    assert!(text(&output.stderr).contains("<stdin>: not formatted"));
     assert_eq!(fmt(&["--check", "-"], folder.path(), UGLY).status.code(), Some(1));
     assert_eq!(fmt(&[], folder.path(), "").status.code(), Some(2));
 }

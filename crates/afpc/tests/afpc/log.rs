@@ -221,7 +221,7 @@ fn a_log_that_was_cut_short_is_saved() {
     assert_eq!(place.afpc("log b.recovered.mcap doctor").succeeds().out, "sound\n");
     let again = place.afpc("run --again b.recovered.mcap --log none --svg none");
     again.succeeds();
-    let missed = "'b.recovered.mcap' is not whole: it was recovered, and misses what was from ";
+    let missed = "'b.recovered.mcap' is not whole: it was recovered, and lacks the messages from ";
     assert!(again.err.contains(missed) && !again.err.contains("trace"), "{}", again.err);
     place.afpc("log a.mcap recover -o a.mcap").fails(2, &["into itself"]);
 }
@@ -270,10 +270,13 @@ fn useless_or_misplaced_arguments_are_reported() {
     place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none").succeeds();
     for action in ["", "info", "doctor"] {
         let said = place.afpc(&format!("log a.mcap {action} -o other.mcap"));
-        said.fails(2, &["'-o' is for 'recover' alone", "'--svg'"]);
+        said.fails(2, &["'-o' is only for 'recover'", "'--svg'"]);
         if !action.is_empty() {
             let said = place.afpc(&format!("log {action} a.mcap"));
-            said.fails(2, &["stands behind the log", &format!("write 'afpc log a.mcap {action}'")]);
+            said.fails(
+                2,
+                &["must follow the log's name", &format!("write 'afpc log a.mcap {action}'")],
+            );
         }
     }
 }

@@ -175,7 +175,7 @@ fn two_toolboxes_of_one_name_do_not_go_into_one_runner() {
     place.write("plans/a.afp", scenario);
     place.write("other/plans/a.afp", scenario);
     let said = place.afpc("test plans/a.afp other/plans/a.afp");
-    said.fails(2, &["are two toolboxes called 'gestures'", "run what uses them apart"]);
+    said.fails(2, &["are two toolboxes with the name 'gestures'", "run their plans separately"]);
 }
 
 /// A call in the project, with the build folder of all slow tests and little optimisation.
@@ -311,7 +311,7 @@ fn errors_of_the_generated_crate(place: &Place) {
     place.write("plans/dance.afp", &PLAN.replace("400 ms", "0.5").replace("10 s", "10"));
     let said = afpc(place, "build plans/dance.afp");
     let texts = [
-        "the Rust made from this does not compile: mismatched types",
+        "the generated Rust does not compile: mismatched types",
         "--> plans/dance.afp:10:30",
         "--> plans/dance.afp:14:31",
         "= in target/afp/dance/src/dance.rs:",

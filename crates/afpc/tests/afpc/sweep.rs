@@ -231,7 +231,7 @@ fn a_stopped_sweep_keeps_its_results() {
     assert!((2..60).contains(&done), "{done}");
     let more = place.afpc(&sweep.replace("--jobs 1", "--json"));
     more.succeeds();
-    assert!(more.err.contains(&format!("going on: {done} of 60 runs are done")), "{}", more.err);
+    assert!(more.err.contains(&format!("continuing: {done} of 60 runs are done")), "{}", more.err);
     assert_eq!(objects(&more).len(), 61);
 }
 

@@ -92,7 +92,7 @@ fn scenarios_are_generated_and_pass() {
 }
 
 #[test]
-fn a_plan_that_fails_alone_has_passing_scenarios_and_a_plan_without_events_has_none() {
+fn a_failing_plan_has_passing_scenarios_and_a_plan_without_events_has_none() {
     let place = Place::new();
     let parts = "actor go: Forward(distance = 50 cm) { ForwardSuccessful -> terminate }";
     let fails = "supervise battery: CheckBattery { BatteryLow -> rest }
@@ -268,7 +268,7 @@ fn scenarios_that_all_fail_judge_no_mutant() {
     let scenario = "use \"../short.afp\"\nscenario \"x\" for Short { expect end before 1 ms }\n";
     place.write("tests/short.afp", scenario);
     let said = place.afpc("test --mutate");
-    said.fails(3, &["short.afp: all scenarios fail on the plan as it is: mend them first"]);
+    said.fails(3, &["short.afp: all scenarios fail on the unchanged plan: fix them first"]);
     assert_eq!(said.out, "");
 }
 

@@ -46,7 +46,7 @@ const MISSING: &[(&[&str], &[&str])] = &[
     (
         &["rustc", "rustup", "apt-get", "sudo"],
         &[
-            "cannot build for a Raspberry Pi of 64 bit: Rust's standard library for it and a compiler of C that links for \
+            "cannot build for a 64-bit Raspberry Pi: Rust's standard library for it and a C compiler and linker for \
              it are missing",
             "run 'rustup target add aarch64-unknown-linux-gnu && sudo apt-get install -y gcc-aarch64-linux-gnu \
              libc6-dev-arm64-cross', then the same command again",
@@ -68,7 +68,7 @@ const MISSING: &[(&[&str], &[&str])] = &[
     (
         &["rustc with library", "apt-get"],
         &[
-            "a compiler of C that links for it is missing",
+            "a C compiler and linker for it is missing",
             "run 'apt-get install -y gcc-aarch64-linux-gnu libc6-dev-arm64-cross', then",
         ],
     ),

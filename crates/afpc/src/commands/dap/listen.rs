@@ -105,7 +105,7 @@ impl Peers<'_> {
             let late = self.strangers().find(|(_, peer)| peer.since.elapsed() >= patience);
             let late = late.map(|(number, _)| number);
             if let Some(number) = late {
-                self.send_away(number, "it has not shown the token");
+                self.send_away(number, "it has not sent the token");
             }
         }
     }
@@ -125,7 +125,7 @@ impl Peers<'_> {
     fn connect(&mut self, stream: TcpStream) {
         let strangers: Vec<_> = self.strangers().map(|(number, _)| number).collect();
         if strangers.len() >= STRANGERS {
-            self.send_away(strangers[0], "others came, and it has not shown the token");
+            self.send_away(strangers[0], "too many connections without a token");
         }
         let _ = stream.set_nodelay(true);
         let (Ok(from), Ok(back)) = (stream.try_clone(), stream.try_clone()) else { return };
@@ -179,7 +179,7 @@ impl Peers<'_> {
 
     /// Ends a connection immediately.
     fn send_away(&mut self, number: usize, why: &str) {
-        say(format_args!("warning: a client was sent away: {why}"));
+        say(format_args!("warning: a client was disconnected: {why}"));
         if let Some(peer) = self.all.get(&number) {
             let _ = peer.stream.shutdown(Shutdown::Both);
         }
@@ -234,5 +234,5 @@ fn write(mut to: TcpStream, messages: &Receiver<Vec<u8>>) {
 }
 
 fn warn(why: WireError) {
-    say(format_args!("warning: a client was sent away: {why}"));
+    say(format_args!("warning: a client was disconnected: {why}"));
 }

@@ -40,7 +40,7 @@ impl<'a> Reporter<'a> {
             say(format_args!("all {all} runs are done ({journal}); '--restart' does them again"));
         } else if done > 0 {
             say(format_args!(
-                "going on: {done} of {all} runs are done ({journal}); '--restart' begins anew"
+                "continuing: {done} of {all} runs are done ({journal}); '--restart' starts over"
             ));
         }
     }

@@ -55,9 +55,7 @@ pub(super) fn run(
     let invalid = tell_invalid(files);
     if plans.is_empty() && !invalid && code == EXIT_OK {
         let help = "write scenarios first; 'afpc test --generate' makes some";
-        return Err(
-            RunError::usage("there are no scenarios that could notice anything", help).into()
-        );
+        return Err(RunError::usage("there are no scenarios", help).into());
     }
     let mut code = if invalid { EXIT_PLAN_ERROR } else { code };
     for (plan, suites) in plans {
@@ -123,7 +121,7 @@ fn one_plan(
     };
     if bench.judges() == 0 && !bench.failing.is_empty() {
         say(format_args!(
-            "{plan}: all scenarios fail on the plan as it is: mend them first ('afpc test' tells why)"
+            "{plan}: all scenarios fail on the unchanged plan: fix them first ('afpc test' shows why)"
         ));
         return Ok(Came::NoJudge);
     }

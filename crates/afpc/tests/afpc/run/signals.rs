@@ -31,7 +31,7 @@ fn signal(name: &str, process: u32) {
 fn the_log_of_a_killed_run_is_kept() {
     let place = Place::with_plan();
     interrupted(&place, |process| signal("KILL", process));
-    place.afpc("log a.mcap").fails(1, &["name what there is of it, 'a.mcap.part'"]);
+    place.afpc("log a.mcap").fails(1, &["use the unfinished log 'a.mcap.part'"]);
     let said = place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none");
     assert!(said.succeeds().err.contains("'afpc log a.2.mcap.part recover'"), "{}", said.err);
     assert_eq!(place.files(), ["a.2.mcap.part", "a.mcap", "wall_following.afp"]);

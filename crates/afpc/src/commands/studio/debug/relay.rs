@@ -84,7 +84,7 @@ pub(super) fn relay(
 fn died(status: Option<ExitStatus>) -> String {
     let how = status.map_or_else(String::new, |status| format!(" ({status})"));
     format!(
-        "the program with the robot of the project has ended by itself{how}: the terminal of the studio says why"
+        "the program with the robot of the project has ended unexpectedly{how}: see the terminal of the studio"
     )
 }
 

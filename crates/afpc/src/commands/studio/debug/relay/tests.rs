@@ -51,7 +51,7 @@ fn talked(script: &str, stays: bool) -> Vec<String> {
 #[test]
 fn a_connected_client_is_notified_when_a_program_ends_unexpectedly() {
     let told = talked("exit 3", true);
-    assert!(told[0].contains("ended by itself (exit status: 3)"), "{told:?}");
+    assert!(told[0].contains("ended unexpectedly (exit status: 3)"), "{told:?}");
     assert!(told[1].contains("\"terminated\""), "{told:?}");
     assert_eq!(told.len(), 2);
     let goodbye = r#"{"type":"event","event":"terminated"}"#;
