@@ -141,12 +141,10 @@ impl Bounds {
         }
     }
 
-    /// The width.
     pub(super) fn width(&self) -> f64 {
         self.right - self.left
     }
 
-    /// The height.
     pub(super) fn height(&self) -> f64 {
         self.bottom - self.top
     }

@@ -75,7 +75,6 @@ pub(super) struct Picture<'a> {
     pub(super) y: f64,
     pub(super) size: f64,
     pub(super) class: Class,
-    /// The icon of a toolbox.
     pub(super) icon: Option<(&'a Toolbox, &'a str)>,
     /// The picture for a missing icon.
     pub(super) fallback: Glyph,

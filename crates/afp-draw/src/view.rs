@@ -297,12 +297,10 @@ pub(super) fn name(component: &Component) -> &str {
     component.name.as_ref().map_or(component.item.name(), |name| &name.text)
 }
 
-/// The name of an entry.
 pub(super) fn entry_name(entry: &Entry) -> &str {
     entry.name.as_ref().map_or(entry.item.name(), |name| &name.text)
 }
 
-/// The type of an entry.
 pub(super) fn entry_type(entry: &Entry) -> String {
     let written = || entry.written_type.as_ref().map(|name| name.text.clone());
     entry.ty.as_ref().map(ToString::to_string).or_else(written).unwrap_or_default()

@@ -172,7 +172,6 @@ fn start_element(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// Starts an element.
 fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -> TokenStream {
     let (number, variant) = (&names.number, &names.variant);
     let at = at(element.span);

@@ -80,7 +80,6 @@ fn reasons(texts: &[String]) -> (TokenStream, Option<TokenStream>) {
     (quote!(&REASONS), Some(quote!(#about static REASONS: [Fault; #length] = [#(#faults),*];)))
 }
 
-/// One element.
 fn element(
     context: &Context<'_>,
     element: &Element,
@@ -113,7 +112,6 @@ fn element(
     }
 }
 
-/// One supervisor.
 fn supervisor(context: &Context<'_>, index: usize, row: &SupervisorRow) -> TokenStream {
     let supervisor = &context.plan.supervisors[row.instance.index()];
     let ComponentNames { text: name, number: instance, .. } =
@@ -146,7 +144,6 @@ fn supervisor(context: &Context<'_>, index: usize, row: &SupervisorRow) -> Token
     }
 }
 
-/// A set of events.
 fn event_set(events: Events) -> TokenStream {
     let bits = events.bits();
     let bits: Literal =

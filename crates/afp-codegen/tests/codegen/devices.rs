@@ -25,14 +25,14 @@ pub mod devices {
         Bumper(::afp_core::devices::Defect),
         /// A common sensor fault of `battery`.
         Battery(::afp_core::devices::Defect),
-        /// So much is left at most.
+        /// The remaining share.
         BatteryLow {
             /// `share`: 0 to 1; 0.05 by default
             share: f64,
         },
         /// `wheels.blocked`
         WheelsBlocked,
-        /// How much faster than it should.
+        /// The additional speed.
         WheelsRunaway {
             /// `by`: any m/s; 0.1 by default
             by: ::afp_core::quantity::Speed,
@@ -56,7 +56,7 @@ pub mod devices {
             }
         }
 
-        /// So much is left at most.
+        /// The remaining share.
         pub fn battery_low(self) -> ::core::option::Option<f64> {
             match self {
                 Fault::BatteryLow { share: value } => ::core::option::Option::Some(value),
@@ -72,7 +72,7 @@ pub mod devices {
             }
         }
 
-        /// How much faster than it should.
+        /// The additional speed.
         pub fn wheels_runaway(
             self,
         ) -> ::core::option::Option<::afp_core::quantity::Speed> {
@@ -205,7 +205,7 @@ pub mod devices {
                             from: 0.0,
                             to: 1.0,
                         }),
-                        help: "so much is left at most",
+                        help: "the remaining share",
                     },
                 ],
                 signals: &[
@@ -236,7 +236,7 @@ pub mod devices {
                             from: f64::NEG_INFINITY,
                             to: f64::INFINITY,
                         }),
-                        help: "how much faster than it should",
+                        help: "the additional speed",
                     },
                 ],
                 signals: &[],

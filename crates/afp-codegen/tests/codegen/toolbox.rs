@@ -67,7 +67,7 @@ pub mod seek {
     /// The inputs that are read before the start.
     #[derive(Clone, Copy)]
     pub struct Inputs<'a> {
-        /// What it is called.
+        /// Its name.
         ///
         /// `string`
         pub name: &'a str,

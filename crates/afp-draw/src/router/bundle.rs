@@ -102,7 +102,6 @@ pub(super) struct Corner {
 /// The edges of a bundle, by the nodes of the search.
 pub(super) type Tree = BTreeMap<u32, Junction>;
 
-/// The trees of all bundles.
 #[derive(Debug)]
 pub(super) struct Trees {
     bundle_of: Vec<Option<usize>>,
@@ -141,7 +140,6 @@ impl Trees {
         self.trees.get(&self.bundle_of[edge]?).filter(|tree| !tree.is_empty())
     }
 
-    /// Removes edges from the trees of their bundles.
     pub(super) fn remove(&mut self, edges: &BTreeSet<usize>) {
         let bundles: BTreeSet<_> = edges.iter().filter_map(|edge| self.bundle_of[*edge]).collect();
         for bundle in bundles {

@@ -25,7 +25,6 @@ pub(super) fn side_of(from: Point, to: Point) -> usize {
     }
 }
 
-/// The axis of lines to a side.
 pub(super) fn axis_of(side: usize) -> Axis {
     if side <= DOWN { Axis::Upright } else { Axis::Level }
 }

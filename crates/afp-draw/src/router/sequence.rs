@@ -33,7 +33,6 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Whether it is fixed.
     pub(super) fn is_fixed(&self) -> bool {
         self.room.0 >= self.room.1
     }

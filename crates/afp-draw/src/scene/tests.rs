@@ -360,7 +360,6 @@ fn painted_anew(scene: &Scene) -> Vec<String> {
     elements.chain(edges).collect()
 }
 
-/// The fragments of a scene.
 fn fragments(scene: &Scene) -> Vec<&str> {
     let plans = || scene.plans.iter();
     let elements = plans().flat_map(|plan| &plan.elements).map(|one| &*one.svg);

@@ -44,7 +44,6 @@ impl Rotator {
         self.servo.position()
     }
 
-    /// Its angle in the telemetry.
     pub(crate) fn telemetry(&self) -> Angle {
         let steps = libm::round(self.position() / RESOLUTION);
         Angle::from_si(steps * RESOLUTION)

@@ -35,7 +35,6 @@ fn among_with(obstacles: &str, seed: u64) -> Simulation {
     Simulation::new(&world, seed).expect("the test's world can be built")
 }
 
-/// A box with a height, by its middle and its size.
 fn the_box(middle: [f64; 2], size: [f64; 2], height: f64) -> String {
     format!(
         "[[box]]\npose_m_deg = [{}, {}, 0.0]\nsize_m = {size:?}\nheight_m = {height}\n",

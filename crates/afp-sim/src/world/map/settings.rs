@@ -113,7 +113,6 @@ impl Settings {
         }
     }
 
-    /// Whether a cell is a wall.
     pub(super) fn is_wall(&self, cell: Cell) -> bool {
         match cell {
             Cell::Occupied => true,
