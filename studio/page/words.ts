@@ -1,4 +1,4 @@
-// All words that the page shows. What the engine says (messages, help, labels of edits) comes from it.
+// All words of the page. Messages, help and labels of edits come from the engine.
 
 const count = (number: number, one: string, many: string): string => `${number} ${number === 1 ? one : many}`;
 

@@ -1,4 +1,4 @@
-// What stands elsewhere in the next run than its world says: put there by hand before it.
+// Places that differ from the world's in the next run, set by hand.
 import { signal } from "@preact/signals";
 import type { Pose } from "../world/geometry";
 
@@ -10,12 +10,12 @@ export const start = signal<Pose | null>(null);
 export const things = signal<Moves>({});
 export const drops = signal<readonly { shape: string; at: Pose }[]>([]);
 
-/** Everything stands again where the world says. */
+/** Resets all places to the world's. */
 export function putBack(): void {
   [start.value, things.value, drops.value] = [null, {}, []];
 }
 
-/** What a run is asked for before its first step. */
+/** The requests of a run before its first step. */
 export const requests = (): { command: string; args: object }[] => [
   ...Object.entries(things.peek()).map(([thing, to]) => ({ command: "afp/move", args: { thing, to } })),
   ...drops.peek().map(({ shape, at }) => ({ command: "afp/drop", args: { shape, to: at } })),

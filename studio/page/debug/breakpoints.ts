@@ -15,9 +15,9 @@ export interface Stop {
   /** From 0. */
   line: number;
   off?: boolean;
-  /** A formula: it stops while this holds alone. */
+  /** A formula: it stops only while this is true. */
   condition?: string;
-  /** What is said in place of stopping, with formulas in braces. */
+  /** A message instead of a stop, with formulas in braces. */
   log?: string;
 }
 
@@ -25,9 +25,9 @@ export interface Stop {
 export const breakpoints = signal<Readonly<Record<string, readonly Stop[]>>>({});
 /** The parts of the drawing that they stand at. */
 export const stops = signal<readonly { part: Part; stop: Stop }[]>([]);
-/** What went wrong that a run stops at. */
+/** The exceptions that stop a run. */
 export const filters = signal<readonly string[]>([]);
-/** What a run stops at when it goes wrong. */
+/** The available exceptions. */
 export const FILTERS = ["fault", "deadlineMissed", "interruption"] as const;
 
 export const stopsOf = (uri: string): readonly Stop[] => breakpoints.value[uri] ?? [];
@@ -56,7 +56,7 @@ export async function toggleSelected(): Promise<void> {
 /** Where lines are after a change of a text; those whose line is gone are gone. */
 export function moved(all: readonly Stop[], { range: { start, end }, text }: Told): Stop[] {
   const more = text.split("\n").length - 1 - (end.line - start.line);
-  // What begins behind the change moves with it; so does a line that a whole one is put before.
+  // Lines after the change move with it, also a line before which a whole one is inserted.
   const behind = (line: number): boolean => line > end.line || (line === end.line && end.character === 0 && (start.line < end.line || text.endsWith("\n")));
   const to = (line: number): number | null => (behind(line) ? line + more : line <= start.line ? line : line === end.line ? start.line : null);
   const found = new Map<number, Stop>();
@@ -67,7 +67,7 @@ export function moved(all: readonly Stop[], { range: { start, end }, text }: Tol
   return [...found.values()];
 }
 
-/** What was remembered, as far as it is sound; before conditions there were lines alone. */
+/** The valid part of the stored value; older versions stored only lines. */
 function sound(kept: unknown): Record<string, Stop[]> {
   if (typeof kept !== "object" || kept === null) return {};
   const one = (stop: any): Stop[] => {
@@ -84,7 +84,7 @@ export function begin(storage: Storage): void {
   try {
     breakpoints.value = sound(JSON.parse(storage.getItem(KEY) ?? "{}"));
   } catch {
-    // What cannot be read is forgotten.
+    // An unreadable value is ignored.
   }
   onText((uri, _changes, _maker, told) => {
     const before = stopsOf(uri);

@@ -1,4 +1,4 @@
-// Numbers that a run has told, over its time: what entries held and what sensors said, to be plotted.
+// Numbers of a run over its time, to plot: values of entries and sensors.
 import { signal } from "@preact/signals";
 import { quantity } from "../drawing/value";
 import { sensed } from "../world/sensed";
@@ -46,10 +46,10 @@ function thinned(all: Curve["points"]): Curve["points"] {
   });
 }
 
-/** What a curve was at a moment; null before it was told. */
+/** The value of a curve at a moment; null before its first point. */
 export const valueAt = ({ points }: Curve, at: number): number | null => points[until(points, at) - 1]?.[1] ?? null;
 
-/** The curve with what was told of a moment: one between others, too, since a run can be gone back in. */
+/** The curve with a new point, possibly between others, since a run can go back. */
 export function extended(curve: Curve | undefined, at: number, text: string): Curve | undefined {
   const told = plotted(text);
   if (!told || (curve && curve.unit !== told.unit && told.number !== 0)) return curve;
@@ -68,7 +68,7 @@ export const cut = (curve: Curve, at: number): Curve => ({ ...curve, points: cur
 /** Curves of the run that is shown, by entry or signal. */
 export const curves = signal<ReadonlyMap<string, Curve>>(new Map());
 
-/** Takes what a moment has told. */
+/** Adds the values of a moment. */
 export function tell(at: number, values: Iterable<readonly [name: string, text: string]>): void {
   const known = curves.peek();
   const changed = [...values].flatMap(([name, text]) => {

@@ -17,7 +17,7 @@ export interface At {
 /** The frame of the plan that is shown, the innermost where it is active several times. */
 export const frameOf = (frames: readonly Frame[], plan: string | null): Frame | undefined => [...frames].reverse().find((frame) => frame.plan === plan);
 
-/** What a run is at, in the plan that is shown. */
+/** The places of a run in the displayed plan. */
 export function at(frames: readonly Frame[], plan: string | null, stack: readonly string[], watching: readonly string[]): At {
   const frame = frameOf(frames, plan);
   if (!frame) return { active: [], watching: [] };

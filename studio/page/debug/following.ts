@@ -1,4 +1,4 @@
-// The drawing goes where a run stands still: into the sub-plan that is active, and out of it.
+// The drawing follows a stopped run into the active sub-plan, and out of it.
 import { effect, signal } from "@preact/signals";
 import { drawing, show } from "../drawing/model";
 import { command } from "../screen/commands";

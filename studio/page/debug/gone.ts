@@ -1,4 +1,4 @@
-// A run ends with its page: one that is loaded anew says so.
+// A run ends with its page; a reloaded page reports that.
 import { effect } from "@preact/signals";
 import { trouble } from "../panes/files";
 import { words } from "../words";

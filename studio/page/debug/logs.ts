@@ -14,7 +14,7 @@ export async function openLogAt(uri: string, at: number): Promise<void> {
   seek(at);
 }
 
-/** Waits until a run stands still or goes on, or has failed to. */
+/** Waits until a run stops, continues or fails. */
 const begun = (): Promise<void> =>
   new Promise((done) => {
     const ends = effect(() => {

@@ -1,4 +1,5 @@
-// What a run is at, shown on the drawing: the active element, plans around it, supervisors that watch, edges just taken.
+// The state of a run in the drawing: the active element, enclosing plans, watching supervisors,
+// recent edges.
 import { effect } from "@preact/signals";
 import { svg } from "../drawing/fragment";
 import { drawing } from "../drawing/model";
@@ -26,7 +27,10 @@ function frame([x, y, width, height]: Rect, name: string): SVGElement {
   return svg("rect", { class: name, x: x - 1.5, y: y - 1.5, width: width + 3, height: height + 3, rx: 10.5 });
 }
 
-/** A triangle in a corner, or two bars where the run stands still: what is active is told by more than its colour. */
+/**
+ * A triangle in a corner, or two bars if the run is stopped, so that activity has more than a
+ * colour.
+ */
 function sign([x, y]: Rect, held: boolean): SVGElement[] {
   const shape = held ? `M${x - 4} ${y - 4}h3v8h-3zm5 0h3v8h-3z` : `M${x - 3} ${y - 4.5}l7 4.5l-7 4.5z`;
   return [svg("circle", { class: `run-sign${held ? " held" : ""}`, cx: x, cy: y, r: 9 }), svg("path", { class: "run-arrow", d: shape })];
@@ -90,7 +94,7 @@ function disc([x, y, , height]: Rect, { off, condition, log }: Stop): SVGElement
   return condition ? [body, svg("path", { class: "breakpoint-sign", d: `M${x - 3} ${middle - 1.5}h6m-6 3h6` })] : [body];
 }
 
-/** What a run stops at. */
+/** The breakpoints of a run. */
 export function discs(layer: SVGGElement): () => void {
   return effect(() => {
     const drawn = drawing.value;
@@ -125,7 +129,7 @@ function flash({ over, edges }: Layers, drawn: Drawing, ids: readonly string[]):
   const [first, ...rest] = ways.flatMap((way) => way.points);
   dot.style.offsetPath = `path("M${first!.join(" ")}${rest.map((point) => `L${point.join(" ")}`).join("")}")`;
   for (const group of groups) group.classList.add("taken");
-  // What is active may change meanwhile, and with it what lies in the layer itself.
+  // The active element may change meanwhile, and the layer with it.
   over.after(dot, ...rings);
   setTimeout(() => {
     for (const group of groups) group.classList.remove("taken");
@@ -133,7 +137,7 @@ function flash({ over, edges }: Layers, drawn: Drawing, ids: readonly string[]):
   }, FADES);
 }
 
-/** Keeps what entries hold; what has just been written stands out for a while. */
+/** Shows the values of entries, and highlights new values for a while. */
 export function values(root: Element, layer: SVGGElement): () => void {
   let before: ReadonlyMap<string, Held> = new Map();
   let drawnBefore: Drawing | null = null;

@@ -8,7 +8,7 @@ import type { State } from "./told";
 
 /** Whether a document that is open has another text than the one that runs. */
 export function olderThan(state: ReadonlySignal<State | null>): ReadonlySignal<boolean> {
-  // What is the case changes some twenty times a second, what runs does not.
+  // The state changes some twenty times a second, the run does not.
   const sources = computed(() => JSON.stringify(state.value?.sources ?? {}));
   return computed(() => {
     const running = JSON.parse(sources.value) as State["sources"];

@@ -1,4 +1,4 @@
-// Whether the plan that is shown can be run: what is in the way is shown, and said as long as it is.
+// Whether the displayed plan can run; the reason against it is shown.
 import { effect } from "@preact/signals";
 import { current } from "../documents/documents";
 import { drawing, plan, trail, wanted, type Place } from "../drawing/model";
@@ -11,7 +11,10 @@ import { trusted } from "../jobs/trust";
 import { words } from "../words";
 import { isWritten } from "./written";
 
-/** The plan to be run: the one that led to what is shown. What was chosen last counts, though its drawing may still be on its way. */
+/**
+ * The plan to run: the one that led to the displayed plan. The last choice counts, even while its
+ * drawing is loading.
+ */
 export const toRun = (): Place => trail.value[0] ?? { uri: current.value, plan: wanted.value ?? plan.value ?? "" };
 export const planToRun = (): string => toRun().plan;
 

@@ -1,4 +1,4 @@
-// What scenarios came to, on the drawing: which elements failed ones name, and which none made use of.
+// Results of scenarios in the drawing: elements named by failed ones, and unused elements.
 import { svg } from "../drawing/fragment";
 import { rectOf, type Drawing } from "../drawing/shapes";
 

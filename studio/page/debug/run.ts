@@ -1,4 +1,4 @@
-// A run of the plan: launched, paused, stepped, ended; what the page knows of it.
+// A run of the plan: launched, paused, stepped, ended; and its state in the page.
 import { computed, effect, signal } from "@preact/signals";
 import { pathOf, uriOf } from "../documents/addresses";
 import { connect, type Dap } from "../server/dap";
@@ -30,13 +30,13 @@ export const speed = signal<number | null>(1);
 export const world = signal<string | null>(null);
 /** The seed of all noise of the next run. */
 export const seed = signal(0);
-/** What inputs have in the next runs, as people write it; the others have what the plan says. */
+/** Values of inputs for the next runs, with units; other inputs use the plan's values. */
 export const given = signal<{ readonly [input: string]: string }>({});
-/** What has happened, as records. */
+/** The events, as records. */
 export const records = signal<readonly Record[]>([]);
 /** The log that is shown in place of a run; empty for a run. */
 export const log = signal("");
-/** Why it stands still. */
+/** The reason for the stop. */
 export const why = signal("");
 export const active = computed(() => phase.value === "running" || phase.value === "held" || phase.value === "starting");
 
@@ -51,7 +51,7 @@ let ran = "";
 
 export const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
 
-/** Runs the plan that is shown, or the one that led to it; where something is in the way, that is said and shown instead. */
+/** Runs the displayed plan, or the one that led to it; otherwise shows the reason. */
 export async function start(hold = false): Promise<void> {
   if (active.value) return;
   try {
@@ -70,7 +70,7 @@ const wantedWorld = (): object => ({
   ...(arranged.start.value ? { start: arranged.start.value } : {}),
 });
 
-/** Shows a run that is over, from its log; it stands at its beginning. */
+/** Shows a recorded run from its log, at its beginning. */
 export async function openLog(path: string): Promise<void> {
   await stop();
   dismiss();
@@ -122,7 +122,7 @@ function hear(own: Dap): void {
   });
 }
 
-/** Who has been told where to stop, and is told again when that changes; before, there is no plan that it could belong to. */
+/** The debugger, which receives changes of breakpoints; before a run there is none. */
 let ready: Dap | null = null;
 
 async function configure(own: Dap): Promise<void> {
@@ -187,13 +187,18 @@ function failed(reason: unknown): void {
   phase.value = "idle";
 }
 
-/** Asks something of the run; what is refused is shown. */
+/** Sends a request to the run; a rejection is shown. */
 export const order = (command: string, args: object = { threadId: 1 }): Promise<unknown> | undefined => dap?.request(command, args).catch(report);
 
-/** Asks something of the run that nobody waits for; without a run, or refused, there is no answer. */
+/**
+ * Sends a request to the run in the background; without a run, or if it is rejected, there is no
+ * answer.
+ */
 export const ask = <T>(command: string, args: object = {}): Promise<T | null> => dap?.request<T>(command, args).catch(() => null) ?? Promise.resolve(null);
 
-/** What a word of the text is in the run at this moment; nothing without a run, or where the text is another one by now. */
+/**
+ * The meaning of a word in the run at this moment; null without a run, or if the text has changed.
+ */
 export async function valueAt(uri: string, expression: string, at: Position): Promise<string | null> {
   if (phase.peek() === "idle" || older.peek()) return null;
   const place = { source: { path: pathOf(uri) }, line: at.line + 1, column: at.character + 1 };
@@ -215,7 +220,7 @@ export function goOn(): unknown {
   return order("continue");
 }
 
-/** Goes on for one step; before a run, begins one that stands still. */
+/** Makes one step; without a run, starts one that is stopped. */
 function step(command: string): unknown {
   if (!active.value) return start(true);
   if (phase.value === "held") phase.value = "running";
@@ -235,7 +240,7 @@ export async function stop(): Promise<void> {
   if (phase.value !== "over") phase.value = "idle";
 }
 
-/** Begins anew, with the text as it is now. */
+/** Starts again with the current text. */
 export async function again(): Promise<void> {
   await stop();
   dismiss();
@@ -257,7 +262,7 @@ export function dismiss(): void {
   [phase.value, ended.value, state.value, log.value, sensed.value] = ["idle", null, null, "", null];
 }
 
-/** Goes to another moment of the run, and stands still there; a run that is over goes back. */
+/** Goes to another moment of the run and stops there; a recorded run goes back. */
 export function seek(at: number): unknown {
   if (phase.peek() === "idle" || phase.peek() === "starting") return;
   return order("afp/seek", { at });
@@ -275,7 +280,7 @@ export function revealSaid({ path, line }: Said): void {
   if (path && path === pathOf(uri)) void reveal(uri, { start: place, end: place }, "other");
 }
 
-/** Begins to notice where the run shall stop, and that a run which is over is none of the file that is shown next. */
+/** Begins to follow breakpoints, and closes a recorded run when another file is shown. */
 export function begin(): () => void {
   effect(() => {
     const { uri } = toRun();

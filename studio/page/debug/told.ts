@@ -1,4 +1,4 @@
-// What a debugger tells of a run.
+// The messages of a debugger about a run.
 
 export type Phase = "idle" | "starting" | "running" | "held" | "over";
 
@@ -9,7 +9,7 @@ export interface Forced {
   until: number;
 }
 
-/** What is the case, as the debugger says it some twenty times a second. */
+/** The state, sent by the debugger some twenty times a second. */
 export interface State {
   at: number;
   stack: string[];
@@ -18,7 +18,7 @@ export interface State {
   held: boolean;
   /** Where the robot is, metres and radians; null for one that does not say so. */
   pose: readonly [number, number, number] | null;
-  /** What is held in place, and until when; without a value it is a state or event. */
+  /** A force, with its end; without a value it is a state or event. */
   forced: readonly Forced[];
   /** The hashes of the texts that run, by their paths. */
   sources: { readonly [path: string]: string };

@@ -1,4 +1,4 @@
-// What has happened in a run, kept as records for the timeline: rows of what was active, what watched, what was written.
+// The events of a run as records for the timeline: rows for activity, watching and writes.
 
 export interface Record {
   at: number;
@@ -25,7 +25,7 @@ export interface Mark {
 }
 
 export interface Row {
-  /** What it is about: the flow of a plan, a supervisor, an entry, deadlines. */
+  /** The subject: the flow of a plan, a supervisor, an entry, deadlines. */
   kind: "flow" | "supervisor" | "entry" | "misses";
   name: string;
   bars: Bar[];
@@ -69,7 +69,7 @@ export const packed = (record: Record): Record => ({
 
 const same = (one: Record, other: Record): boolean => one.step === other.step && one.kind === other.kind && one.path === other.path && one.text === other.text;
 
-/** What ends what was active. */
+/** The kinds of records that end an activity. */
 const ENDS = ["finished", "interrupted", "diverted", "ended"];
 
 /** Of an element, the plan that it is in. */
@@ -108,7 +108,7 @@ function follow({ kind, path, at, text }: Record, row: Row): void {
   }
 }
 
-/** What watches or runs inside of an element ends with it. */
+/** Activity and watching inside an element end with it. */
 function close({ bars }: Row, at: number): void {
   const open = bars.at(-1);
   if (open?.to === null) open.to = at;
@@ -140,7 +140,7 @@ export function zoomed({ from, to }: Window, around: number, factor: number, end
   return within({ from: around - share * length, to: around - share * length + length }, end);
 }
 
-/** The window moved so that it lies within the run. */
+/** The window moved inside the run. */
 export function within({ from, to }: Window, end: number): Window {
   const length = to - from;
   const begin = Math.max(0, Math.min(from, Math.max(0, end - length)));

@@ -1,4 +1,4 @@
-// What each entry holds in a run, on the drawing: a chip in the place of what the plan declares.
+// The value of each entry during a run, shown in the drawing as a chip in place of its declaration.
 import { svg } from "../drawing/fragment";
 import { nameOf, rectOf, type Drawing, type Entry } from "../drawing/shapes";
 import { frameOf, type Frame } from "./follow";
@@ -6,7 +6,10 @@ import type { State } from "./told";
 
 /** Characters of a value that a chip shows. */
 const LONGEST = 22;
-/** The width of a character, the height of a chip, what stands around its text, and the width of a lock, in units of the plan. */
+/**
+ * The width of a character, the height of a chip, its padding, and the width of a lock, in units of
+ * the plan.
+ */
 const CHARACTER = 7.6;
 const HEIGHT = 18;
 const PAD = 6;
@@ -20,7 +23,7 @@ export interface Held {
   left: number | null;
 }
 
-/** What an entry of the plan that is shown holds; null where a run says nothing of it. */
+/** The value of an entry in the displayed plan; null if the run has none. */
 export function holding(frames: readonly Frame[], plan: string | null, now: Pick<State, "at" | "entries" | "forced">, item: string): Held | null {
   const frame = frameOf(frames, plan);
   if (!frame) return null;
@@ -28,7 +31,7 @@ export function holding(frames: readonly Frame[], plan: string | null, now: Pick
   const text = now.entries[path];
   const forced = now.forced.find((each) => each.path === path && each.value !== undefined);
   if (text === undefined) return null;
-  // What is forced while a run stands still is written by its next step.
+  // A forced value of a stopped run is written by its next step.
   return forced ? { text: forced.value ?? text, left: Math.max(0, Math.ceil(forced.until - now.at)) } : { text, left: null };
 }
 

@@ -24,7 +24,7 @@ export interface Why {
   because?: string;
 }
 
-/** What is asked about; empty for nothing. */
+/** The path in question; empty for none. */
 export const asked = signal("");
 export const why = signal<Why | null>(null);
 

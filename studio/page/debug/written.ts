@@ -1,4 +1,4 @@
-// Waits for the disk: what runs is read from there.
+// Waits for the disk, since a run reads the files.
 import { saved } from "../documents/documents";
 
 /** Waits a little until the server has written everything. */

@@ -26,7 +26,7 @@ export function sequence(uri: string, changes: ChangeSet): Change[] {
   return made;
 }
 
-/** What makes one text of another, line by line, to be made one after the other. */
+/** The changes from one text to another, line by line, to apply in order. */
 export function difference(uri: string, before: string, after: string): Change[] {
   const [old, now] = [lines(before), lines(after)];
   const [starts, ends] = [offsets(old), offsets(now)];
@@ -46,7 +46,10 @@ function offsets(all: readonly string[]): number[] {
   return found;
 }
 
-/** The one change between two pieces of text: what both begin and end with is left out, and no letter is taken apart. */
+/**
+ * The single change between two texts, without common start and end, and without splitting a
+ * character.
+ */
 function within(uri: string, before: string, after: string, at: number): Change {
   let from = 0;
   while (from < before.length && from < after.length && before[from] === after[from]) from++;

@@ -6,7 +6,7 @@ export type Keep = "mine" | "theirs" | "both";
 export interface Conflict {
   uri: string;
   choices: Keep[];
-  /** What was written here and lies nowhere else; null where the room holds both texts, and says when it is over. */
+  /** A text that exists only here; null if the room has it. */
   mine: string | null;
   choose(keep: Keep): Promise<void>;
 }

@@ -1,4 +1,5 @@
-// The texts of the page: opened from the room, changed in one place, told to the server, said to be saved by it alone.
+// The texts of the page: opened from the room, changed in one place, sent to the server, and saved
+// only by it.
 import type { ChangeSet } from "@codemirror/state";
 import { computed, signal } from "@preact/signals";
 import { difference, withNewlines } from "./changes";
@@ -15,19 +16,19 @@ import { words } from "../words";
 interface Document extends Kept {
   /** The last version that the room has written. */
   written: number;
-  /** What was made of it since the text that the room is known to have. */
+  /** The changes since the last text known to the room. */
   pending: pending.Pending;
   failed: string | null;
 }
 
 type Taker = (uri: string, changes: Change[], maker: Maker, told: Told[]) => void;
 
-/** Who brought a change about, so that it is not told what it knows. */
+/** The author of a change, who does not receive it again. */
 export type Maker = "text" | "outside" | "page";
 
 const documents = signal<ReadonlyMap<string, Document>>(new Map());
 const opening = new Map<string, Promise<void>>();
-/** A change as the server is told it: lines and columns of the text as it was right before. */
+/** A change for the server, with lines and columns of the text right before it. */
 export interface Told {
   range: Range;
   text: string;
@@ -38,7 +39,9 @@ const takers = new Set<Taker>();
 /** The address of the plan file that is shown; empty without one. */
 export const current = signal("");
 
-/** What the server says of the texts: all written, being written, not before somebody has chosen, or why one is not. */
+/**
+ * The state of the texts: saved, being saved, waiting for a choice, or the reason for a failure.
+ */
 export const saved = computed<"saved" | "saving" | "disputed" | (string & {})>(() => {
   const all = [...documents.value.values()];
   const failed = all.find((each) => each.failed !== null);
@@ -65,7 +68,7 @@ export const opened = computed<readonly string[]>(() => [...documents.value.keys
 export const text = (uri: string): string => documents.value.get(uri)?.text ?? "";
 export const version = (uri: string): number => documents.value.get(uri)?.version ?? 0;
 export const isOpen = (uri: string): boolean => documents.value.has(uri);
-/** What people call a document: its path from the root of the folder. */
+/** The display name of a document: its path from the root of the folder. */
 export const nameOf = (uri: string): string =>
   files.value.find((file) => file.uri === uri)?.name ?? decodeURIComponent(uri.split("/").at(-1) ?? uri);
 
@@ -154,7 +157,7 @@ function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] 
   return steps;
 }
 
-/** Tells the server what was made here, which it has once it says so; without a connection it is told later. */
+/** Sends local changes to the server, or sends them after a reconnection. */
 const own: Say = (uri, told, changes) => {
   const version = tell(lsp(), uri, told);
   const document = documents.peek().get(uri)!;
@@ -163,7 +166,7 @@ const own: Say = (uri, told, changes) => {
 
 /** Letters that a change takes in a message beside its text, about. */
 const AROUND = 100;
-/** Letters of changes that are told in any case. */
+/** The number of letters up to which changes are always sent. */
 const FEW = 100_000;
 
 /**
@@ -220,21 +223,21 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
   lsp().on("afp/pen", hold);
 }
 
-/** What was done here, while the text that comes of it is on its way from the room. */
+/** The local change whose text is on its way from the room. */
 const expected = new Map<string, string>();
 
 function hold({ yours }: { yours: boolean }): void {
-  // Who begins to change things begins a history of his own.
+  // A new editing client begins with an empty history.
   if (yours && !pen.peek()) clear();
   pen.value = yours;
 }
 
-/** Begins to change things here; who did it before watches. */
+/** Takes the edit lock; the previous holder becomes read-only. */
 export async function takePen(): Promise<void> {
   hold(await lsp().request("afp/pen", { take: true }));
 }
 
-/** Asks whether a text that was written here, and lies nowhere else, takes the place of the one that is shown. */
+/** Asks whether a text that exists only here replaces the displayed one. */
 export function offer(uri: string, mine: string): void {
   const choose = async (keep: Keep): Promise<void> => {
     if (keep !== "mine") return;
@@ -244,7 +247,7 @@ export function offer(uri: string, mine: string): void {
   dispute({ uri, choices: ["mine", "theirs"], mine, choose });
 }
 
-/** Takes over a text that the room has, made with a version in sight. What was saved here is so still: theirs lies in the file. */
+/** Takes over a text of the room, based on a known version. A text saved here stays saved. */
 function arrived(uri: string, now: string, seen: number, number: number): void {
   const before = documents.peek().get(uri)!;
   const [rest, changes] = pending.arrived(uri, before.pending, seen, now);
@@ -267,15 +270,15 @@ function takeOver(uri: string, changes: Change[], say: Say): void {
   else record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
 }
 
-/** On a new connection: reads everything that is open anew. What it gives opens it, and sends what the server was not told. */
+/** On a new connection, reads all open texts again, opens them and sends pending changes. */
 export async function again(first: Lsp): Promise<Finish> {
   const uris = [...documents.peek().keys()];
   const all = await Promise.all(uris.map((uri) => first.request<Kept>("afp/read", { uri }).catch(refused)));
-  // All at once: what is typed after it is told as ever.
+  // All at once, since later typing is sent as usual.
   return () => all.forEach((kept, at) => reopen(first, uris[at]!, kept));
 }
 
-/** Why a text cannot be read; what is no answer stays an error. */
+/** The reason why a text cannot be read; other errors are passed on. */
 function refused(why: unknown): Refused {
   if (why instanceof Refused && why.code !== LOST) return why;
   throw why;
@@ -283,7 +286,7 @@ function refused(why: unknown): Refused {
 
 function reopen(first: Lsp, uri: string, kept: Kept | Refused): void {
   const before = documents.peek().get(uri)!;
-  // The others go on; this one is not saved, which is said.
+  // The other texts continue; this one is reported as not saved.
   if (kept instanceof Refused) return put({ ...before, failed: kept.message });
   const { text: theirs, etag } = kept;
   const mine = before.text;
@@ -291,7 +294,7 @@ function reopen(first: Lsp, uri: string, kept: Kept | Refused): void {
   first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text: theirs } });
   put({ ...before, version, written: version, etag, pending: pending.known(theirs), failed: null });
   if (mine === theirs) return;
-  // What was killed may have written more than it could say.
+  // A killed job may have written more than it reported.
   if (pen.peek() && pending.mayBe(before.pending, theirs)) {
     const version = tell(first, uri, [{ text: mine }]);
     const changes = pending.together(difference(uri, theirs, mine), theirs.length);

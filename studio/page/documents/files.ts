@@ -12,7 +12,7 @@ interface Whole {
   text: string;
 }
 
-/** What was removed last, until it is put back or something else is removed. */
+/** The last removed file, until it is restored or another one is removed. */
 export const removed = signal<readonly Whole[] | null>(null);
 
 /** A file, and the places of its drawing where it has some. */

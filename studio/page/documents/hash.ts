@@ -1,4 +1,4 @@
-// What tells texts apart, as the debugger says it of those that run: FNV-1a with 64 bits, in two halves.
+// The debugger's hash of a text: FNV-1a with 64 bits, in two halves.
 
 /** The hash of a text, however its lines end in the file. */
 export function hash(text: string): string {

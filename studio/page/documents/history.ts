@@ -3,7 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import type { Part } from "../drawing/shapes";
 
-/** Puts `insert` where `from..to` of a text stands. Those of a list are made one after the other. */
+/** Replaces `from..to` of a text by `insert`. Changes of a list are applied in order. */
 export interface Change {
   uri: string;
   from: number;
@@ -25,7 +25,7 @@ export interface Entry {
   select?: Part[];
   /** Made by another program or person: undoing it asks first. */
   foreign?: boolean;
-  /** When it was typed, in milliseconds: what is typed soon afterwards beside it joins it. */
+  /** The time in milliseconds; typing soon afterwards at the same place joins it. */
   typed?: number;
 }
 
@@ -78,7 +78,7 @@ export function stepForth(log: Log): [Log, Entry] | null {
   return entry ? [{ past: [...log.past, entry], future: log.future.slice(0, -1) }, entry] : null;
 }
 
-/** What happened, and what was undone. Written here and by `keep.ts` after a reload. */
+/** The undo and redo lists, filled here and by `keep.ts` after a reload. */
 export const log = signal<Log>(EMPTY);
 export const undoLabel = computed(() => log.value.past.at(-1)?.label ?? null);
 export const redoLabel = computed(() => log.value.future.at(-1)?.label ?? null);
@@ -92,7 +92,10 @@ interface Hands {
 }
 let hands: Hands | null = null;
 
-/** Says who makes changes and selects: `documents.ts`, or a test. The history begins anew. */
+/**
+ * Sets the functions that make changes and select: those of `documents.ts`, or a test's. The
+ * history begins empty.
+ */
 export function attach(own: Hands): void {
   hands = own;
   log.value = EMPTY;
@@ -114,7 +117,7 @@ export function record(entry: Entry): void {
 /** Changes that were begun and are not made yet. */
 const under = new Set<Promise<unknown>>();
 
-/** Notes a change that is on its way until it is made, or is not: what is undone meanwhile is that. */
+/** Notes a pending change until it is made or rejected; an undo then applies to it. */
 export function underWay<T>(change: Promise<T>): Promise<T> {
   const end = (): void => void under.delete(change);
   under.add(change);
@@ -130,7 +133,7 @@ async function move(step: typeof stepBack, changes: typeof backward): Promise<vo
   if (next[1].foreign && !(await hands.agree(next[1].label))) return;
   // While somebody thought about it, something else may have happened.
   if (log.value !== before) return;
-  // What cannot be made stays to be done.
+  // A change that cannot be made stays in the list.
   hands.make(changes(next[1].steps));
   log.value = next[0];
   if (next[1].select) hands.select(next[1].select);
@@ -139,7 +142,7 @@ async function move(step: typeof stepBack, changes: typeof backward): Promise<vo
 export const undo = (): Promise<void> => move(stepBack, backward);
 export const redo = (): Promise<void> => move(stepForth, forward);
 
-/** Forgets everything: who takes the pen begins anew. */
+/** Clears the history: a new holder of the edit lock begins with an empty one. */
 export function clear(): void {
   log.value = EMPTY;
 }

@@ -1,4 +1,4 @@
-// How long a text may get: what is longer the server neither writes nor opens again.
+// The longest text that the server writes and opens.
 import { hello } from "../server/session";
 import { words } from "../words";
 

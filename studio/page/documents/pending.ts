@@ -1,10 +1,10 @@
-// What was made of a text here and may not have reached the room yet: what the room says meanwhile goes around it, so that
-// neither takes anything from the other.
+// Local changes that may not have reached the room: the room's changes are merged with them, so
+// that both are kept.
 import { ChangeSet, Text } from "@codemirror/state";
 import { difference, sequence } from "./changes";
 import type { Change } from "./history";
 
-/** A text as the room is known to have it, and what was told since. */
+/** A text known to the room, and the changes sent since then. */
 export interface Pending {
   readonly base: string;
   /** One after the other, with the versions that they made. */
@@ -21,7 +21,7 @@ export function together(changes: readonly Change[], length: number): ChangeSet 
 /** A text that the room has. */
 export const known = (base: string): Pending => ({ base, made: [] });
 
-/** One more version was told. */
+/** Counts a sent version. */
 export const told = ({ base, made }: Pending, version: number, changes: ChangeSet): Pending => ({ base, made: [...made, { version, changes }] });
 
 /** The room has a version, and with it all before. */
@@ -32,7 +32,7 @@ export function reached({ base, made }: Pending, version: number): Pending {
   return { base: text.toString(), made: made.slice(there.length) };
 }
 
-/** The room has another text, made with a version in sight: what that changes in the text that is here. */
+/** Merges a text of the room, based on a known version, into the local text. */
 export function arrived(uri: string, before: Pending, version: number, text: string): [Pending, Change[]] {
   const { base, made } = reached(before, version);
   let news = together(difference(uri, base, text), base.length);
@@ -44,7 +44,7 @@ export function arrived(uri: string, before: Pending, version: number, text: str
   return [{ base: text, made: moved }, sequence(uri, news)];
 }
 
-/** Whether the room may have a text: the one that it was known to have, or one that it was told since. */
+/** Whether the room may have a text: the last known one, or one sent since then. */
 export function mayBe({ base, made }: Pending, text: string): boolean {
   if (base === text) return true;
   let each = doc(base);

@@ -1,4 +1,5 @@
-// Places in texts: the protocol's lines and UTF-16 columns, and offsets into strings. Lines end with `\n` alone.
+// Positions in texts: the protocol's lines and UTF-16 columns, and offsets into strings. Lines end
+// only with `\n`.
 
 export interface Position {
   line: number;

@@ -1,5 +1,5 @@
-// Texts that the server could not take outlive their page: kept in the browser's storage while they lie nowhere else, and
-// offered when their file is opened again. Each page has a key of its own, since several may show one file.
+// Unsent texts outlive their page: the browser's storage keeps them, and the page offers them when
+// their file is opened again. Each page has a separate key, since several may show one file.
 import { effect } from "@preact/signals";
 import { offer, opened, saved, text, unsent } from "./documents";
 import { lsp } from "../server/session";
@@ -16,7 +16,7 @@ export interface Kept {
 
 type Pages = Pick<Storage, "getItem" | "setItem" | "removeItem" | "key" | "length">;
 
-/** What pages have kept, by their keys, the newest first. */
+/** The stored texts by key, newest first. */
 export function kept(storage: Pages): [string, Kept][] {
   const keys = Array.from({ length: storage.length }, (_, at) => storage.key(at)!).filter((key) => key.startsWith(PREFIX));
   return keys.flatMap((key) => read(storage, key)).sort(([, a], [, b]) => b.at - a.at);
@@ -68,7 +68,7 @@ export function begin(storage: Storage): void {
       if (seen.has(uri)) continue;
       seen.add(uri);
       const mine = claim(storage, uri, text(uri));
-      // Once the text is told to everybody who hears that it is open.
+      // After all listeners know the open text.
       if (mine !== null) queueMicrotask(() => offer(uri, mine));
     }
   });

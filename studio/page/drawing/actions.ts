@@ -1,4 +1,4 @@
-// What is done to a plan from its drawing: each ends in one request and one entry of the history.
+// Changes of a plan from its drawing: each is one request and one entry of the history.
 import { select, selected } from "../plan/selection";
 import * as ask from "./ask";
 import * as catalog from "./catalog";
@@ -53,7 +53,10 @@ const ownerOf = (drawn: Drawing, part: Part): string | null => {
   return holder && holder.kind !== null ? nameOf(holder.item) : null;
 };
 
-/** Adds a template after the selection, connected from its first free exit; a supervisor onto it. Where there is no plan, one is begun. */
+/**
+ * Adds a template after the selection, connected to its first free exit; adds a supervisor to the
+ * selection. If there is no plan, it starts one.
+ */
 export async function addAfter(offer: ask.Offer): Promise<void> {
   const at = here();
   if (!at) return beginPlan(offer);
@@ -135,7 +138,7 @@ export async function remove(parts: readonly Part[]): Promise<void> {
   const whole = new Set(parts.filter((part) => (part.part?.kind ?? "whole") === "whole").map((part) => part.item));
   const changes: ask.Change[] = [];
   for (const { item, part } of parts) {
-    // What goes with its owner is not removed by itself.
+    // An item with a selected owner is removed with it.
     const owner = item.split(".").slice(0, 2).join(".");
     if (!item.includes(".") || (item !== owner && whole.has(owner))) continue;
     if (part?.kind === "exit") changes.push({ disconnect: { from: item, outcome: part.name } });
@@ -187,11 +190,11 @@ export async function automatic(): Promise<void> {
 /** The selected items as text, in the order in which they stand there, with the toolboxes that they need above, and the start among them. */
 export async function copied(): Promise<string> {
   const chosen = new Set(selected.peek().map((part) => part.item));
-  // What goes with its owner is not written by itself.
+  // An item with a selected owner is copied with it.
   const items = [...chosen].filter((item) => item.includes(".") && !(item.split(".").length > 2 && chosen.has(item.split(".").slice(0, -1).join("."))));
   const texts = await ask.inOrder(items);
   const templates = new Set(texts.flatMap((text) => [...text.replace(/\/\/.*/g, "").matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
-  // Who copies before the palette is there needs its toolboxes, too.
+  // Copying before the palette is loaded needs its toolboxes, too.
   const known = catalog.offers.peek().length ? catalog.offers.peek() : await ask.palette("");
   const toolboxes = new Set(known.filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
   const uses = [...toolboxes].map((name) => `use ${name}\n`).join("");
@@ -223,7 +226,7 @@ export async function fitting(from: Part): Promise<ReadonlyMap<string, string | 
   return new Map(all.filter((one) => one.kind !== null).map((one) => [nameOf(one.item), null]));
 }
 
-/** What a double click does: into the plan behind an element, or its name. */
+/** A double click: opens a sub-plan, or edits a name. */
 export function open(part: Part): void {
   if (drawing.peek()?.elements.get(part.item)?.plan) into(part);
   else rename(part);
@@ -236,7 +239,7 @@ export function into(part: Part | null): void {
   else refuse(words.noSubPlan);
 }
 
-/** Makes the selected element from another template; what is bound and connected stays. */
+/** Changes the template of the selected element and keeps bindings and edges. */
 export async function template(): Promise<void> {
   const part = focused();
   const isMine = turn();

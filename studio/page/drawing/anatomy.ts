@@ -15,7 +15,7 @@ export interface Port {
 export interface Exit {
   part: Part;
   name: string;
-  /** What it leads to, as it is written; empty for nothing. */
+  /** Its target as written; empty for none. */
   to: string;
 }
 
@@ -45,13 +45,13 @@ export function headed(text: string): { kind: string; template: string; every: s
   return { kind, template, every: after("every"), deadline: after("deadline") };
 }
 
-/** Where the last letter of its template stands in that text; null where it has none. */
+/** The end of its template's name in that text; null without one. */
 export function templateAt(text: string): number | null {
   const end = HEAD.exec(text)?.indices?.[2]?.[1];
   return end === undefined ? null : end - 1;
 }
 
-/** Asks for the parts of an item; null where it is no element or supervisor. */
+/** Requests the parts of an item; null if it is not an element or supervisor. */
 export async function anatomy(drawing: Drawing, item: string): Promise<Anatomy | null> {
   const text = await ask.written(item);
   const { kind, template, every, deadline } = headed(text);
@@ -60,7 +60,7 @@ export async function anatomy(drawing: Drawing, item: string): Promise<Anatomy |
   const drawn = holderOf(drawing, item)?.pieces.filter((piece) => piece.item === item) ?? [];
   const bound = drawn.filter(({ part }) => part.kind === "input" || part.kind === "output");
   const known = (offer?.ports ?? []).map(declared).filter((port) => port !== null);
-  // What a text binds that its template does not know is shown, too.
+  // Bindings unknown to the template are shown, too.
   const more = bound.filter(({ part }) => !known.some((port) => port.name === part.name)).map(({ part }) => ({ name: part.name ?? "", out: part.kind === "output" }));
   const ports = await Promise.all([...known, ...more].map((port) => asked(item, port)));
   const outcomes = [...new Set([...(offer?.exits ?? []), ...drawn.filter(({ part }) => part.kind === "exit").map(({ part }) => part.name ?? "")])];
@@ -79,7 +79,7 @@ async function led(item: string, name: string): Promise<Exit> {
   return { part, name, to: text.split("->")[1]?.trim() ?? "" };
 }
 
-/** What is said of a port's value: its own, its default, or that it needs one. */
+/** The state of a port's value: bound, default, or required. */
 export function worth({ answer, out }: Port): string {
   if (answer?.value) return answer.value;
   if (out) return "";

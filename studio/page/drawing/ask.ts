@@ -39,7 +39,7 @@ export interface PortAnswer {
   step: number | null;
   unit: string;
   units: string[];
-  /** What one of each unit is worth. */
+  /** The SI value of each unit. */
   scales: number[];
 }
 
@@ -54,7 +54,7 @@ export const targets = async (item: string, outcome: string): Promise<Candidate[
 
 export const port = (item: string, port: string): Promise<PortAnswer | null> => ask<PortAnswer | null>("afp/candidates", { item, port });
 
-/** The text of an item or part, as it stands in the document; empty where it has none. */
+/** The text of an item or part in the document; empty if it has none. */
 export async function written(item: string, part?: PartOf): Promise<string> {
   const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) });
   const whole = text(current.peek());
@@ -71,7 +71,7 @@ export async function inOrder(items: readonly string[]): Promise<string[]> {
   return places.map(([from, to], nth) => `${isApart(nth) ? "\n" : ""}${whole.slice(from, to)}`);
 }
 
-/** The help text that stands above an item; empty where there is none. */
+/** The help text before an item; empty if it has none. */
 export async function help(item: string): Promise<string> {
   const range = await spanOf(current.peek(), { item });
   if (!range) return "";
@@ -86,7 +86,7 @@ export async function help(item: string): Promise<string> {
   return [...lines.reverse(), ...own.slice(0, Math.max(first, 0))].map((line) => line.trim().replace(/^\/\/\/ ?/, "")).join("\n");
 }
 
-/** The note that stands above an item, which is a comment; empty where there is none. */
+/** The note before an item, which is a comment; empty if it has none. */
 export async function note(item: string): Promise<string> {
   const range = await spanOf(current.peek(), { item });
   if (!range) return "";
@@ -105,8 +105,8 @@ interface Made {
 }
 
 /**
- * Makes changes as one entry of the history, and selects what they added or `chosen`. What is refused is said; then the
- * answer is null.
+ * Makes changes as one entry of the history, and selects the new items or `chosen`. A rejection is
+ * shown and returns null.
  */
 export async function edit(changes: Change[], places: Places = {}, chosen?: Part[]): Promise<string[] | null> {
   return attempt(() => ask<Made>("afp/edit", { changes, places }), chosen);
@@ -116,7 +116,7 @@ export async function edit(changes: Change[], places: Places = {}, chosen?: Part
 export const paste = (plan: string, owner: string | null, text: string, at: Point | null): Promise<string[] | null> =>
   attempt(() => ask<Made>("afp/paste", { plan, text, ...(owner ? { owner } : {}), ...(at ? { at } : {}) }));
 
-/** Places before texts: what is added appears where it belongs, and not somewhere else first. */
+/** Positions before texts, so that a new item appears at its final place. */
 function placed(edit: WorkspaceEdit): WorkspaceEdit {
   const rank = (change: NonNullable<WorkspaceEdit["documentChanges"]>[number]): number =>
     "kind" in change ? 0 : change.textDocument.uri.endsWith(".layout") ? 1 : 2;

@@ -1,4 +1,4 @@
-// What becomes of an edge while one of its ends is dragged: the end and its corner follow, the rest stays.
+// An edge while one of its ends is dragged: the end and its corner follow, the rest stays.
 import type { Point } from "./shapes";
 
 const moved = ([x, y]: Point, [dx, dy]: Point): Point => [x + dx, y + dy];

@@ -11,9 +11,9 @@ import { holderOf, type Point, type Rect } from "./shapes";
 import { view } from "./stage";
 import { toPlan } from "./view";
 
-/** What is being carried, and where, in pixels of the page. */
+/** The dragged template, and its place in pixels of the page. */
 export const carried = signal<{ offer: Offer; at: Point } | null>(null);
-/** What it would be dropped onto: an element's box, in units of the plan, or an edge. */
+/** The drop target: an element's box in units of the plan, or an edge. */
 export const target = signal<{ rect: Rect } | { edge: string } | null>(null);
 
 type Where = Parameters<typeof addAt>[1];

@@ -1,4 +1,5 @@
-// Moving the selection with the keys, as a state machine of its own: arrows carry it, `Enter` puts it down, `Escape` back.
+// Moving the selection with the keys, as a state machine: arrows move it, `Enter` drops it,
+// `Escape` reverts.
 import type { Point } from "./shapes";
 
 export interface Carrying {

@@ -1,4 +1,4 @@
-// What a plan can be made of, as the engine offers it: kept for the document that is shown.
+// The engine's palette, kept for the displayed document.
 import { effect, signal } from "@preact/signals";
 import { current, onText } from "../documents/documents";
 import { lsp } from "../server/session";

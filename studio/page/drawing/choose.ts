@@ -1,10 +1,11 @@
-// Lists to choose from, at a place of the drawing: what to add, what then, which exit. `choices.tsx` shows them.
+// Lists of choices at a place of the drawing: templates, next elements, exits. `choices.tsx` shows
+// them.
 import { signal } from "@preact/signals";
 import { matching } from "../screen/ranking";
 import type { Point } from "./shapes";
 
 export interface Choice {
-  /** What the choice stands for; unique in its list. */
+  /** The id of the choice, unique in its list. */
   id: string;
   label: string;
   hint?: string;

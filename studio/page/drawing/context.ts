@@ -1,4 +1,4 @@
-// What can be done with what was pressed: the commands of the context menu, by what they are about. `context.tsx` shows them.
+// The commands of the context menu for a pressed item. `context.tsx` shows them.
 import { signal } from "@preact/signals";
 import { commands, isEnabled, type Command } from "../screen/commands";
 import type { Hit } from "./hit";

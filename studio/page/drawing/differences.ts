@@ -15,7 +15,7 @@ export function whole(uri: string, answer: Answer): Drawing {
   };
 }
 
-/** What a plan of a file is called after a change: the one that stands where it did; null where it is gone. */
+/** The new name of a plan after a change, found by its place in the file; null if it is gone. */
 export function calledNow(name: string, before: readonly string[], now: readonly string[]): string | null {
   if (now.includes(name)) return name;
   const there = before.length === now.length ? now[before.indexOf(name)] : undefined;
@@ -30,8 +30,7 @@ export const itemsNow = (items: readonly string[], before: readonly string[], no
   });
 
 /**
- * The drawing after a change: what is not named in it stays the very same value, so that who shows
- * it can tell by comparing.
+ * The drawing after a change: unchanged parts keep their identity, so that views can compare them.
  */
 export function changed(before: Drawing, change: Changed): Drawing {
   const elements = new Map(before.elements);

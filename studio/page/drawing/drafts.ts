@@ -1,7 +1,7 @@
-// What was typed into a field and cannot be written as it is: it stays there, marked, until it is mended or put back with Escape.
+// Invalid text in a field: it stays there, marked, until it is corrected or reverted with Escape.
 const drafts = new Map<string, string>();
 
-/** What stays in a field; undefined where nothing does. */
+/** The text kept in a field; undefined without one. */
 export const draft = (field: string): string | undefined => drafts.get(field);
 
 /** Writes what was typed, and keeps it where it is refused; whether it was written. */

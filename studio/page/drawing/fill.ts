@@ -8,7 +8,10 @@ import { FAR, sight } from "./view";
 
 /** So many elements are all kept in the page; of more, only those in sight. */
 const FEW = 150;
-/** What is shown beyond each side of the pane, as a part of its width and height: a small move shows nothing new. */
+/**
+ * The margin drawn beyond each side of the pane, as a share of its size: a small move draws nothing
+ * new.
+ */
 const BEYOND = 0.15;
 
 function beyond([x, y, width, height]: Rect): Rect {

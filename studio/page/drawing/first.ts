@@ -7,7 +7,7 @@ import { isName } from "./rename";
 import { refuse } from "./say";
 import { words } from "./words";
 
-/** What a plan of a file is called: `wall_following.afp` has `WallFollowing`. */
+/** The usual plan name of a file: `WallFollowing` for `wall_following.afp`. */
 export function nameFor(file: string): string {
   const parts = file.split("/").at(-1)!.replace(/\.afp$/, "").split(/[-_. ]+/);
   const name = parts.map((part) => part.charAt(0).toUpperCase() + part.slice(1)).join("");

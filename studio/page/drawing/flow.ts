@@ -21,7 +21,7 @@ export function cycle(): void {
   say(words.flowMode[mode.value]);
 }
 
-/** Who reads and writes each entry of a drawing, as far as it was asked for. */
+/** The readers and writers of each entry in a drawing, as far as requested. */
 const known = signal<{ of: Drawing | null; uses: ReadonlyMap<string, readonly Part[]> }>({ of: null, uses: new Map() });
 
 /** The entries whose arrows are shown. */

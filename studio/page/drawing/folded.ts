@@ -1,4 +1,4 @@
-// What is folded, by document; a reload of the page keeps it.
+// Folded items by document, kept across reloads.
 import { effect, signal } from "@preact/signals";
 
 const KEY = "afp.folded";
@@ -10,7 +10,7 @@ export function begin(store: Pick<Storage, "getItem" | "setItem">): void {
   try {
     folded.value = JSON.parse(store.getItem(KEY) ?? "{}");
   } catch {
-    // What another version kept is no loss.
+    // A value of another version can be lost.
   }
   effect(() => store.setItem(KEY, JSON.stringify(folded.value)));
 }

@@ -11,7 +11,7 @@ const ATTRIBUTES = new Set([
 ]);
 
 const SVG = "http://www.w3.org/2000/svg";
-/** Symbols of our own drawing alone. */
+/** Only symbols of our own drawing. */
 const REFERENCE = /^#afp-[\w-]+$/;
 
 function allowed(element: Element): boolean {
@@ -26,7 +26,7 @@ function allowed(element: Element): boolean {
 
 const parsed = (svg: string): Element => new DOMParser().parseFromString(`<svg xmlns="${SVG}">${svg}</svg>`, "image/svg+xml").documentElement;
 
-/** What a parsed group holds, for this document; nothing where anything in it is not on the lists. */
+/** The nodes of a parsed group for this document; none if it contains anything not on the lists. */
 const checked = (group: Element): SVGElement[] =>
   [...group.children].every(allowed) ? [...group.children].map((child) => document.importNode(child, true) as unknown as SVGElement) : [];
 

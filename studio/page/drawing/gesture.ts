@@ -1,5 +1,5 @@
-// What a pointer does, as a state machine: `(state, event) -> [state, effects]`. It knows no page; `pointer.ts` feeds it and
-// does what it says.
+// Pointer gestures as a state machine: `(state, event) -> [state, effects]`. It is independent of
+// the page; `pointer.ts` feeds it and performs the effects.
 import type { Hit } from "./hit";
 import type { Part, Point } from "./shapes";
 
@@ -81,7 +81,7 @@ export function next(state: State, event: Event): [State, Effect[]] {
   }
 }
 
-/** What puts everything back as it was. */
+/** The effects that revert everything. */
 function undone(state: State): Effect[] {
   if (state.is === "moving") return [{ do: "putBack" }];
   if (state.is === "boxing") return [{ do: "unbox" }];
@@ -101,12 +101,12 @@ function down(state: State, event: Down): [State, Effect[]] {
   const { id, at, hit, shift, touch, selection } = event;
   if (state.is !== "idle") return second(state, event);
   const held = hit && "element" in hit && hit.on !== "exit" && hit.on !== "entry" ? hit.element : null;
-  // Who is dragged: the selection, when it was pressed, or the element alone.
+  // The dragged items: the selection if it was pressed, or else only the element.
   const elements = held === null ? [] : selection.includes(held) ? selection : [held];
   return [{ is: "pressed", id, at, hit, shift, middle: event.middle, touch, elements }, []];
 }
 
-/** A second finger zooms, whatever the first one was about. */
+/** A second finger zooms, independent of the first one. */
 function second(state: State, event: Down): [State, Effect[]] {
   const first = state.is === "pressed" ? state.at : state.is === "panning" ? state.last : null;
   if (!event.touch || first === null || state.is === "idle" || state.is === "pinching") return [state, []];
@@ -140,7 +140,7 @@ function pressed(state: Pressed, event: Later): [State, Effect[]] {
 /** Whether a supervisor is meant, which is drawn with another element. */
 const isInner = (hit: Hit): boolean => hit.on === "element" && hit.part.item !== hit.element;
 
-/** What a press has become, once it moved far enough. */
+/** The gesture of a press that has moved far enough. */
 function decided(state: Pressed): [State, Effect[]] {
   const { id, at, hit } = state;
   const ground: [State, Effect[]] = state.shift ? [{ is: "boxing", id, from: at }, []] : [{ is: "panning", id, last: at }, []];

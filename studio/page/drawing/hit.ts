@@ -1,7 +1,7 @@
-// What is under a point of the plan, from the rectangles that the engine gives: no page is asked.
+// The item under a point of the plan, from the engine's rectangles, without the page.
 import { boxOf, distance, holderOf, inside, type Drawing, type Edge, type Element, type Part, type Point } from "./shapes";
 
-/** What a press means there. */
+/** The meaning of a press there. */
 export type Hit =
   | { on: "element" | "exit" | "port" | "entry" | "start"; part: Part; element: string }
   | { on: "edge" | "head"; part: Part; edge: string };
@@ -23,7 +23,7 @@ function piece(drawing: Drawing, at: Point): Hit | null {
     if (!inside(element.outer, at, 10)) continue;
     for (const piece of element.pieces) {
       const size = piece.rect[2] * piece.rect[3];
-      // Of two, the smaller one lies on top: exits on boxes.
+      // The smaller of two is on top: exits on boxes.
       if (!(inside(piece.rect, at) || (piece.tag && inside(piece.tag, at))) || (found && found.size <= size)) continue;
       const part: Part = { item: piece.item, part: piece.part };
       found = { size, hit: { on: kindOf(element, part), part, element: element.item } };
@@ -40,7 +40,7 @@ function kindOf(element: Element, part: Part): "element" | "exit" | "port" | "en
   return entry ? "entry" : "element";
 }
 
-/** What a part is, however it was found. */
+/** The kind of a part, for both ways of finding it. */
 export function onOf(drawing: Drawing, part: Part): Hit["on"] | null {
   const holder = holderOf(drawing, part.item);
   return holder ? kindOf(holder, part) : null;

@@ -36,7 +36,7 @@ const moving = signal<Carrying | null>(null);
 /** Whether the selection is being moved by the keys. */
 export const isMoving = (): boolean => moving.value !== null;
 
-/** Selects by a key: it is said, and brought into sight. */
+/** Selects by a key, announces it, and scrolls it into view. */
 function go(part: Part | null, add = false): void {
   const drawn = drawing.peek();
   if (!part || !drawn) return;
@@ -106,7 +106,7 @@ function lift(): void {
   say(words.moving(named(elements)));
 }
 
-/** What a key does while the selection is moved; false where it is not. */
+/** Handles a key while the selection is moved; false otherwise. */
 export function carries(stage: Stage, event: KeyboardEvent): boolean {
   const drawn = drawing.peek();
   const before = moving.peek();

@@ -17,7 +17,10 @@ import { turn } from "./turn";
 import { toPlan } from "./view";
 import { words } from "./words";
 
-/** What is being drawn, the names that it may be led to, each with the reason why not, and where it is, in pixels of the pane. */
+/**
+ * The edge being drawn: its possible targets, each with a reason against it, and its end in pixels
+ * of the pane.
+ */
 export const connecting = signal<{ from: Part; targets: ReadonlyMap<string, string | null>; over: string | null; at: Point | null } | null>(null);
 
 const isWhole = ({ part }: Part): boolean => part === undefined || part.kind === "whole";
@@ -25,7 +28,7 @@ const isWhole = ({ part }: Part): boolean => part === undefined || part.kind ===
 /** Whether what is drawn is a supervisor, which goes to another element; another whole item is an entry. */
 export const isSupervisor = (drawn: Drawing, from: Part): boolean => isWhole(from) && !drawn.entries.some((entry) => entry.item === from.item);
 
-/** What may be drawn where. */
+/** The permitted edges. */
 async function targetsOf(from: Part): Promise<ReadonlyMap<string, string | null>> {
   const drawn = drawing.peek();
   if (!isWhole(from) || !drawn) return actions.fitting(from);

@@ -1,5 +1,5 @@
-// Texts of a drawing that is shown small: what cannot be 10 px high goes, what stays grows against the zoom and is fitted
-// into its box or pill.
+// Texts of a zoomed-out drawing: those below 10 px are hidden, others grow against the zoom and are
+// fitted into their box or pill.
 import type { Drawing } from "./shapes";
 import type { Stage } from "./stage";
 import { FAR, NEAR } from "./view";

@@ -19,7 +19,8 @@ export interface Carried {
 export const carried = signal<Carried | null>(null);
 
 /**
- * How far elements go, so that the first one stands on the grid; `free` of it, on whole units.
+ * The distance of moved elements, so that the first one is on the grid; `free` ignores the grid and
+ * uses whole units.
  */
 export function snapped(drawing: Drawing, elements: readonly string[], [dx, dy]: Point, free: boolean): Point {
   const first = drawing.elements.get(elements[0] ?? "");
@@ -82,6 +83,6 @@ export function movable(drawing: Drawing, items: readonly string[]): string[] {
   return [...new Set(found.filter((item): item is string => item !== undefined))];
 }
 
-/** What is said of elements that are moved. */
+/** The announcement for moved elements. */
 export const named = (elements: readonly string[]): string =>
   elements.map((item) => (nameOf(item) === "start" ? planOf(item) : nameOf(item))).join(", ");

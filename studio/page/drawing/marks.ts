@@ -1,22 +1,23 @@
-// What is drawn over the drawing: rings of selection and focus, handles of exits, what fits, the box and the line being drawn.
+// The overlay of the drawing: rings of selection and focus, handles of exits, drop targets, the
+// selection box and the new line.
 import { svg } from "./fragment";
 import { holderOf, keyOf, rectOf, type Drawing, type Part, type Point, type Rect } from "./shapes";
 import type { Stage } from "./stage";
 import { words } from "./words";
 
-/** What is to be marked. */
+/** The marked items. */
 export interface Marked {
   selected: readonly Part[];
-  /** From the keys alone: a second and a third ring. */
+  /** Only for keys: a second and a third ring. */
   keys: boolean;
   /** Elements that fit what is being connected, and the one under the pointer. */
   fits: ReadonlySet<string> | null;
   over: string | null;
   /** Elements that no way leads to. */
   unreached: ReadonlySet<string>;
-  /** What was looked for. */
+  /** The last search. */
   found: readonly Part[];
-  /** What a template would be dropped onto. */
+  /** The drop target of a template. */
   target: { rect: Rect } | { edge: string } | null;
   box: Rect | null;
   line: readonly Point[] | null;
@@ -84,7 +85,7 @@ function handles(drawing: Drawing, item: string, zoom: number): SVGElement[] {
 
 let faded: readonly unknown[] = [];
 
-/** With an edge selected the others fade; while something is connected, what does not fit. */
+/** A selected edge fades the others; while connecting, invalid targets fade. */
 function fade(stage: Stage, drawing: Drawing | null, { selected, fits, target }: Marked): void {
   const now = [stage, drawing, selected, fits, target];
   if (now.every((each, at) => each === faded[at])) return;

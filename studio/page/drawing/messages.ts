@@ -1,4 +1,4 @@
-// What is wrong with each part of the drawing, found by the places of the problems in the text.
+// The problems of each part of the drawing, found by their places in the text.
 import { computed, effect, signal } from "@preact/signals";
 import { current } from "../documents/documents";
 import { itemAt } from "../plan/places";
@@ -42,5 +42,5 @@ export function about(drawing: Drawing, part: Part): Diagnostic[] {
   return [...keys].flatMap((key) => byPart.value.get(key) ?? []);
 }
 
-/** What is said of a part that something is wrong with; empty where nothing is. */
+/** The description of a part's problem; empty without one. */
 export const messagesOf = (drawing: Drawing, part: Part): { message: string; help: string | null }[] => about(drawing, part).map(said);

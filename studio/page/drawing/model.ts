@@ -7,7 +7,7 @@ import { calledNow, changed, itemsNow, whole } from "./differences";
 import type { Answer, Changed, Drawing } from "./shapes";
 import { folded } from "./folded";
 
-/** What is drawn; null before the first answer. */
+/** The drawing; null before the first answer. */
 export const drawing = signal<Drawing | null>(null);
 /** The plan that is shown: null for the first one of the file. */
 export const wanted = signal<string | null>(null);
@@ -21,13 +21,13 @@ export interface Place {
 
 /** The plans that were shown before, to go back to. */
 export const trail = signal<readonly Place[]>([]);
-/** What is shown of the file that comes next. */
+/** The view of the next file. */
 let next: { plan: string | null; trail: readonly Place[] } | null = null;
 
 let held = 0;
 let kept: Changed[] = [];
 
-/** Keeps changes back until `release`: the drawing stands still under a drag. */
+/** Delays changes until `release`: the drawing does not change during a drag. */
 export function hold(): void {
   held += 1;
 }
@@ -62,7 +62,8 @@ async function ask(uri: string, plan: string | null, folded: readonly string[]):
     .request<Answer>("afp/drawing", { textDocument, ...(plan ? { plan } : {}), folded, subscribe: true })
     .catch((why: Error) => {
       console.error(why);
-      // There is no such plan: the first one is shown. Of a file that is drawn already the server tells, since it may come back.
+      // There is no such plan, so the first one is shown. For a subscribed file the server decides,
+      // since the plan may return.
       const gone = drawing.peek()?.uri !== uri && why instanceof Refused && why.code !== LOST && plan !== null && plan === wanted.peek();
       if (gone && current.peek() === uri) batch(() => ([wanted.value, trail.value] = [null, []]));
       return null;

@@ -4,7 +4,7 @@ import { centre, holderOf, type Drawing, type Element, type Part } from "./shape
 
 export type Direction = "down" | "up" | "left" | "right";
 
-/** What the keys start from where nothing is selected: the start. */
+/** The start of keyboard navigation without a selection: the plan's start. */
 export function home(drawing: Drawing): Part | null {
   const plan = drawing.plan;
   if (plan === null) return null;
@@ -12,7 +12,7 @@ export function home(drawing: Drawing): Part | null {
   return { item: start ? start.to : plan };
 }
 
-/** The element that a direction leads to; null where none is. */
+/** The element in a direction; null without one. */
 export function step(drawing: Drawing, from: Part, direction: Direction): Part | null {
   const here = holderOf(drawing, from.item);
   if (!here) return home(drawing);

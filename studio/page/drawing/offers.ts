@@ -1,4 +1,4 @@
-// Templates as texts and changes: what is added when one is chosen.
+// Templates as texts and changes for a choice.
 import type { Change, Offer } from "./ask";
 import type { Choice } from "./choose";
 import { nameOf, planOf, type Drawing, type Edge, type Part } from "./shapes";
@@ -59,7 +59,7 @@ export const choice = (offer: Offer, label = offer.template): Choice => ({
   icon: offer.icon,
 });
 
-/** Those of elements: what can come next, and what can be started with. */
+/** Those for elements: possible next elements, and possible starts. */
 export const ofElements = (offers: readonly Offer[]): Offer[] => offers.filter((offer) => offer.kind !== "supervise");
 
 /** A target among candidates in a list. */

@@ -1,4 +1,4 @@
-// Plans painted small, as boxes and lines alone: the far view and the minimap.
+// Small pictures of plans, with only boxes and lines: the far view and the minimap.
 import { bent } from "./bend";
 import { svg } from "./fragment";
 import type { Carried } from "./lift";
@@ -95,7 +95,7 @@ function box(context: CanvasRenderingContext2D, rect: Rect, [dx, dy]: Point, zoo
   context.strokeRect(...place);
 }
 
-/** What is left of an element that is painted small. */
+/** The reduced form of an element. */
 interface Small {
   rect: Rect;
   supervisors: readonly Rect[];

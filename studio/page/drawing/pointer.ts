@@ -22,9 +22,9 @@ import { words } from "./words";
 
 /** A box that is being drawn, in units of the plan. */
 export const box = signal<Rect | null>(null);
-/** What the pointer is over, and where. */
+/** The item under the pointer, and its place. */
 export const hovered = signal<{ hit: Hit; at: Point } | null>(null);
-/** Whether the selection was made by keys: only then the focus has rings of its own. */
+/** Whether the keys made the selection: only then the focus has separate rings. */
 export const byKeys = signal(false);
 
 let state: State = IDLE;

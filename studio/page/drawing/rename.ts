@@ -1,4 +1,4 @@
-// A name that is being written anew where it stands; `choices.tsx` shows the field.
+// Editing a name in place; `choices.tsx` shows the field.
 import { signal } from "@preact/signals";
 import type { Rect } from "./shapes";
 

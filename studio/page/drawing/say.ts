@@ -1,11 +1,11 @@
-// What is said: the names of parts for screen readers, the live region, and notices that can be seen.
+// Texts for people: names of parts for screen readers, the live region, and visible notices.
 import { signal } from "@preact/signals";
 import { holderOf, nameOf, type Drawing, type Element, type Part } from "./shapes";
 import { words } from "./words";
 
-/** What the live region says. */
+/** The text of the live region. */
 export const said = signal("");
-/** What is shown for a while because it was refused. */
+/** A rejection, shown for a while. */
 export const notice = signal("");
 
 let ends: ReturnType<typeof setTimeout> | undefined;

@@ -1,4 +1,4 @@
-// What is looked for in the drawing: the parts whose names or texts hold it, one after the other selected.
+// The search in the drawing: parts whose names or texts match, selected one after the other.
 import { computed } from "@preact/signals";
 import { select, selected } from "../plan/selection";
 import { sought } from "../plan/seek";
@@ -11,7 +11,7 @@ import { words } from "./words";
 
 const texts = new WeakMap<Element, string>();
 
-/** Everything that stands in an element, in small letters. */
+/** All texts of an element in lower case. */
 function textOf(element: Element): string {
   const known = texts.get(element);
   if (known !== undefined) return known;
@@ -20,7 +20,10 @@ function textOf(element: Element): string {
   return text;
 }
 
-/** The parts of an element whose names hold a text in small letters; the element, where it is told by something else. */
+/**
+ * The parts of an element whose names contain a text in lower case; the element itself if another
+ * text matches.
+ */
 function within(element: Element, wanted: string): Part[] {
   if (!textOf(element).includes(wanted)) return [];
   const named = element.pieces.filter(({ item, part }) => (part.kind === "whole" ? nameOf(item) : (part.name ?? "")).toLowerCase().includes(wanted));

@@ -1,25 +1,25 @@
-// The drawing in the page: one SVG, a group for each element and edge, changed only where the drawing has changed. What a
-// group shows is put into it by `fill.ts` when it comes into sight.
+// The drawing in the page: one SVG with a group for each element and edge, changed only if the
+// drawing has changed. `fill.ts` fills a group when it comes into view.
 import { effect, signal } from "@preact/signals";
 import { nodes, svg } from "./fragment";
 import { spoken } from "./say";
 import type { Drawing, Edge, Element, Part } from "./shapes";
 import { FAR, NEAR, type Size, type View } from "./view";
 
-/** Where the plan stands in the pane, and how large the pane is, in CSS pixels. */
+/** The position of the plan in the pane, and the size of the pane, in CSS pixels. */
 export const view = signal<View>({ x: 0, y: 0, zoom: 1 });
 export const size = signal<Size>({ width: 0, height: 0 });
 
 export interface Stage {
   root: SVGSVGElement;
-  /** What is drawn below the elements, and over everything, in units of the plan. */
+  /** Layers below the elements and above everything, in units of the plan. */
   rings: SVGGElement;
   marks: SVGGElement;
   layers: { edges: SVGGElement; nodes: SVGGElement };
   /** The groups of elements and edges, by item and id. */
   nodes: Map<string, SVGGElement>;
   edges: Map<string, SVGGElement>;
-  /** What each group shows. A group that is not here shows nothing, or something that is not so: a preview. */
+  /** The content of each group. A missing group is empty or shows a preview. */
   filled: WeakMap<SVGGElement, Element | Edge>;
   /** The id in the page of what a part is drawn with. */
   idOf(part: Part, drawing: Drawing): string | null;
@@ -72,7 +72,7 @@ export function show(stage: Stage, before: Drawing | null, after: Drawing | null
     const now = after!.elements.get(item);
     if (now && now !== element) travel(stage.nodes.get(item)!, element, now);
   }
-  // What is said of these depends on more than themselves.
+  // The description of these depends on other items, too.
   const counted = [...(after?.elements.values() ?? [])].filter((element) => element.kind === null).map((element) => element.item);
   for (const item of new Set([started(old), started(after), ...counted])) {
     const [group, element] = [stage.nodes.get(item), after?.elements.get(item)];

@@ -1,4 +1,4 @@
-// Whose turn it is: what was asked of the engine before a press must not open anything over what that press has opened.
+// Turns: the answer to an older request must not open anything over a newer press.
 
 let presses = 0;
 

@@ -1,4 +1,5 @@
-// Pan and zoom: where the plan stands in its pane. Pure; the canvas writes the result to one transform.
+// Pan and zoom: the position of the plan in its pane. Pure; the canvas writes the result to one
+// transform.
 import type { Point, Rect } from "./shapes";
 
 /** A point p of the plan is at `p * zoom + (x, y)` of the pane, in CSS pixels. */
@@ -17,7 +18,7 @@ export const LEAST = 0.1;
 export const MOST = 4;
 /** Free space around a drawing that is fitted into its pane. */
 export const MARGIN = 24;
-/** Below this, templates and ports are not shown; below the second, boxes and lines alone. */
+/** Below this, templates and ports are hidden; below the second, only boxes and lines are shown. */
 export const NEAR = 0.8;
 export const FAR = 0.35;
 
@@ -29,7 +30,7 @@ export const toPane = (view: View, [x, y]: Point): Point => [x * view.zoom + vie
 
 export const panned = (view: View, dx: number, dy: number): View => ({ ...view, x: view.x + dx, y: view.y + dy });
 
-/** Zoomed by a factor; what is under `at` stays there. */
+/** Zooms by a factor and keeps the point `at` in place. */
 export function zoomed(view: View, factor: number, at: Point): View {
   const zoom = clamp(view.zoom * factor, LEAST, MOST);
   const [x, y] = toPlan(view, at);
@@ -53,14 +54,16 @@ export const centred = (view: View, [x, y]: Point, size: Size): View => ({
   y: size.height / 2 - y * view.zoom,
 });
 
-/** Of a drawing, what decides where one looks first. */
+/** The parts of a drawing that decide the first view. */
 interface Shown {
   bounds: Rect;
   plan: string | null;
   elements: ReadonlyMap<string, { rect: Rect }>;
 }
 
-/** What a plan is shown with first: fitted, but legible, and then from its top, with where it starts in sight. */
+/**
+ * The first view of a plan: fitted, but legible, and otherwise from its top with the start in view.
+ */
 export function first({ bounds, plan, elements }: Shown, size: Size): View {
   const view = fitted(bounds, size, Math.min(NEAR, 1));
   const start = elements.get(`${plan}.start`);
@@ -90,5 +93,5 @@ export function sight(view: View, size: Size): Rect {
 /** The steps of `+` and `-`. */
 export const STEP = 1.25;
 
-/** What a turn of the wheel zooms by; pinches of touchpads come as small turns with `Ctrl`. */
+/** The zoom factor of the wheel; pinches of touchpads come as small turns with `Ctrl`. */
 export const wheelFactor = (deltaY: number): number => Math.exp(-clamp(deltaY, -14, 14) / 120);

@@ -1,4 +1,5 @@
-// The words of drawing, palette, value and inspector. What the engine says (reasons, help, labels) comes from it.
+// The words of drawing, palette, value and inspector. Reasons, help and labels come from the
+// engine.
 
 const many = (count: number, what: string): string => (count === 0 ? "" : `${count} ${what}${count === 1 ? "" : "s"}`);
 
@@ -15,7 +16,7 @@ export const words = {
   zoomSelection: "Show the selection",
   pan: { left: "Scroll left", right: "Scroll right", up: "Scroll up", down: "Scroll down" },
 
-  // What a screen reader says.
+  // Texts for screen readers.
   exitOf: (name: string, item: string, to: string | null) => `exit ${name} of ${item}, ${to === null ? "leads to no element" : `leads to ${to}`}`,
   portOf: (name: string, item: string) => `port ${name} of ${item}`,
   entry: (name: string) => `entry ${name}`,

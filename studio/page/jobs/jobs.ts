@@ -1,4 +1,4 @@
-// Jobs that the server does for the page: what goes on, what it has said, what it came to.
+// Jobs of the server for the page: running ones, their output, their results.
 import { signal } from "@preact/signals";
 import { going, lsp, type Going, type Order } from "../server/session";
 import { trusted } from "./trust";
@@ -20,7 +20,7 @@ export interface Job {
   last: string;
 }
 
-/** What goes on. */
+/** The running jobs. */
 export const running = signal<readonly Job[]>([]);
 /** Everything that jobs have said, a line each. */
 export const said = signal<readonly string[]>([]);
@@ -37,7 +37,7 @@ export async function run(title: string, order: Order): Promise<Done | null> {
   return endOf(id, title, []);
 }
 
-/** Takes up a job that the page does not know, since it was loaded anew, and waits for its end. */
+/** Takes over a job from before a reload, and waits for its end. */
 export const takeUp = ({ id, said }: Going, title: string): Promise<Done> => endOf(id, title, said ? said.split("\n") : []);
 
 async function endOf(id: number, title: string, lines: readonly string[]): Promise<Done> {

@@ -1,5 +1,5 @@
-// What is wrong, as the command line says it with `--json`: an object for each error, warning and note, whoever has found it: the
-// compiler of plans, the reader of the project file, or the compiler of Rust, led back to the plan.
+// An error, warning or note from the command line's `--json`: from the compiler of plans, the
+// reader of the project file, or the Rust compiler, mapped to the plan.
 
 /** Where; line and column count from 1. */
 export interface Place {
@@ -10,11 +10,11 @@ export interface Place {
 }
 
 export interface Mistake {
-  /** What the book has a page of; errors of Rust have none. */
+  /** The code of a page in the book; Rust errors have none. */
   code: string | null;
   message: string;
   place: Place | null;
-  /** What to do; empty for nothing. */
+  /** A suggestion; empty for none. */
   help: string;
 }
 

@@ -1,4 +1,4 @@
-// What scenarios, sweeps and builds of the page came to: kept until the next ones.
+// Results of scenarios, sweeps and builds of the page, kept until the next ones.
 import { batch, computed, signal } from "@preact/signals";
 import { uriOf } from "../documents/addresses";
 import { openLogAt } from "../debug/logs";
@@ -29,7 +29,7 @@ export interface Result {
   log: string | null;
   simulated_s?: number;
   broken?: readonly Broken[];
-  /** What is wrong with the scenario itself. */
+  /** The error of the scenario itself. */
   error?: string;
 }
 
@@ -47,7 +47,10 @@ export const shown = signal(true);
 /** Which scenarios go on. */
 export const busy = signal("");
 
-/** What the last sweep said, a line for each run, and what they came to; and in which world, null for that of the plan. */
+/**
+ * The results of the last sweep, a line per run, with the summary and the world, null for the
+ * plan's.
+ */
 export const swept = signal<readonly object[]>([]);
 export const sweptIn = signal<string | null>(null);
 /** An error with its document, if it has a place, and the item of that document's drawing that it is about. */
@@ -56,7 +59,7 @@ export interface Wrong extends Mistake {
   item: string | null;
 }
 
-/** What the last build came to, and what is wrong. */
+/** The result of the last build, with its errors. */
 export const built = signal<{ ok: boolean; wrong: readonly Wrong[] } | null>(null);
 
 async function doing<T>(what: string, work: () => Promise<T>): Promise<T | null> {
@@ -73,7 +76,7 @@ async function doing<T>(what: string, work: () => Promise<T>): Promise<T | null>
   }
 }
 
-/** What a kind of job is called, what is said meanwhile, and what is done with what it came to. */
+/** The kinds of jobs: name, progress text, and the handling of results. */
 interface Kind {
   title: string;
   meanwhile: string;
@@ -86,7 +89,7 @@ const KINDS: { readonly [kind: string]: Kind } = {
     meanwhile: words.writing,
     take(done) {
       if (!done.ok) throw new Error(plain(done.said) || words.jobFailed);
-      // What the others came to is no longer what all came to.
+      // The other results no longer cover all scenarios.
       results.value = null;
     },
   },
@@ -126,7 +129,7 @@ const start = (kind: string, more: object = {}): Promise<void | null> => {
   });
 };
 
-/** Takes up a job that has gone on while the page was loaded anew. */
+/** Takes over a job that continued during a reload. */
 export function resume(job: Going): void {
   const kind = KINDS[job.order.kind];
   const done = takeUp(job, kind?.title ?? words.newProject);
@@ -170,7 +173,10 @@ export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1,
 
 const FIELDS = { seeds: words.seeds, vary: words.vary, until: words.until } as const;
 
-/** A text of the command line without its colours, with fields of the page in place of options, and without what helps at a command line alone. */
+/**
+ * A text of the command line without colours, with the page's fields instead of options, and
+ * without advice for the command line.
+ */
 export const plain = (text: string): string =>
   text
     .replace(/\x1b\[[0-9;]*m/g, "")

@@ -1,4 +1,5 @@
-// What a sweep came to, as a map: each run in the cell of the values that it had. Pure, so that it is tested without a page.
+// The results of a sweep as a map: each run in the cell of its values. Pure, for tests without a
+// page.
 
 /** How a run ended, as the command line names it; the good ones first. */
 export const ENDINGS = ["ok", "interrupted", "time_limit", "error", "not_started", "panicked"] as const;
@@ -14,11 +15,11 @@ export interface Run {
   seed: number;
   /** null for that of the plan */
   world: string | null;
-  /** What was varied, as people write it and as a number in units of SI. */
+  /** The varied value, as text and as a number in SI units. */
   values: Readonly<Record<string, { text: string; si: number }>>;
-  /** What it touched, and for how long, seconds. */
+  /** Touched things with their durations, in seconds. */
   touched: Readonly<Record<string, number>>;
-  /** What does this run alone, on the command line. */
+  /** The command that repeats only this run. */
   command: string;
 }
 
@@ -41,14 +42,14 @@ export const ROW = 20;
 export const SEED = "seed";
 const WORLD = "world";
 
-/** What runs differ in: the label that each has there, and what they are ordered by. */
+/** The axes of runs: the label of each value, and its order. */
 interface Difference {
   name: string;
   of: (run: Run) => string;
   order: (run: Run) => number;
 }
 
-/** What runs of a sweep came to together. */
+/** The summary of a sweep's runs. */
 export interface Sum {
   runs: number;
   /** So many there were to be. */
@@ -56,7 +57,7 @@ export interface Sum {
   endings: Readonly<Partial<Record<Ending, number>>>;
 }
 
-/** What the runs came to together: the last line of a sweep says it, unless it was killed. */
+/** The summary of the runs: the last line of a sweep, unless it was killed. */
 export const sumOf = (lines: readonly unknown[]): Sum | null => (lines.at(-1) as { summary?: Sum } | undefined)?.summary ?? null;
 
 /** The lines of a sweep that are runs; the last one is what they came to together. */
@@ -77,7 +78,7 @@ function axis(runs: readonly Run[], { name, of, order }: Difference): Axis {
   return { name, labels: [...labels.keys()] };
 }
 
-/** The map of runs. What a third thing was varied to comes together in one cell. */
+/** The map of runs. Values of a third axis share a cell. */
 export function mapOf(runs: readonly Run[]): OutcomeMap {
   const [first, second] = differences(runs);
   if (!first) return { across: { name: "", labels: [""] }, down: { name: "", labels: [""] }, cells: [[runs]] };
@@ -117,5 +118,5 @@ export function grouped(runs: readonly Run[]): { run: Run; count: number }[] {
   return [...groups.values()].sort((one, two) => two.count - one.count);
 }
 
-/** Whether a run can be made again in the simulator here: worlds are varied by the command line alone. */
+/** Whether the simulator here can repeat a run: only the command line varies worlds. */
 export const isRepeatable = ({ values }: Run): boolean => !Object.keys(values).some((name) => name.startsWith("world."));

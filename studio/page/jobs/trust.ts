@@ -1,9 +1,12 @@
-// Whether what lies in the folder may be built and run: asked once, where there is something.
+// Trust in the folder: asked once, if there is code to build and run.
 import { ask } from "../screen/dialogs";
 import { lsp } from "../server/session";
 import { words } from "../words";
 
-/** Asks, where it has to be asked, whether what lies in the folder, or is needed for a file of it, may run; remembers the answer. */
+/**
+ * Asks, if needed, whether code of the folder, or of a file's project, may run; remembers the
+ * answer.
+ */
 export async function trusted(file?: unknown, always = false): Promise<boolean> {
   const known = await lsp().request<{ trusted: boolean; folder: string; code: string[] }>("afp/trust", file ? { file } : {});
   if (known.trusted || (!always && !known.code.length)) return true;

@@ -1,4 +1,4 @@
-// The first plan, built by the person: what the card says next follows from what the plan has, so that no order is forced.
+// The guide to a first plan: the next step depends on the plan's content, so that any order works.
 import { computed, signal } from "@preact/signals";
 import { current } from "../documents/documents";
 import { ended } from "../debug/run";
@@ -9,7 +9,7 @@ import { number } from "./problems";
 export const STEPS = ["drive", "connect", "run", "notice", "follow", "stop", "lead", "again"] as const;
 export type Step = (typeof STEPS)[number];
 
-/** What a plan has. */
+/** The content of a plan. */
 export interface Facts {
   actors: number;
   errors: number;
@@ -20,7 +20,7 @@ export interface Facts {
   runs: number;
 }
 
-/** What to do next; null where everything is done. */
+/** The next step; null at the end. */
 export function next({ actors, errors, watched, stoppers, runs }: Facts): Step | null {
   if (actors === 0) return "drive";
   if (watched === 0) return errors ? "connect" : runs === 0 ? "run" : "notice";
@@ -29,7 +29,7 @@ export function next({ actors, errors, watched, stoppers, runs }: Facts): Step |
   return runs < 2 ? "again" : null;
 }
 
-/** What a drawing shows of a plan. */
+/** The content of a plan from its drawing. */
 export function facts(drawn: Pick<Drawing, "plan" | "elements">, errors: number, runs: number): Facts {
   const elements = [...drawn.elements.values()];
   const exits = elements.flatMap(({ pieces }) => pieces).filter(({ part }) => part.kind === "exit");

@@ -1,4 +1,4 @@
-// The plan as a tree: what hangs on what, in reading order. Pure.
+// The plan as a tree, in reading order. Pure.
 import { reading } from "../drawing/navigate";
 import { keyOf, type Drawing, type Part } from "../drawing/shapes";
 

@@ -6,7 +6,10 @@ import { lsp } from "../server/session";
 import type { Part } from "../drawing/shapes";
 import { origin, select, selected, type Origin } from "./selection";
 
-/** Where the text pane shall put its cursor, or, where that stays, what it shall bring into sight: set by whoever selects elsewhere, taken by the pane. */
+/**
+ * The place where the text pane puts its cursor, or that it scrolls into view: set by selections
+ * elsewhere, used by the pane.
+ */
 export const shown = signal<{ uri: string; range: Range; focus: boolean; stays?: boolean } | null>(null);
 
 /** The item at a place of the text. */
@@ -20,7 +23,7 @@ export const spanOf = (uri: string, { item, part }: Part, comments = false): Pro
 /** Something of the folder that has a name. */
 export interface Named {
   name: string;
-  /** What it stands in. */
+  /** Its parent. */
   container: string;
   uri: string;
   range: Range;

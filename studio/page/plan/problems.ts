@@ -1,4 +1,4 @@
-// What the server says is wrong with each text, and the fixes that it has.
+// The diagnostics of each text, with their fixes.
 import { computed, effect, signal } from "@preact/signals";
 import { current } from "../documents/documents";
 import { apply, type WorkspaceEdit } from "../documents/edits";
@@ -34,7 +34,7 @@ export function problemsOf(uri: string): Diagnostic[] {
 export const number = (severity: Severity): number => problems.value.filter((each) => severityOf(each) === severity).length;
 export const severityOf = ({ severity }: Diagnostic): Severity => (severity === 2 ? "warning" : (severity ?? 1) > 2 ? "note" : "error");
 
-/** What a message says, and its help below. */
+/** The message and its help. */
 export function said({ message }: Diagnostic): { message: string; help: string | null } {
   const [first, ...rest] = message.split("\nhelp: ");
   return { message: first!, help: rest.length ? rest.join("\n") : null };

@@ -1,12 +1,12 @@
-// What is selected: items of the plan, or parts of them. Drawing, text and inspector show the same selection.
+// The selection: items of the plan, or parts of them. Drawing, text and inspector share it.
 import { signal } from "@preact/signals";
 import type { Part } from "../drawing/shapes";
 
 export type Origin = "drawing" | "text" | "other";
 
-/** What is selected; the last one is where the cursor is. */
+/** The selected items; the last one is at the cursor. */
 export const selected = signal<Part[]>([]);
-/** Who selected it last, and does not need to be told. */
+/** The origin of the last selection, which needs no update. */
 export const origin = signal<Origin>("other");
 
 export function select(parts: Part[], from: Origin): void {

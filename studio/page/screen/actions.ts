@@ -70,7 +70,7 @@ function enterSoon(name: string, before = document.activeElement, end = performa
 /** So many milliseconds a pane may take to appear: the text's editor is loaded when it is first wanted. */
 const ENTERED_WITHIN = 10_000;
 
-/** What of a pane takes the focus, the first one that is there. */
+/** The first focusable part of a pane. */
 const ENTRIES = [".cm-content", "[role=application]", ".body input:enabled", ".body button:enabled", ".body", "button:enabled"];
 
 function enter(pane: Element | null): void {

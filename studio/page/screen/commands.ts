@@ -1,4 +1,4 @@
-// Everything that can be done by name: what `Ctrl+K`, the keys and the bar show.
+// All named commands, for `Ctrl+K`, the keys and the bar.
 import { signal } from "@preact/signals";
 
 export interface Command {
@@ -8,7 +8,7 @@ export interface Command {
   key?: string | string[];
   run(): unknown;
   enabled?(): boolean;
-  /** Letters act where the focus is in the drawing alone. */
+  /** Letter keys work only with the focus in the drawing. */
   where?: "drawing";
 }
 
@@ -49,7 +49,7 @@ export function commandFor(key: string, inDrawing: boolean, all = commands.peek(
 /** Whether a key belongs to a field that is written into, as letters and its own undo do. */
 export const isForField = (key: string): boolean => !/^(F\d+|Shift\+F\d+|Ctrl\+[KP.])$/.test(key);
 
-/** Hears of the keys of the page; who has handled one before says so by `preventDefault`. */
+/** Handles keys of the page; earlier handlers call `preventDefault`. */
 export function listen(page: Window): void {
   const mac = /Mac|iPhone|iPad/.test(page.navigator.platform);
   page.addEventListener("keydown", (event) => {

@@ -13,7 +13,7 @@ export const right = signal<Right | null>("inspector");
 export const bottom = signal<Bottom | null>(null);
 /** Widths in pixels. */
 export const widths = signal({ world: 340, inspector: 340, text: 460, outline: 340 });
-/** The pane that is shown where there is room for one alone. */
+/** The only visible pane on a narrow page. */
 export const narrow = signal<Narrow>("drawing");
 
 const KEY = "afp-studio-layout";
@@ -31,7 +31,7 @@ export function begin(storage: Storage): void {
       if (Number.isFinite(width)) widths.value = { ...widths.value, [name]: clamp(width) };
     }
   } catch {
-    // What cannot be read is forgotten.
+    // An unreadable value is ignored.
   }
   effect(() => {
     const kept = { palette: palette.value, world: world.value, right: right.value, bottom: bottom.value, widths: widths.value };

@@ -1,10 +1,10 @@
 // A dialog over everything: it has the keyboard from the frame on in which it appears, and gives the focus back.
 import { useLayoutEffect, useRef } from "preact/hooks";
 
-/** What a `<dialog>` takes as its `ref`; `opened` is called once it is open. */
+/** The `ref` of a `<dialog>`; `opened` is called after it opens. */
 export function useModal(opened: (dialog: HTMLDialogElement) => void = () => {}) {
   const dialog = useRef<HTMLDialogElement>(null);
-  // Not after the paint: who types at once types into the dialog.
+  // Not after the paint, so that immediate typing reaches the dialog.
   useLayoutEffect(() => {
     const shown = dialog.current!;
     shown.showModal();

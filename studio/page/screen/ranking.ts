@@ -1,9 +1,9 @@
-// What fits of a list when somebody types, the best first: commands, things to go to, choices of the drawing.
+// Matches of a search, best first: commands, places, choices of the drawing.
 
 interface Rules<T> {
-  /** What is looked through; its label unless told otherwise. */
+  /** The searched text; the default is the label. */
   text?(each: T): string;
-  /** What comes behind all others. */
+  /** Sorts after all others. */
   isLast?(each: T): boolean;
 }
 

@@ -3,7 +3,7 @@ import type { Socket } from "./lsp";
 import { words } from "../words";
 
 export interface Dap {
-  /** Asks; what is refused is an error with a sentence. */
+  /** Sends a request; a rejection becomes an error with a sentence. */
   request<T>(command: string, args?: unknown): Promise<T>;
   /** Hears of an event. */
   on(event: string, take: (body: any) => void): void;

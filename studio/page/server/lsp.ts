@@ -1,11 +1,12 @@
-// The socket to the language server and the room: JSON-RPC 2.0, one message a text frame, connected anew when it is lost.
+// The socket to the language server and the room: JSON-RPC 2.0, a message per text frame, with
+// reconnection.
 import { signal, type Signal } from "@preact/signals";
 import { words } from "../words";
 
 export interface Lsp {
-  /** Asks; what is asked while there is no connection is sent as soon as there is one. */
+  /** Sends a request, after a reconnection if necessary. */
   request<T>(method: string, params: unknown): Promise<T>;
-  /** Tells; without a connection nothing is told. */
+  /** Sends a notification; without a connection it is dropped. */
   notify(method: string, params: unknown): void;
   /** Hears of a notification of the server; the answer ends that. */
   on(method: string, take: (params: any) => void): () => void;
@@ -46,8 +47,9 @@ interface Asked {
 const WAITS = [200, 500, 1000, 2000, 5000];
 
 /**
- * Connects, and again whenever the connection is lost. `greet` runs first on every connection, with an `Lsp` of its own;
- * requests of others wait for its end. What it gives is done right before they go on, with nothing between.
+ * Connects, and reconnects when the connection is lost. `greet` runs first on every connection,
+ * with a separate `Lsp`; other requests wait for its end. Its result runs right before they
+ * continue.
  */
 export function connect(
   url: string,

@@ -1,4 +1,4 @@
-// This page's conversation with the server: who greets, what the folder holds, who changes it.
+// This page's conversation with the server: greeting, content of the folder, editing client.
 import { signal } from "@preact/signals";
 import { connect, type Finish, type Lsp } from "./lsp";
 
@@ -9,7 +9,7 @@ export interface Kept {
   etag: string | null;
 }
 
-/** What a job was asked for with. */
+/** The request of a job. */
 export interface Order {
   kind: string;
   [more: string]: unknown;
@@ -19,7 +19,7 @@ export interface Order {
 export interface Going {
   id: number;
   order: Order;
-  /** The lines that the page was told. */
+  /** The lines received by the page. */
   said: string;
 }
 
@@ -36,7 +36,7 @@ export interface Hello {
   examples: { name: string; title: string }[];
 }
 
-/** What the server said first; null before it did. */
+/** The server's greeting; null before it. */
 export const hello = signal<Hello | null>(null);
 /** The files of the folder that can be opened. */
 export const files = signal<{ uri: string; name: string }[]>([]);
@@ -51,7 +51,7 @@ export const legend = signal<{ tokenTypes: string[]; tokenModifiers: string[] }>
 
 let connection: Lsp | null = null;
 
-/** The connection. Whoever asks before `begin` has made a mistake. */
+/** The connection. Using it before `begin` is an error. */
 export function lsp(): Lsp {
   if (!connection) throw new Error("the session has not begun");
   return connection;
@@ -70,8 +70,8 @@ const CAPABILITIES = {
 const CLIENT = "afp-studio-client";
 
 /**
- * Connects to a server and greets it, on each connection anew; `again` runs on each but the first, before others may ask.
- * `storage` outlives the page when it is loaded anew: it is the same client then.
+ * Connects to a server and greets it on each connection. `again` runs on each but the first, before
+ * other requests. `storage` outlives a reload of the page, so that it stays the same client.
  */
 export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = connect, storage?: Storage): Lsp {
   let client = storage?.getItem(CLIENT) ?? null;
@@ -80,7 +80,7 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = 
     const begun = hello.value !== null;
     client = String(said.client);
     storage?.setItem(CLIENT, client);
-    // At once: what the server tells next is newer.
+    // At once: the server's next message is newer.
     [files.value, more.value] = [said.files, said.more ?? false];
     pen.value = said.pen;
     const params = { processId: null, rootUri: said.root, workspaceFolders: [{ uri: said.root, name: "root" }], capabilities: CAPABILITIES };

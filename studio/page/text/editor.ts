@@ -24,7 +24,7 @@ import { completion, hover } from "./sources";
 import { follow, stops } from "./stops";
 import { theme } from "./theme";
 
-/** Marks changes that come from `documents.ts`, which is not told of them. */
+/** Marks changes from `documents.ts`, which does not receive them again. */
 const fromPage = Annotation.define<boolean>();
 const highlight = StateEffect.define<{ from: number; to: number } | null>();
 
@@ -147,7 +147,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
     effect(() => {
       const place = shown.value;
       if (place?.uri !== uri) return;
-      // Once for a place: what is typed afterwards does not take the cursor back to it.
+      // Once per place: later typing keeps the cursor.
       const now = untracked(() => text(uri));
       show(view, offset(now, place.range.start), offset(now, place.range.end), place.stays);
       if (place.focus) view.focus();

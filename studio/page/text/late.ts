@@ -1,4 +1,4 @@
-// What is said of an older state of a text is shown where that stands now: whoever types is ahead of whoever answers.
+// Marks of an older text are shown at their current places, since typing is faster than answers.
 import type { ChangeSet, Text } from "@codemirror/state";
 
 /** States that are kept. */
@@ -7,7 +7,7 @@ const MOST = 500;
 interface State {
   version: number;
   doc: Text;
-  /** What made it of the state before. */
+  /** The changes since the state before. */
   changes: ChangeSet | null;
 }
 

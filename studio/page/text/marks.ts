@@ -87,7 +87,7 @@ const asker = (uri: string) =>
         lsp().request<{ data: number[] } | null>("textDocument/semanticTokens/full", { textDocument }),
         lsp().request<Hint[] | null>("textDocument/inlayHint", { textDocument, range: { start: { line: 0, character: 0 }, end } }),
       ]);
-      // What is said of an older text is asked again.
+      // Marks of an older text are requested again.
       if (view.state.doc !== doc) return;
       const effects = [setColours.of(colours(view.state, tokens?.data ?? [], legend.value.tokenTypes)), setHints.of(hints(view.state, shown ?? []))];
       view.dispatch({ effects });

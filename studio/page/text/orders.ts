@@ -1,4 +1,4 @@
-// What is ordered at the cursor of the text: definition, rename, fixes, formatting.
+// Commands at the cursor of the text: definition, rename, fixes, formatting.
 import type { EditorView } from "@codemirror/view";
 import { ask, askLine } from "../screen/dialogs";
 import type { TextEdit } from "../documents/changes";
@@ -23,7 +23,7 @@ export async function definition(view: EditorView, uri: string): Promise<void> {
   else trouble.value = words.definitionElsewhere;
 }
 
-/** Renames what stands at the cursor, everywhere. */
+/** Renames the word at the cursor everywhere. */
 export async function rename(view: EditorView, uri: string): Promise<void> {
   const at = cursor(view, uri);
   const answer = await lsp().request<{ range: Range; placeholder?: string } | Range | null>("textDocument/prepareRename", at);
@@ -63,5 +63,5 @@ export const format = (uri: string): Promise<void> =>
     return edits?.length ? { label: words.format, edit: { documentChanges: [{ textDocument, edits }] } } : null;
   });
 
-/** Runs an order; what goes wrong is said. */
+/** Runs a command; an error is shown. */
 export const ordered = (run: () => Promise<void>) => (): void => void run().catch(report);

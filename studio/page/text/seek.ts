@@ -1,4 +1,4 @@
-// What is looked for, marked in the text; what is looked for with the text's own panel is marked in the drawing.
+// Search marks in the text; a search in the text's own panel is marked in the drawing.
 import { getSearchQuery, searchPanelOpen } from "@codemirror/search";
 import { StateEffect, StateField } from "@codemirror/state";
 import { Decoration, EditorView, type DecorationSet } from "@codemirror/view";

@@ -1,4 +1,4 @@
-// What the language server offers at a place of the text: completion and hover.
+// The language server's completion and hover.
 import { snippet, type Completion, type CompletionContext, type CompletionResult } from "@codemirror/autocomplete";
 import type { EditorView, Tooltip } from "@codemirror/view";
 import { valueAt } from "../debug/run";
@@ -63,7 +63,7 @@ function option(item: Item, rank: number, uri: string, together: Together): Comp
   };
 }
 
-/** What is to be said of the word at a place; first what it is in the run, where there is one. */
+/** The description of the word at a place; its value in the run comes first. */
 export const hover = (uri: string) => async (_view: EditorView, pos: number): Promise<Tooltip | null> => {
   const now = text(uri);
   const params = { textDocument: { uri }, position: position(now, pos) };

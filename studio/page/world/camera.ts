@@ -1,4 +1,5 @@
-// What the robot's camera sees: asked for again as soon as the last picture is there, so that no picture waits.
+// The picture of the robot's camera, requested after the last one has arrived, so that no pictures
+// queue up.
 import { signal } from "@preact/signals";
 import { active, ask } from "../debug/run";
 

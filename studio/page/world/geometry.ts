@@ -1,11 +1,12 @@
-// The floor seen from above, in metres, x to the right and y up: where things are, what a picture must hold, the path driven.
+// The floor from above, in metres, x to the right and y up: positions, bounds of the picture, the
+// path driven.
 
 export type Point = readonly [number, number];
 /** Metres and radians, counter-clockwise from x. */
 export type Pose = readonly [number, number, number];
 
 export interface Thing {
-  /** What the run knows it by. */
+  /** Its id in the run. */
   id: string;
   name: string;
   outline: readonly Point[];
@@ -18,7 +19,7 @@ export interface Thing {
   path: readonly Point[];
 }
 
-/** What a picture of a world shows. */
+/** The content of a world's picture. */
 export interface World {
   start: Pose;
   /** The outline of the robot at the origin, looking along x. */
@@ -42,18 +43,18 @@ const MARGIN = 0.03;
 const LEAST = 0.5;
 /** Metres between two points of the path. */
 const APART = 0.01;
-/** Points of a piece of the path; only the last piece is drawn anew when the robot moves. */
+/** Points of a piece of the path; only the last piece is redrawn when the robot moves. */
 const PIECE = 200;
 /** Pieces that are kept. */
 const PIECES = 100;
 
-/** The outline of a body that stands at a pose. */
+/** The outline of a body at a pose. */
 export function placed(body: readonly Point[], [x, y, heading]: Pose): Point[] {
   const [cos, sin] = [Math.cos(heading), Math.sin(heading)];
   return body.map(([u, v]) => [x + u * cos - v * sin, y + u * sin + v * cos]);
 }
 
-/** What a picture of a world must hold: everything in it, with a margin. */
+/** The bounds of a world's picture: everything in it, with a margin. */
 export function frame(world: World): Box {
   const things = world.things.flatMap(({ outline, path }) => [...outline, ...path]);
   const all = [...things, ...world.patches.flatMap(({ corners }) => corners), ...world.lights, ...placed(world.body, world.start)];
@@ -71,7 +72,7 @@ export function frame(world: World): Box {
 /** The same for SVG, whose y goes down. */
 export const viewBox = ({ x, y, width, height }: Box): string => [x, -(y + height), width, height].map(short).join(" ");
 
-/** Pixels for a metre, where a picture stands in a rectangle of pixels. */
+/** Pixels per metre for a picture in a rectangle of pixels. */
 export const scaleIn = (box: Box, width: number, height: number): number => Math.min(width / box.width, height / box.height);
 
 /** A length as SVG takes it: to a tenth of a millimetre. */
@@ -91,7 +92,10 @@ export function middle(outline: readonly Point[]): Point {
   return [sum[0] / outline.length, sum[1] / outline.length];
 }
 
-/** Where the middle of a name stands: in its thing or, where it would hide that, below; never out of the picture. */
+/**
+ * The place of a name: inside its thing or, if that would hide it, below; never outside the
+ * picture.
+ */
 export function placeOf(outline: readonly Point[], box: Box, [width, height]: readonly [number, number]): Point {
   const [x, y] = middle(outline);
   const [across, up] = ([0, 1] as const).map((axis) => outline.map((point) => point[axis]));
@@ -104,7 +108,7 @@ export function placeOf(outline: readonly Point[], box: Box, [width, height]: re
 /** Where the robot was, with the seconds of the run, in pieces that each begin where the one before ends. */
 export type Path = readonly (readonly (readonly [number, number, number])[])[];
 
-/** The path after the robot was seen somewhere. What lies later is cut: a run may have been moved back. */
+/** The path with a new pose. Later points are cut, since a run may have gone back. */
 export function extended(path: Path, [x, y]: Pose, at: number): Path {
   const later = (path.at(-1)?.at(-1)?.[2] ?? 0) > at;
   const before = later ? path.map((piece) => piece.filter((point) => point[2] <= at)).filter((piece) => piece.length > 1) : path;

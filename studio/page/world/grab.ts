@@ -1,4 +1,5 @@
-// A pointer on the floor: what it presses on is held after the first pixels, turned with Shift, and put down where it is let go.
+// A pointer on the floor: it drags the pressed thing after the first pixels, turns it with Shift,
+// and drops it on release.
 import { held, poseNow, putDown, reach, type Held } from "./hand";
 import type { Pose } from "./geometry";
 import type { Surroundings } from "./surroundings";

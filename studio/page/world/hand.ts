@@ -6,13 +6,13 @@ import { drops, start, things, type Moves } from "../debug/arranged";
 import { middle, placed, type Point, type Pose, type Thing, type World } from "./geometry";
 import { surroundings, type Surroundings } from "./surroundings";
 
-/** What is held: the robot, or a thing by its id. */
+/** The dragged thing: the robot, or a thing by its id. */
 export type Held = "robot" | { id: string };
 
-/** What is dragged, and where it would be put now. */
+/** The dragged thing, and its new place. */
 export const held = signal<{ what: Held; at: Pose } | null>(null);
 
-/** An outline whose middle goes to a pose, turned against how it stands. */
+/** An outline moved to a pose, with a rotation. */
 export function put(outline: readonly Point[], to: Pose): Point[] {
   const [x, y] = middle(outline);
   return placed(outline.map(([u, v]) => [u - x, v - y]), to);
@@ -25,7 +25,7 @@ export function poseOf(now: readonly Point[], before: readonly Point[]): Pose {
   return [...middle(now), Math.atan2(Math.sin(turn), Math.cos(turn))];
 }
 
-/** What stands in a world: during a run where the run says, before one where the hand has put it. */
+/** Things of a world: at their places in the run, or before it at those set by hand. */
 export function seen(world: World, moving: readonly { id: string; outline: readonly Point[] }[] | null, moves: Moves, dropped: readonly { shape: string; at: Pose }[], shapes: readonly { shape: string; outline: readonly Point[] }[]): Thing[] {
   if (moving) {
     const now = new Map(moving.map(({ id, outline }) => [id, outline]));
@@ -46,7 +46,7 @@ const DROP = "drop ";
 const dropId = (number: number): string => `${DROP}${number}`;
 const numberOf = (id: string): number => (id.startsWith(DROP) ? Number(id.slice(DROP.length)) : -1);
 
-/** What stands in the world now. */
+/** The current things of the world. */
 export const standing = computed<readonly Thing[]>(() => {
   const world = surroundings.value;
   return world ? seen(world, state.value?.moving ?? null, things.value, drops.value, world.drops) : [];
@@ -55,10 +55,10 @@ export const standing = computed<readonly Thing[]>(() => {
 /** Where the robot is now. */
 export const robotAt = (world: World): Pose => state.value?.pose ?? start.value ?? world.start;
 
-/** Whether anything stands elsewhere than the world says. */
+/** Whether a place differs from the world's. */
 export const arranged = computed(() => start.value !== null || drops.value.length > 0 || Object.keys(things.value).length > 0);
 
-/** The outline of a thing as it stands where nobody has turned it. */
+/** The outline of a thing without a rotation by hand. */
 function straight(id: string, world: Surroundings): readonly Point[] {
   const known = world.things.find((thing) => thing.id === id)?.outline;
   const shape = state.peek() ? undefined : drops.peek()[numberOf(id)]?.shape;
@@ -77,7 +77,7 @@ export function poseNow(what: Held, world: Surroundings): Pose {
 export const ghost = ({ what, at }: { what: Held; at: Pose }, world: Surroundings): Point[] =>
   what === "robot" ? placed(world.body, at) : put(straight(what.id, world), at);
 
-/** A run that is over is no longer shown once somebody reaches into its world. */
+/** A recorded run is closed when the user moves something in its world. */
 export function reach(): void {
   if (phase.peek() === "over") dismiss();
 }

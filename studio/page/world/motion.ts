@@ -1,4 +1,5 @@
-// The robot between its last two poses: what is told twenty times a second moves at every frame.
+// The robot between its last two poses: updates come twenty times a second, and every frame
+// interpolates.
 import type { Pose } from "./geometry";
 
 /** From where to where, and between which moments of the page's clock, milliseconds. */
@@ -25,7 +26,7 @@ export function shown({ from, to, begin, end }: Motion, now: number): Pose {
   return share < 1 ? between(from, to, share) : to;
 }
 
-/** The motion after a pose was told: on from what is shown, as long as the one before took to come. */
+/** The motion to a new pose: from the displayed one, over the time between the last two updates. */
 export function towards(before: Motion | null, to: Pose, now: number, still: boolean): Motion {
   if (!before || still) return { from: to, to, begin: now, end: now };
   return { from: shown(before, now), to, begin: now, end: now + Math.min(LONGEST, now - before.begin) };

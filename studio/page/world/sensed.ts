@@ -1,4 +1,4 @@
-// What the robot's sensors say in the run that is shown, as the debugger tells it some twenty times a second.
+// The robot's sensor values in the displayed run, sent by the debugger some twenty times a second.
 import { signal } from "@preact/signals";
 import type { Pose } from "./geometry";
 
@@ -11,5 +11,5 @@ export interface Sensed {
   cone: { pose: Pose; half: number; range: number | null } | null;
 }
 
-/** What they say and when, in seconds of the run; null while nothing runs. */
+/** The values and their time, in seconds of the run; null without a run. */
 export const sensed = signal<{ at: number; sensed: readonly Sensed[] } | null>(null);

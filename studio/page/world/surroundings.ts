@@ -1,4 +1,4 @@
-// The world that a run of the plan takes place in and the robot in it: known before any run, asked for anew after each.
+// The world of a run, with the robot: loaded before any run, and again after each.
 import { batch, effect, signal } from "@preact/signals";
 import { connect } from "../server/dap";
 import { putBack } from "../debug/arranged";
@@ -14,7 +14,7 @@ import { extended, type Path, type Point, type World } from "./geometry";
 export interface Surroundings extends World {
   /** The worlds to choose from, as a run takes them, each with where it comes from; first the one that is taken by itself. */
   worlds: readonly { name: string; from: string }[];
-  /** What can be dropped into it, with outlines around their middle. */
+  /** Things to add, with outlines around their middle. */
   drops: readonly { shape: string; outline: readonly Point[] }[];
   /** Whether the robot has a camera. */
   camera: boolean;
@@ -41,7 +41,7 @@ export interface Device {
   help: string;
   stimuli: readonly Stimulus[];
   faults: readonly Fault[];
-  /** What it says of itself and of what is around it. */
+  /** The accessible description, and that of its parts. */
   signals: readonly { words: string; help: string }[];
 }
 
@@ -49,7 +49,7 @@ export interface Device {
 export const surroundings = signal<Surroundings | null>(null);
 /** Why it is not known, as a sentence; empty while it is. */
 export const missing = signal("");
-/** What it waits for, where that takes long. */
+/** The slow part it waits for. */
 export const awaited = signal("");
 export const devices = signal<readonly Device[]>([]);
 /** The path that the robot has driven in the run that is shown. */
@@ -98,7 +98,7 @@ export function begin(): () => void {
     void files.value;
     if (connected && shown && !before?.startsWith("log")) void askWorld("", null, shown);
     if (shown) before = `log ${shown}`;
-    // What runs now has a world, though there was none while it was not trusted.
+    // The run has a world now, although there was none before the trust.
     if (connected && phase.value === "running" && !shown && missing.peek()) void askWorld(uri, null);
     if (!connected || runs || shown) return;
     const other = before !== uri;
