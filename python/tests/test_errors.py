@@ -18,7 +18,7 @@ from conftest import ROOT
 SAID: list[tuple[str, type[Exception], str]] = [
     ("sim.run('20 s')", TypeError, "until is a time in seconds, such as 2.5 or afp.ms(300), not '20 s'"),
     ("sim.run(afp.cm(3))", TypeError, "until is a time in seconds, not a quantity in m"),
-    ("sim.run(until=-1)", ValueError, "-1 is no time from 0 on, in seconds"),
+    ("sim.run(until=-1)", ValueError, "-1 is not a time from 0 on, in seconds"),
     ("sim.bump(hold='1 s')", TypeError, "hold is a time"),
     ("sim.fail('ultrasonic', 'frozen', share=0.3)", ValueError, "a share says nothing of 'frozen'"),
     ("sim.fail('odometry', 'delayed', share=0.3)", ValueError, "a share says nothing of 'delayed'"),
@@ -227,7 +227,7 @@ def test_a_number_of_another_kind_is_told_as_it_is(entry: str, value: object, sa
     [
         (int, 2**63, OverflowError, "an integer of more than 64 bits"),
         (float, 10**400, OverflowError, "an integer that is too large for a float"),
-        (str, "\ud800", ValueError, "a text with half of a surrogate pair, which stands for no character"),
+        (str, "\ud800", ValueError, "a text with half of a surrogate pair, which is not a character"),
         (str, "a" * 65, ValueError, "a text has at most 64 bytes of UTF-8, not 65"),
         (int, 1.5, TypeError, "expected an int, not a float"),
         (float, "1", TypeError, "expected a float, not a str"),

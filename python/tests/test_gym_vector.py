@@ -197,7 +197,7 @@ def test_single_ones_run_in_processes_with_a_world_made_in_the_program() -> None
 
 
 def test_a_running_environment_is_not_copied() -> None:
-    with pytest.raises(TypeError, match="make the environment anew"):
+    with pytest.raises(TypeError, match="make the environment again"):
         copy.deepcopy(afp.gym.CarbotEnv())
     task = afp.gym.REACH_GOAL
     assert pickle.loads(pickle.dumps(task)) == task == copy.deepcopy(task)

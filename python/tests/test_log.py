@@ -15,7 +15,7 @@ def test_a_log_has_no_moment_before_its_start(tmp_path: Path) -> None:
     with afp.Simulation(afp.load(ROOT / "plans/wall_following.afp"), log=tmp_path / "run.mcap") as simulation:
         simulation.run(until=0.5)
     for at in (-1.0, float("nan")):
-        with pytest.raises(ValueError, match="is no time from 0 on"):
+        with pytest.raises(ValueError, match="is not a time from 0 on"):
             afp.Log(tmp_path / "run.mcap").simulation(at=at)
 
 

@@ -92,7 +92,7 @@ inBrowser("what cannot be swept is said of the field that it stands in", { "plan
   for (const [field, wrong, says] of [
     ["Seeds", "5..2", /^Seeds '5\.\.2': there are no seeds/],
     ["Vary", "way", /^Vary 'way': expected what to vary/],
-    ["Until", "0 s", /'0 s' is no time to run in: write one, '30 s'/],
+    ["Until", "0 s", /'0 s' is not a time: write for example '30 s'/],
   ] as const) {
     const input = page.getByLabel(field, { exact: true });
     const before = await input.inputValue();

@@ -56,7 +56,7 @@ impl HitCount {
                 .filter(|_| number.starts_with(|it: char| it.is_ascii_digit()))?;
             Some(HitCount { compare, number })
         });
-        let read = read.ok_or_else(|| format!("'{text}' is no number of hits: {like}"))?;
+        let read = read.ok_or_else(|| format!("'{text}' is not a number of hits: {like}"))?;
         let never = match read.compare {
             Compare::Before => read.number <= 1,
             Compare::To | Compare::Only | Compare::Every => read.number == 0,
@@ -65,7 +65,7 @@ impl HitCount {
             Compare::After => read.number == u64::MAX,
         };
         match never {
-            true => Err(format!("'{text}' is no number of hits, which are counted from 1: {like}")),
+            true => Err(format!("'{text}' is not a number of hits, which start at 1: {like}")),
             false => Ok(read),
         }
     }

@@ -40,14 +40,18 @@ pub fn read_message(text: &str) -> Result<Message, String> {
         json!({"jsonrpc": "2.0", "id": id, "error": {"code": code, "message": why}}).to_string()
     };
     let value: Value = serde_json::from_str(text)
-        .map_err(|why| refusal(Value::Null, -32700, &format!("this is no JSON: {why}")))?;
+        .map_err(|why| refusal(Value::Null, -32700, &format!("invalid JSON: {why}")))?;
     let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned();
     match serde_json::from_value(value) {
         Ok(Message::Notification(_)) if id.is_some() => {
             Err(refusal(id.into(), -32600, "an id is a whole number of 32 bit, or a text"))
         }
         Ok(message) => Ok(message),
-        Err(_) => Err(refusal(id.into(), -32600, "this is no request, response or notification")),
+        Err(_) => Err(refusal(
+            id.into(),
+            -32600,
+            "the message is not a request, response or notification",
+        )),
     }
 }
 

@@ -426,7 +426,7 @@ impl Runner {
     }
 
     fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("Simulation", "make it anew from its plan, world and seed"))
+        Err(no_pickle("Simulation", "make it again from its plan, world and seed"))
     }
 }
 

@@ -281,7 +281,7 @@ impl Sweeper {
     }
 
     fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("Sweeper", "make it anew from what it was made of"))
+        Err(no_pickle("Sweeper", "make it again from what it was made of"))
     }
 }
 
@@ -373,7 +373,7 @@ fn no_journal(why: &JournalError) -> PyErr {
     let help = match why {
         JournalError::File(why) => return run_error(why),
         JournalError::InUse(_) => "wait for it, or give another 'out'",
-        _ => "restart=True begins anew and drops what is there; another 'out' keeps both",
+        _ => "restart=True starts again and deletes the old outcomes; a different 'out' keeps both",
     };
     error(format!("{why}\n  help: {help}"))
 }

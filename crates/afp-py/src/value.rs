@@ -204,7 +204,7 @@ fn integer(value: &Bound<'_, PyAny>) -> PyResult<i64> {
 fn text(value: &Bound<'_, PyString>) -> PyResult<String> {
     let text = value.to_cow().map(Cow::into_owned);
     text.map_err(|_| {
-        PyValueError::new_err("a text with half of a surrogate pair, which stands for no character")
+        PyValueError::new_err("a text with half of a surrogate pair, which is not a character")
     })
 }
 

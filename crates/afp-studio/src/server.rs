@@ -90,7 +90,7 @@ async fn asked_to_end() -> io::Result<()> {
 async fn guard(State(shared): State<Shared>, request: Request, next: Next) -> Response {
     let headers = request.headers();
     if !shared.secret.is_ours(headers) {
-        return (StatusCode::FORBIDDEN, "this server answers its own page alone\n").into_response();
+        return (StatusCode::FORBIDDEN, "this server answers only its own page\n").into_response();
     }
     let enters = request.uri().path() == "/" && request.uri().query().is_some();
     if !enters && !shared.secret.knows(headers) {

@@ -43,7 +43,7 @@ impl fmt::Display for JournalError {
                 write!(f, "'{}' is of another sweep: {how}", path.display())
             }
             JournalError::Broken(path, line) => {
-                write!(f, "line {line} of '{}' is no line of a journal", path.display())
+                write!(f, "line {line} of '{}' is not a line of a journal", path.display())
             }
         }
     }
@@ -59,7 +59,7 @@ impl From<JournalError> for RunError {
                 RunError::usage(message, "wait for it, or write elsewhere with '-o'")
             }
             JournalError::Other(..) | JournalError::Broken(..) => {
-                RunError::usage(message, "'--restart' begins anew and drops what is there")
+                RunError::usage(message, "'--restart' starts again and deletes the old outcomes")
             }
         }
     }

@@ -168,7 +168,9 @@ fn number(text: &str) -> Result<(f64, &str), String> {
     let mut parsed = ends.filter_map(|end| Some((text.get(..end)?.parse::<f64>().ok()?, end)));
     match parsed.find(|(number, _)| number.is_finite()) {
         Some((number, end)) => Ok((number, text.get(end..).unwrap_or("").trim_start())),
-        None => Err(format!("'{text}' is no number; write ranges as 20cm..60cm, others as lists")),
+        None => {
+            Err(format!("'{text}' is not a number; write ranges as 20cm..60cm, others as lists"))
+        }
     }
 }
 

@@ -130,7 +130,7 @@ class Simulation(Driven):
         self._runner.close()
 
     def __reduce__(self) -> NoReturn:
-        raise TypeError("a Simulation cannot be pickled; make it anew from its plan, world and seed")
+        raise TypeError("a Simulation cannot be pickled; make it again from its plan, world and seed")
 
     def __enter__(self) -> Simulation:
         return self

@@ -112,7 +112,7 @@ impl Run<'_> {
                 Err(format!("'{path}' is an entry: say its 'value'"))
             }
             _ => Err(format!(
-                "'{path}' is no state or event: write a path such as 'patrol.avoid.touch.TouchSensorPressed'"
+                "'{path}' is not a state or event: write a path such as 'patrol.avoid.touch.TouchSensorPressed'"
             )),
         }
     }

@@ -76,7 +76,7 @@ impl Run<'_> {
         let Some(from) = self.target.state().active(unit.plan) else {
             let plan = program.unit(unit.plan).map_or("", |plan| &*plan.path);
             return Err(format!(
-                "'{plan}' is not active: go on until it is; one goes to elements of plans that are"
+                "'{plan}' is not active: continue until it is, then go to the element"
             ));
         };
         let steps = way(&program, unit.plan, from, &unit.name);

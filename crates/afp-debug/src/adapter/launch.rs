@@ -153,7 +153,7 @@ impl Adapter<'_> {
             None | Some("observer" | "operator") => {}
             Some(other) => {
                 return Err(Refusal(format!(
-                    "'{other}' is no role: there are 'observer' and 'operator'"
+                    "'{other}' is not a role: write 'observer' or 'operator'"
                 )));
             }
         }

@@ -62,7 +62,7 @@ impl Adapter<'_> {
         match wanted.take.as_deref() {
             Some("operator") => self.take_role(wanted.lease, now),
             Some(other) => {
-                return Err(Refusal(format!("'{other}' is no role: there is 'operator'")));
+                return Err(Refusal(format!("'{other}' is not a role: write 'operator'")));
             }
             None if wanted.release && self.operator == Some(self.asker) => {
                 self.operator = None;
@@ -140,7 +140,7 @@ impl Adapter<'_> {
         let Some(run) = &mut self.run else { return };
         run.forces.clear();
         let steps = run.mode.is_step();
-        self.output("important", &format!("{why}: nobody steers this run\n"));
+        self.output("important", &format!("{why}: this run has no operator\n"));
         match steps {
             true => self.stopped(Reason::Pause, &why, Vec::new()),
             // A stopped run stays stopped, and a running one continues.

@@ -19,7 +19,9 @@ pub(super) fn line_of_use(
             return Err(Refused::new(format!("{toolbox} is a file, which has no short name")));
         }
         Some(path) if !path.ends_with(".afp") => {
-            return Err(Refused::new(format!("{toolbox} is no plan file: those end in '.afp'")));
+            return Err(Refused::new(format!(
+                "{toolbox} is not a plan file: use a file that ends in '.afp'"
+            )));
         }
         Some(_) => {}
         None => name::check(toolbox)?,
@@ -186,7 +188,7 @@ pub(super) fn sibling(list: &Node, name: &str) -> Result<Node, Refused> {
         Kind::File => children(list, Kind::Plan).find(|plan| tree::is_named(plan, name)),
         _ => children(list, Kind::Guard).find(|guard| tree::is_named(guard, name)),
     };
-    found.ok_or_else(|| Refused::new(format!("there is no '{name}' to stand above")))
+    found.ok_or_else(|| Refused::new(format!("there is no '{name}' to insert before")))
 }
 
 /// The place after the last item of the kind, or else after the kinds that usually precede it.

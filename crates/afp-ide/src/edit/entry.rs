@@ -88,7 +88,7 @@ fn set_part(
         let root = buffer.root();
         let mut tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
         if tokens.any(is_comment) {
-            return Err(Refused::new("a comment stands in it"));
+            return Err(Refused::new("there is a comment in it"));
         }
     }
     let splice = match (place, new.map(str::trim)) {

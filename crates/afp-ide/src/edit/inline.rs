@@ -84,7 +84,7 @@ impl Call {
         let template = children(&node, Kind::Ref).next().and_then(|name| tree::single(&name));
         let template = template.filter(|_| tree::is_subplan(&node));
         let template = template
-            .ok_or_else(|| Refused::new(format!("'{element}' is no sub-plan of a plan")))?;
+            .ok_or_else(|| Refused::new(format!("'{element}' is not a sub-plan of a plan")))?;
         let found = project.item(home, &template).filter(|(_, node)| node.kind() == Kind::Plan);
         let missing = || Refused::new(format!("there is no plan '{}'", template.text()));
         let (from, inner) = found.ok_or_else(missing)?;

@@ -62,7 +62,7 @@ fn rebound(text: &str, bind: &Node, sign: &str, new: &str) -> Result<Option<Spli
         return Ok(Some((range(&old_sign).start..end, format!("{sign} {new}"))));
     };
     if tree::holds_comment(&value) {
-        return Err(Refused::new("a comment stands in the formula"));
+        return Err(Refused::new("there is a comment in the formula"));
     }
     if old_sign.text() != sign {
         let old = range(&old_sign).start..place.end;

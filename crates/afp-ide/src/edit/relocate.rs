@@ -111,7 +111,7 @@ fn check_kind(
         _ => owner.is_none(),
     };
     if matches!(node.kind(), Kind::Plan | Kind::Enum | Kind::Table) {
-        return Err(Refused::new("only what stands in a plan can move to another one"));
+        return Err(Refused::new("only items of a plan can move to another plan"));
     }
     if owner.is_some() && !is_guard {
         return Err(Refused::new(format!("'{}' is no supervisor", item.name())));

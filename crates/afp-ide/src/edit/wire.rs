@@ -37,6 +37,6 @@ pub(super) fn serialize<S: Serializer>(item: &Item, serializer: S) -> Result<S::
 
 pub(super) fn deserialize<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Item, D::Error> {
     let text = String::deserialize(deserializer)?;
-    let wrong = || serde::de::Error::custom(format!("'{text}' is no path of an item"));
+    let wrong = || serde::de::Error::custom(format!("'{text}' is not the path of an item"));
     item(&text).ok_or_else(wrong)
 }

@@ -10,7 +10,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "plan" => {
             "What a robot does: elements, of which one is active, and what watches over them."
         }
-        "scenario" => "A test of a plan: what happens from outside, and what is expected of it.",
+        "scenario" => "A test of a plan: stimuli and expected behaviour.",
         "enum" => "A type whose values are listed.",
         "table" => "Rows of constants, which 'Row' of 'std' reads one by one.",
         "toolbox" => "Templates, and the devices of a robot, for plans to use.",
@@ -20,10 +20,10 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "computation" => "Computes at once and ends in a state; takes no time.",
         "subplan" => "A plan used like an actor.",
         "supervise" => {
-            "Watches while its element is active, or always where it stands in the plan itself; its events interrupt."
+            "Watches while its element is active, or during the whole plan if it belongs to the plan; its events interrupt."
         }
         "on" if within == Kind::Reactions => {
-            "Where events of a supervisor of the plan lead while this element is active; what is not listed keeps its edge."
+            "Targets of a plan supervisor's events while this element is active; unlisted events keep their edges."
         }
         "supervisor" => "A template that watches and reports events.",
         "in" if in_toolbox => "A port that takes a value.",
@@ -37,7 +37,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
             "The least and the greatest value that it takes; both belong to the range."
         }
         "from" if within == Kind::Moment => {
-            "What stands in its braces counts from the first time that this holds or happens."
+            "Times in its braces count from the first moment when this holds or happens."
         }
         "live" if within == Kind::Entry => "A sub-plan reads it again before each of its steps.",
         "live" => "Read again at every poll.",

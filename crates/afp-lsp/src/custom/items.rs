@@ -92,7 +92,7 @@ pub(crate) fn uses(server: &mut Server, params: Uses) -> Answer {
 }
 
 pub(crate) fn no_item(path: &str) -> Failure {
-    Failure::Malformed(format!("'{path}' is no path of an item"))
+    Failure::Malformed(format!("'{path}' is not the path of an item"))
 }
 
 fn meant(part: PartOf) -> Option<Part> {

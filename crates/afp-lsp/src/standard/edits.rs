@@ -29,7 +29,7 @@ pub(crate) fn prepare_rename(server: &mut Server, params: lsp::PrepareRenamePara
 fn renamed(analysis: &Analysis, offset: u32, to: String) -> Result<(Change, String), Failure> {
     let index = &analysis.compiled.index;
     let refused = |reason: &str| Failure::Refused(reason.to_owned());
-    let name = index.at(analysis.file, offset).ok_or_else(|| refused("no name stands here"))?;
+    let name = index.at(analysis.file, offset).ok_or_else(|| refused("there is no name here"))?;
     let id = name.meaning.definition().ok_or_else(|| refused("nothing declares this name"))?;
     let definition = index.definition(id);
     if usize::from(definition.name.file) < analysis.compiled.plan_files.start {

@@ -115,7 +115,7 @@ impl Carbot {
     }
 
     fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("Carbot", "make it anew from its world and seed"))
+        Err(no_pickle("Carbot", "make it again from its world and seed"))
     }
 }
 

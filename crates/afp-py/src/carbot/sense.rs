@@ -59,7 +59,7 @@ fn said<T>(name: &str, reading: Reading<T>, take: impl FnOnce(T) -> Sensed) -> P
             Err(error(format!("the sensor of '{name}' says the same for ever")))
         }
         Err(Invalid::NotFinite) => {
-            Err(error(format!("the sensor of '{name}' says what is no number")))
+            Err(error(format!("the sensor of '{name}' returns a value that is not a number")))
         }
         Err(Invalid::Restarted) => {
             Err(error(format!("the controller of '{name}' has restarted since the run began")))

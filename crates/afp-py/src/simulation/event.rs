@@ -197,7 +197,7 @@ impl Event {
     /// Restore from a pickle.
     #[staticmethod]
     fn _again(message: &[u8], line: Option<String>) -> PyResult<Self> {
-        let unknown = || PyValueError::new_err("this is no pickled event");
+        let unknown = || PyValueError::new_err("this is not a pickled event");
         Ok(Event { event: unpack(message).ok_or_else(unknown)?, line })
     }
 

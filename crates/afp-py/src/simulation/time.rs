@@ -24,6 +24,8 @@ pub fn some(what: &str, seconds: f64) -> PyResult<Duration> {
 pub fn duration(seconds: f64) -> PyResult<Duration> {
     match seconds.is_finite() && seconds >= 0.0 {
         true => Ok(Duration::from_secs_f64(seconds)),
-        false => Err(PyValueError::new_err(format!("{seconds} is no time from 0 on, in seconds"))),
+        false => {
+            Err(PyValueError::new_err(format!("{seconds} is not a time from 0 on, in seconds")))
+        }
     }
 }

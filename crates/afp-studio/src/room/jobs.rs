@@ -77,7 +77,7 @@ impl Room {
     pub(super) fn begin_job(&mut self, client: ClientId, params: &Value) -> Result<Value, String> {
         let goes_on = |job: &&Job| job.done.is_none();
         if self.jobs.running.values().filter(goes_on).count() >= MOST {
-            return Err(format!("{MOST} jobs go on: wait until one has ended, or end it"));
+            return Err(format!("{MOST} jobs are running: wait for one to end, or cancel it"));
         }
         let kind = params["kind"].as_str().unwrap_or_default();
         let arguments = arguments(self, kind, params)?;

@@ -59,7 +59,7 @@ pub(super) fn answer(
         // Read-only clients also run plans, and may ask for the trust.
         "afp/trust" if params["give"] != json!(true) => trust(room, params),
         _ if room.pen != Some(client) => {
-            Err("somebody else has the pen: take it first, then change things".to_owned())
+            Err("another window has the edit lock: take it first".to_owned())
         }
         "afp/trust" => trust(room, params),
         "afp/job" => room.begin_job(client, params),
@@ -148,7 +148,7 @@ fn create(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, Strin
 /// Rejects a request if an unsaved text of that address would be lost.
 fn unless_unsaved(room: &Room, path: &str) -> Result<(), String> {
     match room.documents.get(path).is_some_and(|document| !document.is_saved()) {
-        true => Err(format!("'{}' is about to be written anew", room.folder.name(path))),
+        true => Err(format!("'{}' is about to be saved", room.folder.name(path))),
         false => Ok(()),
     }
 }
@@ -203,7 +203,7 @@ fn settled(room: &mut Room, path: &str, now: Duration, out: &mut Out) -> Result<
     }
     if document.is_unreadable() {
         return Err(
-            "another program has written what is no text there: look at it first".to_owned()
+            "another program has written a file that is not text: check it first".to_owned()
         );
     }
     Ok(())

@@ -150,7 +150,7 @@ impl Room {
             Look::Removed => {
                 let name = self.folder.name(path);
                 let why = format!(
-                    "another program has removed '{name}'; your next change writes it anew"
+                    "another program has removed '{name}'; your next change saves it again"
                 );
                 self.tell_saved(path, Err(why))
             }

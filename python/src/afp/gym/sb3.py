@@ -77,7 +77,7 @@ class CarbotVecEnv(_VecEnv):  # type: ignore[misc]
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
         """Raises: attributes of a running environment cannot be set."""
-        raise AttributeError(f"'{attr_name}' of running environments cannot be set; make them anew")
+        raise AttributeError(f"'{attr_name}' of running environments cannot be set; make them again")
 
     def env_method(self, method_name: str, *args: Any, indices: Any = None, **kwargs: Any) -> list[Any]:
         """Raises: the single environments have no methods."""

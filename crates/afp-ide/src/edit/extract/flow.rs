@@ -29,7 +29,7 @@ impl Flow {
         let inside = selection.elements.iter().filter_map(name_of);
         if let Some(name) = inside.into_iter().find(|name| resuming.contains(name)) {
             return Err(Refused::new(format!(
-                "'{name}' resumes what is active, which it cannot do from a plan of its own"
+                "'{name}' resumes the active element, which is not possible from a separate plan"
             )));
         }
         let ways_in = ways_in(selection);
@@ -48,7 +48,7 @@ impl Flow {
         let ways_out: Vec<_> = states.into_iter().chain(events).collect();
         if let Some(name) = ways_out.iter().find(|token| resuming.contains(token.text())) {
             return Err(Refused::new(format!(
-                "'{}' resumes what the selection has active, which nobody outside of it can do",
+                "'{}' resumes the selection's active element, which is not possible from outside",
                 name.text()
             )));
         }

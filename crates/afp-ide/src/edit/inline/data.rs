@@ -156,7 +156,7 @@ impl Data {
         let shape = formula.or_else(|| init(entry));
         let Some(shape) = shape else { return Ok(()) };
         if tree::holds_comment(&shape) {
-            return Err(Refused::new(format!("a comment stands in the formula of '{name}'")));
+            return Err(Refused::new(format!("there is a comment in the formula of '{name}'")));
         }
         let ty = type_of(entry).unwrap_or_default();
         let homes = [&call.outer, &call.inner];

@@ -57,7 +57,7 @@ fn a_fragment_is_one_formula() {
     refused(PLAN, bind_out(go(), "gap", "nowhere"), "there is no entry 'nowhere' in the plan");
     refused(PLAN, unbind(go(), "speed"), "'speed' of 'go' is not bound");
     let commented = PLAN.replace("-limit,", "-  // c\n limit,");
-    refused(&commented, bind(back(), "distance", "1 m"), "a comment stands in the formula");
+    refused(&commented, bind(back(), "distance", "1 m"), "there is a comment in the formula");
 }
 
 #[test]

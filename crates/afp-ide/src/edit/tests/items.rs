@@ -102,7 +102,11 @@ fn invalid_items_are_refused() {
         toolbox: path.into(),
         alias: alias.map(str::to_owned),
     };
-    refused(PLAN, used(r#""a.toml""#, None), r#""a.toml" is no plan file: those end in '.afp'"#);
+    refused(
+        PLAN,
+        used(r#""a.toml""#, None),
+        r#""a.toml" is not a plan file: use a file that ends in '.afp'"#,
+    );
     refused(PLAN, used(r#""a.afp""#, Some("a")), r#""a.afp" is a file, which has no short name"#);
     refused(PLAN, used(r#""a" "b.afp""#, None), r#"'"a" "b.afp"' cannot be a name"#);
     refused(PLAN, add("actor go: A {}", None, None), "'go' is already there");
@@ -116,7 +120,7 @@ fn invalid_items_are_refused() {
     refused(PLAN, add("start go", None, None), "'start go' cannot be put here");
     refused(PLAN, add("} plan Q {", None, None), "the text is more than items of one list");
     refused(PLAN, add("", None, None), "the text holds no item");
-    refused(PLAN, add("var x: int", None, Some("y")), "there is no 'y' to stand above");
+    refused(PLAN, add("var x: int", None, Some("y")), "there is no 'y' to insert before");
     refused(
         "plan P { computation c: C {} }",
         add("supervise s: S {}", Some("c"), None),
@@ -291,7 +295,7 @@ fn items_change_places_with_their_comments() {
     );
     let plans = "plan A {}\n\n// b\nplan B {}\n";
     assert_eq!(after(plans, reorder(Item::plan("B"), Some("A"))), "// b\nplan B {}\n\nplan A {}\n");
-    refused(PLAN, reorder(go(), Some("x")), "there is no 'x' to stand above");
+    refused(PLAN, reorder(go(), Some("x")), "there is no 'x' to insert before");
 }
 
 fn shift(item: Item, plan: &str, owner: Option<&str>) -> Change {

@@ -271,9 +271,10 @@ fn resuming_computations_stay_in_their_plan() {
         "{ Touched -> back } // careful",
         "{ Touched -> also, Lifted -> resume } // careful",
     );
-    let inside = "'ask' resumes what is active, which it cannot do from a plan of its own";
+    let inside = "'ask' resumes the active element, which is not possible from a separate plan";
     refused(&resuming, extract(&["turn", "ask"]), inside);
-    let outside = "'also' resumes what the selection has active, which nobody outside of it can do";
+    let outside =
+        "'also' resumes the selection's active element, which is not possible from outside";
     refused(&resuming, extract(&["turn"]), outside);
     let here = resuming.replace("Touched -> also", "Touched -> back");
     let here = here.replace(ONE_WAY, "        Lost  -> follow\n");
@@ -311,7 +312,7 @@ fn a_change_of_meaning_is_refused() {
         "Interrupted -> terminate",
         "an event of the sub-plan would end the plan as Interrupted, which it now ends as OK",
     );
-    change("subplan align: Align", "actor align: Align", "'align' is no sub-plan of a plan");
+    change("subplan align: Align", "actor align: Align", "'align' is not a sub-plan of a plan");
     let watched = format!("{CALL}\nscenario \"s\" for P {{ expect align -> go until 5 s }}\n");
     refused(&watched, inline(), "a scenario says what comes after 'align' as a whole");
 }

@@ -242,7 +242,7 @@ impl Courses {
     }
 
     fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("running episode", "make the environment anew"))
+        Err(no_pickle("running episode", "make the environment again"))
     }
 }
 
@@ -325,7 +325,7 @@ fn unbroken(place: LockResult<MutexGuard<'_, Place>>) -> PyResult<MutexGuard<'_,
 }
 
 fn broke() -> PyErr {
-    PyRuntimeError::new_err("an episode broke in an earlier call; make them anew")
+    PyRuntimeError::new_err("an episode broke in an earlier call; make them again")
 }
 
 fn begun(place: &Place) -> PyResult<&Course> {

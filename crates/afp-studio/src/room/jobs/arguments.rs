@@ -91,7 +91,7 @@ fn until(value: &Value) -> Result<Option<String>, String> {
         number.parse::<f64>().is_ok_and(|number| number == 0.0)
     };
     match word.as_ref().is_some_and(is_nothing) {
-        true => Err(format!("'{}' is no time to run in: write one, '30 s'", written.trim())),
+        true => Err(format!("'{}' is not a time: write for example '30 s'", written.trim())),
         false => Ok(word),
     }
 }
