@@ -14,7 +14,7 @@ use afp_run::RunError;
 
 use crate::plan::diagnostics;
 
-create_exception!(afp, AfpError, PyException, "What goes wrong with plans, worlds, logs and runs.");
+create_exception!(afp, AfpError, PyException, "An error of a plan, world, log or run.");
 create_exception!(afp, PlanError, AfpError, "A plan with errors; `diagnostics` has them.");
 
 /// An [`AfpError`] with this message.

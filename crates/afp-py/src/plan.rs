@@ -51,6 +51,7 @@ impl Plan {
         Ok(Plan { workspace: Mutex::new(workspace), toolboxes })
     }
 
+    /// The text.
     #[getter]
     fn text(&self) -> String {
         self.lock().text().to_owned()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from typing_extensions import Self, disjoint_base
 
 class AfpError(Exception):
-    """What goes wrong with plans, worlds, logs and runs."""
+    """An error of a plan, world, log or run."""
 
 class PlanError(AfpError):
     """A plan with errors; `diagnostics` has them."""

@@ -43,6 +43,7 @@ pub struct Verdict {
     ending: String,
     /// The hash of the trace, as in `afpc test --json`.
     trace_hash: String,
+    /// The timeline.
     timeline: Vec<String>,
     /// The command that repeats the scenario, or a note why none does.
     command: String,
