@@ -59,7 +59,8 @@ const fn habit(at: Places, pattern: &'static str, says: &'static str, write: Wri
 }
 
 const TIME_LIMIT: &str = "a time limit is a supervisor of its element";
-const LIMIT: &str = "write in the element's braces: 'supervise late: CheckTimeout(duration = {1}) { TimedOut -> {2} }'";
+const LIMIT: &str = "write in the element's braces: 'supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }'";
+const LATE: &str = "supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }";
 const GUARD: &str = "an edge has no condition: lead it to a computation that chooses";
 const CHOOSE: &str = "write '{1} -> choose', and in the plan: '{choose:2:3}'";
 const ACTION: &str = "an edge only leads on, it does nothing itself";
@@ -90,6 +91,7 @@ const WRITES: &str = "a plan has no assignment: a computation writes to an entry
 const NO_LIST: &str = "there are no lists: constants stand in a table";
 const TABLE: &str =
     "write 'table values(value: int) { (1) (2) }' in the file, and read it with 'Row' of 'std'";
+const COUNTS_UP: &str = "write '{event} -> set', and in the plan: 'computation set: Assign(value = {1} + 1, result => {1}) { Done -> {here} }'";
 const NO_HISTORY: &str = "a plan has no history: what is active goes on with 'resume'";
 const RESUME: &str = "lead the event, or the computation behind it, to 'resume'";
 const NO_MESSAGES: &str = "plans send nothing: an entry holds a value, and a supervisor watches it";
@@ -105,8 +107,9 @@ pub(crate) const BRANCH: &str =
 #[rustfmt::skip]
 pub(crate) const HABITS: &[Habit] = &[
     // Times.
-    habit(BODY, "after |: NUM ->|=>|: NAME", TIME_LIMIT, Edit("supervise late: CheckTimeout(duration = {1}) { TimedOut -> {2} }")),
-    habit(BODY, "after ( NUM ) ->|=>|: NAME", TIME_LIMIT, Edit("supervise late: CheckTimeout(duration = {1}) { TimedOut -> {2} }")),
+    habit(BODY, "after|at|tm|timeout |: |( NUM |) ->|=>|: NAME", TIME_LIMIT, Edit(LATE)),
+    habit(BODY, "after |: |{ NUM : NAME |}", TIME_LIMIT, Edit(LATE)),
+    habit(BODY, "after NUM / .. ->|=> NAME", TIME_LIMIT, Edit("supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {3} }")),
     habit(PLAN | EVENTS, "after |: NUM ->|=>|: NAME", TIME_LIMIT, Say(LIMIT)),
     habit(BODY, "after|timeout|delay |: ..", TIME_LIMIT, Say(TIMED)),
     habit(INSIDE, "timeout ( NUM ) ..", TIME_LIMIT, Say("write in the element's braces: 'supervise late: CheckTimeout(duration = {1}) { TimedOut -> {here} }'")),
@@ -115,19 +118,28 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "rate NUM ..", "a plan has no '{word}': a supervisor reports again and again", Say("write 'supervise tick: Every(period = 1 / {1}) { Due -> {here} }'")),
 
     // Conditions.
-    habit(EDGES, "NAME [ .. ] ->|=> NAME", GUARD, Say(CHOOSE)),
     habit(EDGES, "NAME when|if|unless|where|while .. ->|=> NAME", GUARD, Say(CHOOSE)),
+    habit(EDGES, "always [ .. ] ->|=>|: NAME", GUARD, Say("lead the edges that lead here to 'choose', and write in the plan: '{choose:1:2}'")),
+    habit(EDGES, "NAME [ .. ] ->|=> NAME", GUARD, Say(CHOOSE)),
+    habit(EDGES, "NAME [ .. ] / .. ->|=> NAME", GUARD, Say("write '{1} -> choose', and in the plan: '{choose:2:4}'")),
+    habit(EDGES, "NAME |, guard|cond|condition|provided |: .. ->|=> NAME", GUARD, Say(CHOOSE)),
+    habit(EDGES, "NAME / .. ->|=> NAME", ACTION, Say("write '{1} -> pause', and in the plan: 'actor pause: Wait(duration = 1 s) { Elapsed -> {3} }'")),
     habit(BEHIND, "[ .. ]", GUARD, Say("write '{event} -> choose', and in the plan: '{choose:1:target}'")),
     habit(BEHIND, "when|if|unless|where ..", GUARD, Say("write '{event} -> choose', and in the plan: '{choose:1:target}'")),
     habit(EDGES, "NAME ( NAME => NAME ) -> NAME", "outputs follow the template, not its events", Say("write '{template}({2} => {3})' and '{1} -> {4}'")),
+    habit(EDGES, "NAME ( .. ) ->|=> NAME", GUARD, Say(CHOOSE)),
     habit(EDGES, "guard|cond|condition : ..", GUARD, Say("write a computation in the plan: '{choose:1:here}'")),
+    habit(PLAN, "guard NAME |: .. ", GUARD, Say("write a computation in the plan: '{choose:2:here}'")),
+    habit(PLAN | EDGES, "if|when|unless .. then|->|=> NAME ..", NO_IF, Say("write '{choose:1:2}'")),
+    habit(PLAN | EDGES, "if|when|unless .. then|->|=> NAME", NO_IF, Say("write '{choose:1:2}'")),
+    habit(PLAN, "condition|trigger NAME : NAME { .. }", "a condition that is watched is a supervisor", Edit("supervise {1}: {2} {{3}}")),
     habit(PLAN, "if|elif|switch|case|match|when|else|choice|condition|decision|unless true|True|false|False|{ ..", NO_IF, Say(CHOICE)),
     habit(PLAN, "switch|case|match ( .. ) ..", NO_IF, Say("write 'computation choose: Compare(left = {1}, right = 3) { Less -> {here}, Equal, Greater -> terminate }', or 'Switch' for an enum")),
     habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless ( .. ) ..", NO_IF, Say("write '{choose:1:here}'")),
     habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless .. { ..", NO_IF, Say("write '{choose:1:here}'")),
     habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless .. :", NO_IF, Say("write '{choose:1:here}'")),
     habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless ..", NO_IF, Say("write '{choose:1:here}'")),
-    habit(PLAN, "else|choice|decision ..", NO_IF, Say(CHOICE)),
+    habit(PLAN, "else|choice|decision|junction ..", NO_IF, Say(CHOICE)),
     habit(EDGES, "else|otherwise|default ->|=>|: NAME", "edges have no '{word}': each state and event has an edge of its own", Say("write the names with commas before one arrow: 'Less, Equal -> {1}'")),
     habit(EDGES, "if|elif|else|switch|case|match|when|unless (|{|NAME ..", NO_IF, Say(CHOICE)),
     habit(EDGES, "NAME => { NAME }", "an edge has '->' and its target without braces", Edit("{1} -> {2}")),
@@ -142,7 +154,14 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(VALUE, "not|! (", NO_FORMULA_IF, Say(CHOICE)),
 
     // Actions of states.
-    habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during :|/|(|{ ..", NO_HOOK, Say(NEXT_ELEMENT)),
+    habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during :|/|(|{|->|=>|NAME ..", NO_HOOK, Say(NEXT_ELEMENT)),
+    habit(EDGES, "pass|nop|noop|skip", "nothing is written where nothing happens", Edit("")),
+    habit(BODY, "tags|tag|meta|description|id|label|type : ..", "an element has no '{word}'", Edit("")),
+    habit(EDGES, "defer NAME", "events are not deferred: a supervisor reports what holds while it watches", Edit("")),
+    habit(EDGES, "tick|Running|RUNNING|running ->|=>|: NAME", "an element that runs stays active without an edge", Edit("")),
+    habit(BODY, "cancel|cancelled|canceled|preempted|preempt|interrupted ->|=>|: NAME", "an interrupted element takes no edge: the event leads on", Edit("")),
+    habit(EDGES, "NAME < - NAME", "an edge leads from a state to its target", Edit("{2} -> {1}")),
+
     // Loops.
     habit(INSIDE, "repeat until .. { ..", LOOP, Say("write '{choose:1:here}'")),
     habit(INSIDE, "repeat|loop|times|retry|for |( NUM ..", LOOP, Say(COUNTED)),
@@ -170,6 +189,12 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(INSIDE, "digitalWrite|analogWrite|pinMode|tone ( ..", "a plan has no '{word}': actors of a toolbox drive its devices", Say("write an actor, such as 'actor show: Signal { Signalled -> {here} }'")),
     habit(INSIDE, "move|drive|turn|go|forward|backward|left|right |( NUM ..", "a plan has no '{word}': actors of a toolbox drive the robot", Say("write an actor, such as 'actor drive: Forward(distance = 10 cm) { ForwardSuccessful -> {here} }'")),
 
+    habit(PLAN, "go|glide|goto |( to ..", "a plan has no '{word}': actors of a toolbox drive the robot", Say("write an actor, such as 'actor there: DriveTo(x = 1 m, y = 1 m, heading = 0 deg) { Arrived, PathLost -> {here} }'")),
+    habit(PLAN, "say|think|speak .. for ..", SHOW, Say(LOG)),
+    habit(PLAN, "say|think|speak ..", SHOW, Say(LOG)),
+    habit(PLAN, "set|let|change ENTRY to .. ", WRITES, Say("write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(PLAN, "change|increase|increment ENTRY by .. ", WRITES, Say("write 'computation set: Assign(value = {1} + {2}, result => {1}) { Done -> {here} }'")),
+
     // Sensors and clocks in formulas.
     habit(VALUE, "millis|micros|clock|now|time|toc|tic ( ..", NO_CLOCK, Say(TIMED)),
     habit(VALUE, "NAME . time|now|ticks_ms|monotonic ( ..", NO_CLOCK, Say(TIMED)),
@@ -184,11 +209,22 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(INSIDE, "NAME [ .. ] = ..", NO_LIST, Say(TABLE)),
 
     // Signs in formulas.
+    habit(OPERATOR, ". *", "formulas have no '.*'", Edit(" *")),
+    habit(OPERATOR, ". /", "formulas have no './'", Edit(" /")),
     habit(OPERATOR, ". POWER ..", "formulas have no '.^'", Say("write a product, such as '{left} * {left}'")),
 
     // Actions.
     habit(TARGET, "{ NAME = .. ; NAME }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {3} }'")),
     habit(TARGET, "{ NAME = .. }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(TARGET, "{ target : NAME ..", ACTION, Edit("{1}")),
+    habit(TARGET, "{ NAME + + }", ACTION, Say(COUNTS_UP)),
+    habit(TARGET, "[ NAME , .. ]", "an edge leads to one element", Edit("{1}")),
+    habit(TARGET, "# NAME", "a target is the name of an element", Edit("{1}")),
+    habit(BEHIND, "( NAME = .. ) -> NAME", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {3} }'")),
+    habit(BEHIND, "( NAME = .. )", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(BEHIND, "( .. ) -> NAME", ACTION, Say("write '{event} -> pause', and in the plan: 'actor pause: Wait(duration = 1 s) { Elapsed -> {2} }'")),
+    habit(BEHIND, "( .. )", ACTION, Say("write '{event} -> pause', and in the plan: 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }'")),
+    habit(BEHIND, "*", NO_HISTORY, Say(RESUME)),
     habit(TARGET, "{ NAME }", "a target stands without braces", Edit("{1}")),
     habit(TARGET, "[ * ]", "a plan has no final state: an edge ends it", Edit("terminate")),
     habit(BEHIND, ". history|hist|last ..", NO_HISTORY, Say(RESUME)),
@@ -207,16 +243,22 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(EDGES, "target : NAME", "an edge begins with its state or event", Say("write 'State -> {1}'")),
     habit(EDGES, "always ->|=>|: NAME", "edges have no 'always': an element that goes on at once is not needed", Say("remove it, and lead the edges that lead here to '{1}'")),
     habit(PLAN, "initial|init|begin|root|entry |:|=|-> NAME", "a plan begins with 'start'", Edit("start {1}")),
-    habit(PLAN, "[ * ] - -> NAME", "a plan begins with 'start'", Edit("start {1}")),
+    habit(PLAN, "[ * ] |- -> NAME", "a plan begins with 'start'", Edit("start {1}")),
     habit(ITEMS, "states|nodes|steps|tasks :|=|{ ..", "elements are not listed: each is an item of the plan", Say("write each as 'actor idle: Wait(duration = 1 s) { Elapsed -> {here} }'")),
     habit(PLAN, "parallel|concurrent|fork|join|region|orthogonal ..", PARALLEL, Say(BESIDE)),
     habit(PLAN, "type : ..", PARALLEL, Say(BESIDE)),
     habit(ITEMS, "parallel ..", PARALLEL, Say(BESIDE)),
     habit(PLAN, "final state NAME", "a plan has no final state: an edge ends it", Say("write '-> terminate' where an edge leads to '{1}'")),
     habit(PLAN, "final|final_state NAME", "a plan has no final state: an edge ends it", Say("write '-> terminate' where an edge leads to '{1}'")),
+    habit(PLAN, "state|composite NAME { actor|state|initial|start ..", "elements with elements inside are a plan of their own", Say("write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file, and 'subplan {1}: {Large:1} { OK -> {here} }'")),
     habit(PLAN, "state|action|step|task|behavior|behaviour NAME { ..", "a state of a plan is an actor, made from a template", Say("write 'actor {1}: Wait(duration = 1 s) { Elapsed -> {here} }'")),
     habit(PLAN, "history ..", NO_HISTORY, Say(RESUME)),
-    habit(PLAN, "context|data|variables|vars : { NAME : .. }", "each entry is an item of its own", Say("write 'var {1}: int = {2}'")),
+    habit(PLAN, "context|data|variables|vars|userdata|blackboard |:|= { NAME :|= .. }", "each entry is an item of its own", Say("write 'var {1}: int = {2}'")),
+    habit(PLAN, "blackboard|userdata|context|data NAME : NAME", "a plan has no '{word}': an entry holds a value", Edit("var {1}: {2}")),
+    habit(PLAN, "delay|timeout NAME |:|= NUM", "an entry that never changes begins with 'const'", Edit("const {1} = {2}")),
+    habit(PLAN, "transition|edge| NAME to NAME on|when|if NAME", EDGE_OUTSIDE, Say("write '{3} -> {2}' in the braces of '{1}'")),
+    habit(PLAN, "NAME |- -> NAME : NAME", EDGE_OUTSIDE, Say("write '{3} -> {2}' in the braces of '{1}'")),
+    habit(PLAN, "NAME - -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
     habit(PLAN, "transition|edge NAME : NAME -> NAME", EDGE_OUTSIDE, Say("write '{1} -> {3}' in the braces of '{2}'")),
     habit(PLAN, "transition|edge| NAME -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
     habit(PLAN, "NAME - - -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
@@ -227,6 +269,9 @@ pub(crate) const HABITS: &[Habit] = &[
     // Behaviour trees.
     habit(ITEMS, "sequence|seq|chain |NAME { NAME |, NAME ..", SEQUENCE, Say("write 'State -> {2}' in the braces of '{1}'")),
     habit(ITEMS, "fallback|selector |NAME { NAME |, NAME ..", "a plan has no '{word}': an 'Error' edge leads to what comes instead", Say("write 'Error -> {2}' in the braces of '{1}'")),
+    habit(ITEMS, "reactive|memory|async|parallel sequence|fallback|selector ..", "a plan has no '{word}' nodes: a supervisor watches during an element", Say("write in the element's braces: 'supervise near: CheckDistance { Nearer -> {here}, Farther -> ignore }'")),
+    habit(ITEMS, "decorator ..", "a plan has no decorators: each state has an edge of its own", Say("lead the edge of each state where it should: 'Error -> {here}'")),
+    habit(ITEMS, "< ..", "plans are not XML: each leaf of a tree is an element", Say("write 'actor step: Forward { ForwardSuccessful -> {here} }' for a leaf, and '->' to what comes next")),
     habit(ITEMS, "sequence|seq|chain|fallback|selector ..", SEQUENCE, Say("write 'State -> {here}' in the braces of the element before it")),
     habit(PLAN, "inverter|invert|force_success|force_failure|succeeder ..", "a plan has no '{word}': each state has an edge of its own", Say("lead the edge of each state where it should: 'Error -> {here}'")),
     habit(PLAN, "subtree|submachine|sub NAME", "a plan in a plan is a 'subplan'", Say("write 'subplan {1}: {Large:1} { OK -> {here} }'")),
@@ -236,11 +281,16 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "subscribe|subscriber|callback|listen ..", "a plan has no '{word}': a supervisor watches", Say("write in an element's braces or in the plan: 'supervise near: CheckDistance { Nearer -> {here}, Farther -> ignore }'")),
     habit(PLAN, "publisher|advertise|topic ..", NO_MESSAGES, Say(CHANGED)),
     habit(PLAN, "service|rosservice|action_client|action_server ..", "a plan has no '{word}': a plan is used by a plan", Say("write a plan of its own, and use it with 'subplan'")),
+    habit(PLAN, "remap ..", "a plan has no '{word}': each element names what it reads and writes", Say("write it in the parentheses of the element: 'port = entry' or 'port => entry'")),
+    habit(ITEMS, "launch|roslaunch ..", "a plan starts nothing: 'afpc run' starts it", Edit("")),
     habit(PLAN, "spin|spinOnce|ros|rclpy |( ..", "a plan runs by itself", Say("remove it")),
     habit(BODY, "feedback|result ..", "outputs go to entries, in the brackets of the template", Say("write 'driven => {left}' in the brackets behind '{template}'")),
     habit(ITEMS, "node NAME { ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
 
     // Declarations.
+    habit(PLAN, "static|const|constexpr const|int|long|float|double|bool|byte |int|long|float NAME = NUM", "an entry that never changes begins with 'const'", Edit("const {1} = {2}")),
+    habit(PLAN, "unsigned|signed|volatile|static |unsigned int|long|short|char NAME = NUM", "an entry begins with 'var', and its type follows the name", Edit("var {1}: int = {2}")),
+    habit(PLAN, "unsigned|long |int|long NAME = millis|micros ..", NO_CLOCK, Say(TIMED)),
     habit(PLAN, "int|long|short|uint8_t|int32 NAME = NUM", "an entry begins with 'var', and its type follows the name", Edit("var {1}: int = {2}")),
     habit(PLAN, "float|double|real NAME = NUM", "an entry begins with 'var', and its type follows the name", Edit("var {1}: float = {2}")),
     habit(PLAN, "bool|boolean NAME = true|false", "an entry begins with 'var', and its type follows the name", Edit("var {1}: bool = {last}")),
@@ -255,6 +305,8 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(INSIDE, "ENTRY - -", WRITES, Say("write 'computation set: Assign(value = {1} - 1, result => {1}) { Done -> {here} }' in the plan")),
     habit(BODY, "ENTRY = ENTRY +|-|*|/ ..", WRITES, Say("write 'computation set: Assign(value = {written:2}, result => {1}) { Done -> {here} }' in the plan")),
     habit(PLAN, "NAME = SAME +|-|*|/ ..", WRITES, Say("declare 'var {1}: int = 0', and write 'computation set: Assign(value = {written:2}, result => {1}) { Done -> {here} }'")),
+    habit(PLAN, "self|this . ENTRY = ..", WRITES, Say("write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(PLAN, "self|this . NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
     habit(PLAN, "NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
 
     habit(PLAN, "param|parameter|input|argument NAME = NUM", "an entry that is given from outside begins with 'in', and has a type", Edit("in {1}: {type:2} = {2}")),
@@ -263,11 +315,15 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(ITEMS, "void|int|fn|func|function|def|sub|proc|async loop|Loop ( ) ..", FUNCTION, Say("write 'plan Loop forever { start wait actor wait: Wait { Elapsed -> wait } }'")),
     habit(ITEMS, "void|int|fn|func|function|def|sub|proc|async NAME ( ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
     habit(ITEMS, "function NAME = NAME ( ..", FUNCTION, Say("write 'plan {Large:2} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file; 'subplan' uses it")),
+    habit(PLAN, "lambda ..", "there is no '{word}': a formula is written where its value is needed", Say("write it at the port, such as 'Wait(duration = 1 s * 2)'")),
+    habit(ITEMS, "@ NAME |( ..", "items have no decorators", Edit("")),
     habit(ITEMS, "class|module|namespace|program|main NAME ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
     habit(ITEMS, "struct|record|type NAME ..", "there are no structs: each field is an entry", Say("declare each field in the plan, such as 'var x: length = 0 m'")),
     habit(PLAN, "import|include|from|require|using ..", "'use' stands at the top of the file", Say("write 'use std' there")),
     habit(FILE, "import|include|from|require|using std|carbot", "a file names its toolboxes with 'use'", Edit("use {last}")),
     habit(FILE, "import|include|from|require|using ..", "a file names its toolboxes with 'use'", Say("write 'use std' or 'use carbot'")),
+    habit(PLAN, "NAME . NAME ( ..", "a plan calls nothing: an edge leads to an element", Say("write an actor, such as 'actor drive: Forward(distance = 10 cm) { ForwardSuccessful -> {here} }'")),
+    habit(BODY, "NAME ( ..", "an element does one thing: another action is another element", Say("give '{1}' an element of its own in the plan, and lead an edge to that")),
     habit(INSIDE, "try|catch|except|finally|throw ..", "a plan has no '{word}': a failure takes the 'Error' edge", Say("write 'Error -> {here}' in the braces of the element")),
 ];
 
@@ -308,6 +364,31 @@ pub const REACTIONS: &[(&str, &[&str])] = &[
             "last",
         ],
     ),
+];
+
+/// States that are called otherwise elsewhere: the only state of an element, and its failure.
+pub const STATES: &[(&str, &[&str])] = &[
+    (
+        "OK",
+        &[
+            "ok",
+            "success",
+            "succeeded",
+            "successful",
+            "done",
+            "ondone",
+            "onsuccess",
+            "result",
+            "finished",
+            "complete",
+            "completed",
+            "reached",
+            "arrived",
+            "next",
+            "then",
+        ],
+    ),
+    ("Error", &["error", "failure", "failed", "fail", "onerror", "aborted", "abort", "rejected"]),
 ];
 
 /// Types that are called otherwise elsewhere.

@@ -14,6 +14,7 @@ use crate::index::{Recorder, Word};
 use crate::toolbox::TemplateKind;
 use afp_syntax::ast::{Edge, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, list, words};
+use afp_syntax::habits::{STATES, ours};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
@@ -310,7 +311,16 @@ fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic 
                     'Error'";
         return Diagnostic::new(Code::E0210, name.span, message).help(help);
     }
-    let known = origin.signature.outcomes.iter().map(|outcome| &**outcome).chain([extra]);
+    let own = &origin.signature.outcomes;
+    let meant = match (ours(STATES, &name.text), own.as_slice()) {
+        (Some("Error"), _) => Some(ERROR),
+        (Some(_), [only]) => Some(&**only),
+        _ => None,
+    };
+    if let Some(meant) = meant.filter(|_| !origin.supervisor) {
+        return Diagnostic::new(Code::E0210, name.span, message).write(meant);
+    }
+    let known = own.iter().map(|outcome| &**outcome).chain([extra]);
     unknown(Code::E0210, name.span, message, &name.text, known, "remove the edge")
 }
 

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use super::{PlanHead, Program};
-use crate::toolbox::Toolbox;
+use crate::toolbox::{TemplateKind, Toolbox};
 use crate::types::text::written;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Message};
 use afp_syntax::message;
+use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
 /// Says of a name that is not there what else it is, if it is something.
@@ -25,6 +26,7 @@ pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnos
             .or_else(|| unit_alone(name, &error))
             .or_else(|| entry(head?, name, &error)),
         Code::E0239 => head.and_then(|head| path(program, head, (text, name), &error)),
+        Code::E0210 => event(program, text, name, &error),
         Code::E0216 => element(program, plan, name, &error)
             .or_else(|| no_element(program, head?, name, &error)),
         _ => None,
@@ -113,6 +115,31 @@ fn path(
     let said =
         said(message!("'{}' sees only its own entries, and '{}' is another plan", own, home));
     Some(said.help(help))
+}
+
+/// An event of a supervisor in the place of a state.
+fn event(program: &Program<'_>, text: &str, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
+    let templates = program.toolboxes.iter().flat_map(|toolbox| &toolbox.templates);
+    let mut watching = templates.filter(|it| it.kind == TemplateKind::Supervisor);
+    let template = watching.find(|it| it.outcomes.iter().any(|event| event.name == name))?;
+    let behind = text.get(error.span.end as usize..)?;
+    let target = behind.trim_start().strip_prefix("->")?.trim_start();
+    let ends = target.find(|each: char| !each.is_ascii_alphanumeric() && each != '_')?;
+    let edges = template.outcomes.iter().map(|event| match event.name == name {
+        true => format!("{name} -> {}", &target[..ends]),
+        false => format!("{} -> ignore", event.name),
+    });
+    let edges: Vec<_> = edges.collect();
+    let watched = &template.name;
+    let better = format!("supervise watch: {watched} {{ {} }}", edges.join("  "));
+    let message = message!("'{}' is an event of '{}', which a supervisor reports", name, watched);
+    let whole = error.span.to(Span {
+        start: error.span.end,
+        end: u32::try_from(text.len() - target.len() + ends).ok()?,
+        ..error.span
+    });
+    let said = Diagnostic::new(error.code, error.span, message);
+    Some(said.help(message!("write '{}'", better)).fix(whole, better))
 }
 
 /// An element is no entry.

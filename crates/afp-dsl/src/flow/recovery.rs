@@ -23,6 +23,9 @@ use afp_syntax::message;
 /// An event of a global supervisor, and where it leads.
 type Recovery = (SupervisorId, u16, Node);
 
+/// Greatest number of pairs that take turns that is reported for a plan.
+const MOST_PAIRS: usize = 20;
+
 /// Warns of each such event, at its edge.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     start_over(view, diags);
@@ -112,8 +115,7 @@ fn commands(view: &View<'_>, element: &Element) -> bool {
 }
 
 /// Warns of events that take turns while both hold: each ends what the other has started, before that has done anything
-/// about it. At most one such event is named for each recovery. What a recovery runs into by its own supervisors is not
-/// told where the recovery is `reported` already.
+/// about it. What a recovery runs into by its own supervisors is left out where the recovery is `reported` already.
 fn alternate(
     view: &View<'_>,
     all: &[(Recovery, Vec<usize>)],
@@ -132,20 +134,21 @@ fn alternate(
     for (one, edges) in all {
         let Some(own) = edges.last().map(|edge| view.edges[*edge]) else { continue };
         let during = view.rests(one.2).into_iter().filter(|node| view.element(*node).is_some());
-        let turn = during.into_iter().find_map(|during| {
+        for during in during {
             let local = view.from(during).iter().filter(|_| !reported.contains(one));
             let others = local.chain(view.of_globals(during));
-            let mut others = others.filter(|it| it.to != during && lasts(view, one.0, it));
-            others.find_map(|other| {
+            for other in others.filter(|it| it.to != during && lasts(view, one.0, it)) {
+                let pair = BTreeSet::from([event_of(own.cause), event_of(other.cause)]);
+                if told.len() == MOST_PAIRS || told.contains(&pair) {
+                    continue;
+                }
                 let mut next = view.rests(other.to).into_iter();
-                let next = next.find(|next| *next != during && holds(*next, *one))?;
-                (!holding::contradict(view, &[own, *other])).then_some((during, *other, next))
-            })
-        });
-        let Some((during, other, next)) = turn else { continue };
-        let pair = BTreeSet::from([event_of(own.cause), event_of(other.cause)]);
-        if told.insert(pair) {
-            diags.push(turns(view, (own.cause, next), (other.cause, during)));
+                let next = next.find(|next| *next != during && holds(*next, *one));
+                if let Some(next) = next.filter(|_| !holding::contradict(view, &[own, *other])) {
+                    told.insert(pair);
+                    diags.push(turns(view, (own.cause, next), (other.cause, during)));
+                }
+            }
         }
     }
 }
@@ -168,10 +171,11 @@ fn lasts(view: &View<'_>, one: SupervisorId, edge: &Edge) -> bool {
 
 /// What is told of two events, each with the element in which it would have to be ignored.
 fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnostic {
-    let ((first, _), (next, _)) = match view.span(one.0) < view.span(other.0) {
+    let (one, other) = match view.span(one.0) < view.span(other.0) {
         true => (one, other),
         false => (other, one),
     };
+    let ((first, _), (next, _)) = (one, other);
     let ignored = |(cause, node): (Cause, Node)| {
         let (id, event) = event_of(cause).filter(|(id, _)| view.supervisor(*id).owner.is_none())?;
         let supervisor = view.supervisor(id);
@@ -179,8 +183,11 @@ fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnosti
         let line = format!("on {} {{ {event} -> ignore }}", supervisor.name);
         Some(message!("'{}' in '{}'", line, view.node_name(node)))
     };
-    let help = match (ignored(one), ignored(other)) {
-        (Some(one), Some(other)) => message!("let one of them finish: write {}, or {}", one, other),
+    // What is declared first is mostly more urgent.
+    let help = match (ignored(other), ignored(one)) {
+        (Some(late), Some(early)) => {
+            message!("let one of them finish: write {}, or {}", late, early)
+        }
         (Some(only), None) | (None, Some(only)) => message!("write {}", only),
         (None, None) => "lead one of them to 'terminate'".into(),
     };

@@ -6,14 +6,14 @@ mod words;
 use super::Parser;
 use super::habits::is_operator;
 use crate::diagnostics::{Code, Diagnostic, Words};
-use crate::habits::{BEHIND, HABITS, Habit, OPERATOR, PLAN, Places, TARGET, VALUE, Write};
+use crate::habits::{BEHIND, Habit, OPERATOR, PLAN, Places, TARGET, VALUE, Write};
 use crate::keywords;
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::message;
 use crate::source::Span;
-use matcher::{Matcher, begins, between, is_written};
-use words::{choose, comparison, time, type_of, with_first};
+use matcher::{Matcher, beginning, between, is_written};
+use words::{choose, comparison, time, type_of, undeclared, with_first};
 
 /// So many tokens are looked at.
 const MOST_TOKENS: usize = 64;
@@ -69,6 +69,9 @@ impl<'t> Parser<'t, '_> {
                 if let Some((name, word @ (&"in" | &"const"))) = declared {
                     help = format!("declare '{name}' with 'var', not '{word}', and {help}");
                 }
+                if let Some(entry) = undeclared(&help, |name| self.entries.contains_key(name)) {
+                    help = format!("declare '{entry}', and {help}");
+                }
                 if !self.has_std && OF_STD.iter().any(|template| help.contains(template)) {
                     help += "; 'use std' at the top";
                 }
@@ -92,12 +95,13 @@ impl<'t> Parser<'t, '_> {
             return None;
         }
         let word = self.tokens.get(start)?.text;
-        let mut fitting = HABITS.iter().filter(|it| it.at & place != 0 && begins(it.pattern, word));
-        let first = fitting.next()?;
+        let fitting = beginning(word, place);
+        if fitting.is_empty() {
+            return None;
+        }
         let line = self.written_line(start, place);
-        let mut all = std::iter::once(first).chain(fitting);
         let is_formula = place & (VALUE | OPERATOR) != 0;
-        all.find_map(|habit| {
+        fitting.into_iter().find_map(|habit| {
             let entries = &self.entries;
             let mut matcher =
                 Matcher { line: &line, entries, captures: Vec::new(), next: None, is_formula };
@@ -295,7 +299,8 @@ impl<'t> Parser<'t, '_> {
     /// Whether a habit is written where an edge could begin, or another part of a body; reports it.
     pub(super) fn habit_of_body(&mut self, place: Places) -> bool {
         let is_state = self.word(0).starts_with(|first: char| first.is_ascii_uppercase());
-        let is_usual = is_state && matches!(self.nth(1), Kind::Arrow | Kind::Comma)
+        let is_usual = is_state
+            && (self.nth(1) == Kind::Arrow || self.nth(1) == Kind::Comma && self.at_edge())
             || self.at_word("supervise")
             || self.at_word_before_edge();
         !is_usual && self.habit(place)

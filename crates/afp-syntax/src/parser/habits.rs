@@ -47,6 +47,26 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// `start go, turn`
+    pub(super) fn one_start(&mut self) {
+        let more = (0..).step_by(2).take_while(|at| {
+            (self.nth(*at), self.nth(at + 1)) == (Kind::Comma, Kind::Name)
+                && !self.begins_line(at + 1)
+        });
+        let more = 2 * more.count();
+        if more > 0 && self.on_same_line() {
+            self.instead(more, "a plan starts with one element", "remove what follows", "");
+        }
+    }
+
+    /// `Done -> goto turn`
+    pub(super) fn no_word_before_target(&mut self) {
+        if self.at_arrow_word() && !self.edge_at(1) {
+            let message = message!("unexpected {} before a target", self.found());
+            self.instead(1, message, "remove it", "");
+        }
+    }
+
     /// The ':' before a template, or what was written for it.
     pub(super) fn colon_of_head(&mut self) -> bool {
         let swapped =

@@ -119,6 +119,7 @@ impl Parser<'_, '_> {
                 } else {
                     self.expected_name("name the first element");
                 }
+                self.one_start();
                 self.close_item();
             }
             "supervise" => self.guard(),
@@ -159,8 +160,10 @@ impl Parser<'_, '_> {
         self.head("an actor's template, a computation's or a plan", false);
         self.no_timing();
         let body = self.open_body("put supervisors and edges in braces", Self::begins_body);
+        let template = self.template;
         if let Some(body) = body {
             while !self.ends_body(&body) {
+                self.template = template;
                 self.repeat(|parser| {
                     if parser.habit_of_body(habits::BODY)
                         || parser.reaction_without_braces()
@@ -378,6 +381,7 @@ impl Parser<'_, '_> {
             return self.close_item();
         }
         if self.at(Kind::Name) && (self.on_same_line() || self.target_of_another_line()) {
+            self.no_word_before_target();
             let brackets = self.no_brackets();
             self.target(brackets);
             self.habit_behind_target();

@@ -1,7 +1,9 @@
 //! Compares tokens with the pattern of a habit.
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
+use crate::habits::{HABITS, Habit, Places};
 use crate::kind::Kind;
 use crate::lexer::Token;
 
@@ -10,13 +12,32 @@ pub(super) fn is_written(token: &Token<'_>) -> bool {
     !token.kind.is_trivia() && !token.text.is_empty()
 }
 
-/// Whether a pattern may begin with a token.
-pub(super) fn begins(pattern: &str, token: &str) -> bool {
-    let is_name = || token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
-    let fits = |each: &str| each == token || matches!(each, "NAME" | "ENTRY") && is_name();
-    let is_optional = |part: &&str| part.split('|').any(str::is_empty);
-    let optional = pattern.split(' ').take_while(is_optional).count();
-    pattern.split(' ').take(optional + 1).any(|part| part.split('|').any(fits))
+/// The habits by the words with which their patterns may begin, each in the order of the table. A text with an error in
+/// each line asks for them in each line.
+static BY_FIRST: LazyLock<BTreeMap<&'static str, Vec<usize>>> = LazyLock::new(|| {
+    let mut first: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    for (index, habit) in HABITS.iter().enumerate() {
+        let is_optional = |part: &&str| part.split('|').any(str::is_empty);
+        let optional = habit.pattern.split(' ').take_while(is_optional).count();
+        let parts = habit.pattern.split(' ').take(optional + 1);
+        for word in parts.flat_map(|part| part.split('|')).filter(|word| !word.is_empty()) {
+            first.entry(word).or_default().push(index);
+        }
+    }
+    first
+});
+
+/// The habits of a place whose patterns may begin with a token, in the order of the table.
+pub(super) fn beginning(token: &str, place: Places) -> Vec<&'static Habit> {
+    let is_name = token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+    let classes = if is_name { ["NAME", "ENTRY"].as_slice() } else { &[] };
+    let words = std::iter::once(token).chain(classes.iter().copied());
+    let mut found: Vec<usize> =
+        words.filter_map(|word| BY_FIRST.get(word)).flatten().copied().collect();
+    found.sort_unstable();
+    found.dedup();
+    let habits = found.into_iter().map(|index| &HABITS[index]);
+    habits.filter(|habit| habit.at & place != 0).collect()
 }
 
 pub(super) struct Matcher<'l, 't> {

@@ -42,7 +42,46 @@ pub(super) fn comparison(condition: &str) -> Option<(&str, &str, &str)> {
     let first = first_of(condition);
     let sign = signs.into_iter().find(|sign| first.contains(sign))?;
     let (left, right) = first.split_once(sign)?;
-    Some((left.trim(), sign.trim(), right.trim()))
+    Some((simple(left), sign.trim(), number_of(right.trim())))
+}
+
+/// A value without what no formula has: its first name, if there is more.
+fn simple(value: &str) -> &str {
+    let value = value.trim();
+    if !value.contains(['(', ':', '[', '{', '?']) && !value.contains("->") {
+        return value;
+    }
+    let ends = value.find(|each: char| !each.is_ascii_alphanumeric() && each != '_');
+    &value[..ends.unwrap_or(value.len())]
+}
+
+/// A number with its unit, without what follows it; any other text whole.
+fn number_of(text: &str) -> &str {
+    let number = text.find(' ').filter(|_| text.starts_with(|it: char| it.is_ascii_digit()));
+    let Some(number) = number else { return simple(text) };
+    let behind = text[number..].trim_start();
+    let unit = behind.find(' ').map_or(behind, |end| &behind[..end]);
+    let is_formula = unit.starts_with(['+', '-', '*', '/', '%']);
+    match Unit::parse(unit).is_some() {
+        _ if is_formula => text,
+        true => &text[..text.len() - behind.len() + unit.len()],
+        false => &text[..number],
+    }
+}
+
+/// The entry that a computation of a help reads and that nothing declares, as a declaration.
+pub(super) fn undeclared(help: &str, is_entry: impl Fn(&str) -> bool) -> Option<String> {
+    let begin = ["choose: Is(value = ", "choose: Compare(left = "]
+        .into_iter()
+        .find_map(|begin| Some(help.find(begin)? + begin.len()))?;
+    let (name, rest) = help[begin..].split_once(", ")?;
+    let is_name = name.starts_with(|it: char| it.is_ascii_alphabetic())
+        && name.bytes().all(|it| it.is_ascii_alphanumeric() || it == b'_');
+    if !is_name || is_entry(name) || matches!(name, "true" | "false") {
+        return None;
+    }
+    let value = rest.split_once("= ")?.1.split_once(')')?.0;
+    Some(format!("var {name} = {value}"))
 }
 
 /// The computation that chooses by a condition: if it holds, an edge leads on to `then`.
@@ -52,13 +91,21 @@ pub(super) fn choose(condition: &str, then: &str) -> String {
         let value = first_of(condition).trim_start_matches('=');
         let negated = value.strip_prefix("not ").or_else(|| value.strip_prefix('!'));
         let (value, equals) = negated.map_or((value, true), |value| (value.trim(), false));
-        let value = if value.is_empty() { "n" } else { value };
+        let value = match simple(value) {
+            "" => "n",
+            value => value,
+        };
         return format!(
             "computation choose: Is(value = {value}, equals = {equals}) {{ Yes -> {then}, No -> terminate }}"
         );
     };
     let is_number = right.starts_with(|it: char| it.is_ascii_digit() || it == '-');
     if matches!(sign, "==" | "!=" | "=" | "is") && !is_number {
+        let right = match right {
+            "HIGH" | "TRUE" | "True" => "true",
+            "LOW" | "FALSE" | "False" => "false",
+            right => right,
+        };
         let (yes, no) = if sign == "!=" { ("terminate", then) } else { (then, "terminate") };
         return format!(
             "computation choose: Is(value = {left}, equals = {right}) {{ Yes -> {yes}, No -> {no} }}"

@@ -67,6 +67,9 @@ impl Parser<'_, '_> {
     /// What stands behind a target on its line: `-> go.Done`, `-> go -> home`, `-> go, home`.
     pub(in crate::parser) fn no_more_targets(&mut self) {
         let more = self.on_same_line() && self.nth(1) == Kind::Name && !self.begins_line(1);
+        if self.at(Kind::Dot) && self.is_adjacent() && !more {
+            return self.instead(1, "an edge ends with its target", "remove it", "");
+        }
         if !more {
             return;
         }
