@@ -86,6 +86,12 @@ pub trait Sink {
 
     /// Takes one record; `at` is the time of the step.
     fn record(&mut self, at: Instant, record: &Record<'_>);
+
+    /// A component is about to be called: what another thread needs to know if the call never returns.
+    #[inline]
+    fn calls(&mut self, component: ComponentId) {
+        let _ = component;
+    }
 }
 
 /// No trace, no cost.
@@ -127,6 +133,11 @@ impl<S: Sink + ?Sized> Sink for &mut S {
     fn record(&mut self, at: Instant, record: &Record<'_>) {
         (**self).record(at, record);
     }
+
+    #[inline]
+    fn calls(&mut self, component: ComponentId) {
+        (**self).calls(component);
+    }
 }
 
 /// Each record goes to both.
@@ -136,5 +147,11 @@ impl<A: Sink, B: Sink> Sink for (A, B) {
     fn record(&mut self, at: Instant, record: &Record<'_>) {
         self.0.record(at, record);
         self.1.record(at, record);
+    }
+
+    #[inline]
+    fn calls(&mut self, component: ComponentId) {
+        self.0.calls(component);
+        self.1.calls(component);
     }
 }

@@ -1,4 +1,4 @@
-//! Parts for the author of a robot: [`RealTime`] for robots that exist, workers that compute the [`Job`]s of
+//! Parts for the author of a robot: [`RealTime`] and [`open_device`] for robots that exist, workers that compute the [`Job`]s of
 //! components, and for simulated robots a sensor's [`Line`] to the plan, [`Noise`], a [`VirtualClock`] and a [`Grid`] as a
 //! world.
 //!
@@ -32,6 +32,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod device;
 mod grid;
 mod line;
 mod noise;
@@ -40,6 +41,7 @@ mod virtual_clock;
 mod worker;
 
 pub use afp_session::{Hardware, LastResort, Robot, SampleRef, Samples, Settings};
+pub use device::{open_device, release_device};
 pub use grid::{Contact, Grid};
 pub use line::Line;
 pub use noise::Noise;

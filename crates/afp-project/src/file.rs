@@ -10,6 +10,7 @@ use crate::krate::{self, CrateLink, HardwareLink, RobotLink};
 use crate::path::{NAME, shown};
 use crate::project::{Project, Toolbox};
 use crate::read::read;
+use crate::realtime::Realtime;
 
 /// A project file that says nothing wrong; where there is none, nothing is said.
 #[derive(Clone, Debug)]
@@ -151,7 +152,13 @@ impl ProjectFile {
         let hardware = self.project.robot.as_ref().and_then(|robot| robot.hardware.as_ref());
         let (Some(hardware), Some(robot)) = (hardware, self.robot()?) else { return Ok(None) };
         let linked = krate::link_hardware(&self.folder, hardware, robot.krate);
-        linked.map(Some).map_err(|mistake| self.wrong(vec![mistake]))
+        let mut linked = linked.map_err(|mistake| self.wrong(vec![mistake]))?;
+        let realtime = self.project.robot.iter().flat_map(|robot| &robot.realtime);
+        let named = |(name, value): &(String, String)| {
+            (format!("{}{name}", Realtime::PREFIX), value.clone())
+        };
+        linked.settings.extend(realtime.map(named));
+        Ok(Some(linked))
     }
 
     /// The error for what is wrong in this file beyond its own text.

@@ -64,6 +64,11 @@ pub(crate) const ROBOT: &[Key] = &[
         "The robot itself, for '--robot hardware'.",
         "hardware = { type = \"Board\", crate = { path = \"board\" } }",
     ),
+    key(
+        "realtime",
+        "How the control loop of the robot itself runs.",
+        "realtime.stall = \"100 ms\"",
+    ),
 ];
 
 /// `hardware` of `[robot]`
@@ -79,6 +84,13 @@ pub(crate) const HARDWARE: &[Key] = &[
         "What that type is given, by names of its own.",
         "settings = { port = \"/dev/ttyUSB0\" }",
     ),
+];
+
+/// `realtime` of `[robot]`
+pub(crate) const REALTIME: &[Key] = &[
+    key("stall", "The run ends if the control loop is later than this.", "stall = \"100 ms\""),
+    key("priority", "The FIFO priority of the control loop, 1 to 99.", "priority = 50"),
+    key("cpu", "The processor that the control loop runs on.", "cpu = 3"),
 ];
 
 /// What a crate has beside where it comes from.
@@ -111,6 +123,7 @@ pub fn keys(table: &[&str]) -> Vec<Key> {
         ["afp"] => &[ORIGIN],
         ["robot"] => &[ROBOT],
         ["robot", "hardware"] => &[HARDWARE],
+        ["robot", "realtime"] => &[REALTIME],
         ["toolboxes", _] => &[TOOLBOX],
         ["toolboxes", _, "crate"] | ["robot", "crate"] | ["robot", "hardware", "crate"] => {
             &[ORIGIN, CRATE]
@@ -141,6 +154,7 @@ mod tests {
             ("toolboxes.a.crate", &["toolboxes", "a", "crate"]),
             ("robot", &["robot"]),
             ("robot.hardware", &["robot", "hardware"]),
+            ("robot.realtime", &["robot", "realtime"]),
             ("target.a", &["target", "a"]),
         ] {
             let all = keys(table);

@@ -55,6 +55,9 @@ pub struct Robot {
     pub krate: Option<Crate>,
     /// The robot itself, beside the simulated one.
     pub hardware: Option<Hardware>,
+    /// How the control loop of the robot itself runs: names of [`Realtime`](crate::Realtime) and values, in the order of
+    /// the file.
+    pub realtime: Vec<(String, String)>,
     /// The heading in the text, in bytes.
     pub span: Range<usize>,
 }

@@ -10,6 +10,7 @@ use toml_edit::{Document, Item, TableLike, Value};
 
 use crate::keys::{self, Key};
 use crate::project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
+use crate::realtime::Realtime;
 use crate::time::duration;
 
 /// Reads the text of an `afp.toml`. What is wrong is left out of the project and said beside it, in
@@ -139,13 +140,15 @@ impl Reader {
 
     fn robot(&mut self, robot: &Pair<'_>, toolboxes: &[Toolbox]) -> Option<Robot> {
         let before = self.mistakes.len();
-        let (mut toolbox, mut sim, mut krate, mut hardware) = (None, None, None, None);
+        let (mut toolbox, mut sim, mut krate) = (None, None, None);
+        let (mut hardware, mut realtime) = (None, Vec::new());
         for pair in self.table(robot, "a heading '[robot]'") {
             match pair.key {
                 "toolbox" => toolbox = self.known_toolbox(&pair, toolboxes),
                 "sim" => sim = self.type_path(&pair),
                 "crate" => krate = Some(self.krate(&pair)),
                 "hardware" => hardware = self.hardware(&pair),
+                "realtime" => realtime = self.realtime(&pair),
                 _ => self.unknown(&pair, "'[robot]'", keys::ROBOT),
             }
         }
@@ -153,7 +156,7 @@ impl Reader {
             let help = "write 'sim = \"Vacuum\"', the Rust type that implements 'Simulated'";
             self.wrong(robot.span.clone(), "'[robot]' has no 'sim'".to_owned(), help);
         }
-        Some(Robot { toolbox, sim: sim?, krate, hardware, span: robot.span.clone() })
+        Some(Robot { toolbox, sim: sim?, krate, hardware, realtime, span: robot.span.clone() })
     }
 
     fn hardware(&mut self, hardware: &Pair<'_>) -> Option<Hardware> {
@@ -179,16 +182,26 @@ impl Reader {
     fn settings(&mut self, settings: &Pair<'_>) -> Vec<(String, String)> {
         let mut all = Vec::new();
         for pair in self.table(settings, "settings = { port = \"/dev/ttyUSB0\" }") {
-            let value = match pair.item.as_value() {
-                Some(Value::String(text)) => Some(text.value().clone()),
-                Some(Value::Integer(number)) => Some(number.value().to_string()),
-                Some(Value::Float(number)) => Some(number.value().to_string()),
-                Some(Value::Boolean(truth)) => Some(truth.value().to_string()),
-                _ => None,
-            };
-            match value {
+            match simple(&pair) {
                 Some(value) => all.push((pair.key.to_owned(), value)),
                 None => self.value(&pair, "a text in quotes, a number, true or false"),
+            }
+        }
+        all
+    }
+
+    /// The names and values of [`Realtime`].
+    fn realtime(&mut self, realtime: &Pair<'_>) -> Vec<(String, String)> {
+        let mut all = Vec::new();
+        for pair in self.table(realtime, "stall = \"100 ms\"") {
+            if !Realtime::NAMES.contains(&pair.key) {
+                self.unknown(&pair, "'realtime'", keys::REALTIME);
+                continue;
+            }
+            let value = simple(&pair).unwrap_or_default();
+            match Realtime::default().set(pair.key, &value) {
+                Ok(()) => all.push((pair.key.to_owned(), value)),
+                Err(what) => self.value(&pair, what),
             }
         }
         all
@@ -350,6 +363,17 @@ fn pairs(table: &dyn TableLike) -> Vec<Pair<'_>> {
         Pair { key, item, span: span.or_else(|| item.span()).unwrap_or(0..0) }
     });
     pairs.collect()
+}
+
+/// A text, a number or a truth value, as its text.
+fn simple(pair: &Pair<'_>) -> Option<String> {
+    match pair.item.as_value()? {
+        Value::String(text) => Some(text.value().clone()),
+        Value::Integer(number) => Some(number.value().to_string()),
+        Value::Float(number) => Some(number.value().to_string()),
+        Value::Boolean(truth) => Some(truth.value().to_string()),
+        _ => None,
+    }
 }
 
 fn value_span(pair: &Pair<'_>) -> Range<usize> {

@@ -19,6 +19,9 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
     let world = world_of(log, robot)?;
     let names = &log.names;
     let (path, marks) = follow(&log.events, &log.poses, names);
+    if path.is_empty() && world.scene().is_empty() {
+        return Err(nothing_to_draw());
+    }
     let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
     let run = SoFar {
         plan: fact("plan"),
@@ -58,6 +61,13 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
 /// Whether a logged run was one of the robot itself, which is in no world that a program knows.
 pub fn is_of_hardware(log: &LogData) -> bool {
     log.facts.get("robot").is_some_and(|robot| robot == HARDWARE)
+}
+
+/// A run without a world, on a robot that does not say where it is, has no picture.
+pub(crate) fn nothing_to_draw() -> RunError {
+    let message = "there is nothing to draw: the run has no world, and the robot reports no position";
+    let help = "a robot that reports a signal of type 'pose' has a path";
+    RunError::Missing { message: message.to_owned(), help: help.to_owned() }
 }
 
 /// The world of a logged run; an empty one where that was one of the robot itself.

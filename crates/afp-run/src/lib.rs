@@ -20,6 +20,7 @@ pub mod requests;
 mod run;
 mod stderr;
 mod stop;
+mod watchdog;
 pub mod world;
 
 use std::process::ExitCode;

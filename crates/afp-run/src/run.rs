@@ -10,16 +10,17 @@ use std::io;
 use std::path::Path;
 
 use afp_core::trace::Names;
-use afp_core::{Ending, Instant};
+use afp_core::{Duration, Ending, Instant};
 use afp_log::svg::{self, Picture};
 use afp_log::{About, LogError, Recorder, SessionLog, WhenFull, Written};
 use afp_project::ProjectFile;
 use afp_session::{
     AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
-    Requested, SessionError, TextFile, Track,
+    Requested, SessionError, TextFile, Track, Watch,
 };
 
 use crate::again::Again;
+use crate::drawn::nothing_to_draw;
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
 use crate::live;
@@ -30,6 +31,7 @@ use crate::picture::Rasterizer;
 use crate::report::{Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
 use crate::stderr::warn;
 use crate::stop::StopFlag;
+use crate::watchdog::Watchdog;
 use crate::world::{BUILT_IN, LoadedWorld};
 use crate::{Program, inputs, requests};
 
@@ -81,7 +83,7 @@ pub fn run(
     }
     let (facts, world, again) = (robot.facts(), &world, again.as_ref());
     let setting = Setting { program, options, recipe, world, facts, again, rasterizer };
-    drive(&mut *session, None, &setting)
+    drive(&mut *session, Guards::default(), &setting)
 }
 
 /// The world that the options ask for.
@@ -183,10 +185,18 @@ fn log_of(
     Ok(SessionLog::new(recorder, devices, scene, options.camera))
 }
 
+/// What stops a real robot where its session cannot.
+#[derive(Default)]
+struct Guards {
+    last_resort: Option<LastResort>,
+    /// What the session is watched with, and how late it may be.
+    watch: Option<(Watch, Duration)>,
+}
+
 /// Drives a session to its end and says what it came to.
 fn drive(
     session: &mut dyn AnySession,
-    last_resort: Option<LastResort>,
+    guards: Guards,
     setting: &Setting<'_>,
 ) -> Result<u8, RunError> {
     let Setting { program, options, world, rasterizer, .. } = *setting;
@@ -195,7 +205,7 @@ fn drive(
     let raster = paths.raster(rasterizer)?;
     let keeper = options.time_keeper();
     let stop = stop_flag(keeper).map_err(RunError::file("cannot handle", "signals".as_ref()))?;
-    stop.set_last_resort(last_resort);
+    stop.set_last_resort(guards.last_resort);
     let mut log = paths.log.as_deref().map(|path| log_of(path, session, setting)).transpose()?;
     let report = Report::new(options.json, end, keeper);
     let report =
@@ -220,7 +230,13 @@ fn drive(
     let logs = log.iter_mut().chain(&mut sent);
     observers.extend(logs.map(|log| log as &mut dyn Observer));
     let driver = Driver { keeper, end, live: live.as_deref() };
+    let names = session.owned_names();
+    let watchdog =
+        guards.watch.map(|(watch, stall)| Watchdog::start(watch, stall, stop.clone(), names));
+    let watchdog =
+        watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
     let went = driver.run_to_end(session, &mut gate, &mut observers);
+    drop(watchdog);
     // The robot stands before anything is written that may take its time.
     let measured = session.end();
     stop.set_last_resort(None);
@@ -323,6 +339,9 @@ fn draw(
         marks: &track.marks,
         figures: figures.for_picture(),
     };
+    if track.path.is_empty() && setting.world.world.scene().is_empty() {
+        return Err(nothing_to_draw());
+    }
     let svg = svg::draw(&picture, names);
     let bytes = match raster {
         Some(raster) => raster(&svg)?,

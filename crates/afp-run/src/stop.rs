@@ -17,6 +17,8 @@ struct Stop {
     signal: AtomicU8,
     /// Whether SIGTSTP asks, too, instead of putting the process to sleep.
     awake: AtomicBool,
+    /// Whether the robot was stopped by force already: the next signal ends the process.
+    powerless: AtomicBool,
     /// What is done before the process ends by force.
     last_resort: Mutex<Option<LastResort>>,
 }
@@ -84,12 +86,17 @@ impl StopFlag {
         *self.0.last_resort.lock().unwrap_or_else(PoisonError::into_inner) = resort;
     }
 
-    /// Does what is to be done before the process ends by force.
-    fn resort(&self) {
+    /// Does what is to be done before the process ends by force; whether there is something.
+    fn resort(&self) -> bool {
         let resort = self.0.last_resort.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(mut resort) = resort {
-            resort();
-        }
+        resort.map(|mut resort| resort()).is_some()
+    }
+
+    /// Stops the robot by force because its control loop hangs; whether that is possible. From now on the first signal
+    /// ends the process.
+    pub(crate) fn take_power(&self) -> bool {
+        self.0.powerless.store(true, Ordering::Relaxed);
+        self.resort()
     }
 
     /// What a program that ends as asked exits with, if a signal other than Ctrl-C asked: 128 and the signal, as a shell says
@@ -168,7 +175,9 @@ mod signals {
             }
             // A limit of the system that was reached is reached again by what is written at the end.
             let of_limit = matches!(signal, SIGXCPU | SIGXFSZ);
-            if flag.0.raised.swap(true, Ordering::Relaxed) && !of_limit {
+            let is_second = flag.0.raised.swap(true, Ordering::Relaxed);
+            let is_last = is_second || flag.0.powerless.load(Ordering::Relaxed);
+            if is_last && !of_limit {
                 flag.resort();
                 keys::give_back();
                 low_level::exit(EXIT_SIGNAL);

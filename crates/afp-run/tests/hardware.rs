@@ -182,10 +182,11 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
         let plan = afp::load::LoadedPlan::new(&graph, &registry).map_err(SessionError::Load)?;
         let robot = Board { seen: seen.clone(), ..robot };
         let session = Box::new(afp_session::Session::on_hardware(plan, robot));
-        Ok(Opened { session, last_resort: None })
+        Ok(Opened { session, last_resort: None, watch: None })
     };
     let texts = [("plan.afp", text)];
-    let hardware = [("port", "ttyUSB0")];
+    // A machine that is busy is no stall.
+    let hardware = [("port", "ttyUSB0"), ("realtime.stall", "10 s")];
     let program = Program { name: "P", file: "plan.afp", texts: &texts, hardware: &hardware };
     let began = Wall::now();
     let ran = run_on_hardware(&program, Box::new(open), &options(arguments), None);
@@ -220,6 +221,17 @@ fn until_ends_a_run_however_late_its_steps_are() {
 }
 
 #[test]
+fn a_poll_that_holds_the_control_loop_up_ends_the_run_in_an_error_and_stops_the_robot() {
+    let text = "use board\nplan Late {\n    start go\n    \
+        actor go: Work(cost = 150 ms) { Never -> terminate }\n}";
+    let stall = ["--set", "robot.realtime.stall=100ms", "--until", "5s"];
+    let (ran, _, seen) = on_board(text, &stall);
+    assert_eq!(ran.unwrap(), EXIT_PLAN_ERROR);
+    assert!(seen.stops.load(Ordering::Relaxed) > 0);
+    assert_eq!(seen.polls.load(Ordering::Relaxed), 1);
+}
+
+#[test]
 fn a_panic_stops_the_robot() {
     let text = "use board\nplan Breaks {\n    start go\n    \
         actor go: Work(breaks = 3) { Never -> terminate }\n}";
@@ -247,8 +259,8 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
     assert_eq!((&*read.recipe().robot, &read.cut_short), ("hardware", &None));
     let robot = simulated::<Simulation, _>(|_| {});
     // It is in no world that the robot of the simulation knows, and nobody said where it was.
-    let drawn = afp_run::draw_log(&read, robot.kind()).unwrap();
-    assert!(drawn.contains("<svg") && !drawn.contains("distance"), "{drawn}");
+    let drawn = afp_run::draw_log(&read, robot.kind()).unwrap_err().to_string();
+    assert!(drawn.contains("nothing to draw") && drawn.contains("'pose'"), "{drawn}");
     let none = afp_run::draw_sonar(&read, robot.kind()).unwrap_err().to_string();
     assert!(none.contains("the log holds no echoes"), "{none}");
     let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
@@ -279,6 +291,7 @@ fn a_stop_is_taken_however_late_it_comes_and_nobody_presses_what_is_there() {
     let board = hardware::<Simulation, Board, _>(standard);
     let settings = Settings::new([("port", "ttyUSB0")]);
     let Opened { mut session, .. } = board.open(&graph, &settings).unwrap();
+    session.set_stall(Duration::from_secs(10));
     let soon = session.now() + Duration::from_millis(5);
     session.tick(soon, &mut Open, &mut []).unwrap();
     session.tick(soon, &mut Open, &mut []).unwrap();
@@ -298,6 +311,11 @@ fn settings_go_to_the_robot_and_what_is_of_the_simulation_is_refused() {
     assert_eq!(seen.stops.load(Ordering::Relaxed), 0);
     let why = message(on_board(WAITS, &["--set", "robot.baud=9600"]).0);
     assert!(why.contains("no setting 'robot.baud'") && why.contains("'robot.port'"), "{why}");
+    let why = message(on_board(WAITS, &["--set", "robot.realtime.stall=1h"]).0);
+    assert!(
+        why.contains("'robot.realtime.stall' cannot be '1h'") && why.contains("100 ms"),
+        "{why}"
+    );
     for option in [
         ["--world", "a.toml"],
         ["--speed", "max"],

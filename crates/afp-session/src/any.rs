@@ -80,6 +80,9 @@ pub trait AnySession: Send {
     /// How long a run goes on when the plan has ended, so that the robot comes to rest; zero by default.
     fn set_rest(&mut self, rest: Duration);
 
+    /// How late the control loop of a real robot may be before the run ends in an error; nothing in simulation.
+    fn set_stall(&mut self, stall: Duration);
+
     /// Lets time pass up to the next thing to do, but not beyond `limit`, and does it.
     ///
     /// # Errors

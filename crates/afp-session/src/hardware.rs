@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use afp_core::Platform;
 use afp_core::devices::Devices;
+use afp_core::{Duration, Platform};
 
 use crate::robot::Robot;
 use crate::world::{Drawing, World, WorldError};
@@ -82,6 +82,9 @@ pub trait Hardware:
         None
     }
 }
+
+/// A run on a robot ends if its control loop is later than this, unless something else is set.
+pub const STALL: Duration = Duration::from_millis(100);
 
 /// Stops a robot from another thread.
 pub type LastResort = Box<dyn FnMut() + Send>;

@@ -45,6 +45,7 @@ mod session;
 mod stimulus;
 mod track;
 mod units;
+mod watch;
 mod world;
 
 pub use any::AnySession;
@@ -56,7 +57,7 @@ pub use event::{
 };
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
-pub use hardware::{Hardware, LastResort, NoWorld, Settings};
+pub use hardware::{Hardware, LastResort, NoWorld, STALL, Settings};
 pub use not_set::{NotSet, refusal, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Next, Observer, Open, Sampling, View};
 pub use opened::Opened;
@@ -77,6 +78,7 @@ pub use session::{SAMPLE, Session};
 pub use stimulus::{ByNames, NameWithUnit, Report, Stimulus};
 pub use track::{Mark, Track, Waypoint};
 pub use units::some_units;
+pub use watch::Watch;
 pub use world::{AnyWorld, Drawing, Outlines, Patch, Thing, World, WorldError};
 
 /// What macros name in the crates of others.

@@ -11,6 +11,7 @@ use crate::record::Kept;
 use crate::robot::Robot;
 use crate::robots::SessionError;
 use crate::session::Session;
+use crate::watch::Watch;
 
 /// A plan on a robot that is there.
 pub struct Opened {
@@ -18,6 +19,8 @@ pub struct Opened {
     pub session: Box<dyn AnySession>,
     /// What stops the robot where the session cannot.
     pub last_resort: Option<LastResort>,
+    /// What another thread watches the session with.
+    pub watch: Option<Watch>,
 }
 
 impl Opened {
@@ -33,7 +36,9 @@ impl Opened {
     {
         let robot = H::open(settings).map_err(|why| SessionError::Hardware(why.into()))?;
         let last_resort = robot.last_resort();
-        Ok(Opened { session: Box::new(Session::on_hardware(plan, robot)), last_resort })
+        let session = Session::on_hardware(plan, robot);
+        let watch = session.watch();
+        Ok(Opened { session: Box::new(session), last_resort, watch })
     }
 }
 

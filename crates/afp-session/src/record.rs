@@ -1,7 +1,11 @@
 //! Trace records that own what they say, small enough for a queue and made without allocation, and sinks that keep them.
 
-use afp_core::trace::{NoTrace, Record, RecordOf, Sink, Verdict};
+use std::sync::Arc;
+
+use afp_core::trace::{ComponentId, NoTrace, Record, RecordOf, Sink, Verdict};
 use afp_core::{Instant, Value, ValueRef};
+
+use crate::watch::Pulse;
 
 /// A record with its time; its texts are kept in place.
 #[derive(Clone, Debug)]
@@ -45,12 +49,14 @@ pub trait Keep: Sink {
 pub struct Kept {
     records: Vec<OwnedRecord>,
     clear_polls: bool,
+    /// Where another thread sees which component is called.
+    pub(crate) pulse: Option<Arc<Pulse>>,
 }
 
 impl Kept {
     /// Keeps everything.
     pub fn all() -> Self {
-        Kept { records: Vec::new(), clear_polls: true }
+        Kept { clear_polls: true, ..Kept::default() }
     }
 
     /// What is kept.
@@ -64,6 +70,13 @@ impl Sink for Kept {
     fn record(&mut self, at: Instant, record: &Record<'_>) {
         if self.clear_polls || !is_clear(record) {
             self.records.push(OwnedRecord::new(at, record));
+        }
+    }
+
+    #[inline]
+    fn calls(&mut self, component: ComponentId) {
+        if let Some(pulse) = &self.pulse {
+            pulse.calls(component);
         }
     }
 }

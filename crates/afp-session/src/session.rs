@@ -6,7 +6,7 @@ pub(crate) mod broken;
 pub(crate) mod grid;
 mod report;
 
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
 
 use afp_core::devices::Devices;
 use afp_core::rt::{NamedPlan, Plan};
@@ -21,6 +21,7 @@ use crate::record::{Keep, Kept};
 use crate::request::{Request, Requests};
 use crate::robot::{FaultOf, Measure, Robot};
 use crate::sampling::Turn;
+use crate::watch::Pulse;
 
 use asked::Testing;
 use grid::SampleGrid;
@@ -37,8 +38,13 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     names: P::Names,
     clock: R::Clock,
     sink: S,
-    /// Whether the robot is there, so that nobody can press or break anything of it from here.
-    is_there: bool,
+    /// How late the control loop of a real robot may be; none in simulation. Nobody can press or break anything of a real
+    /// robot from here.
+    stall: Option<Duration>,
+    /// When time has passed last.
+    passed: Instant,
+    /// Where another thread sees that; none in simulation.
+    pulse: Option<Arc<Pulse>>,
     /// Whether the plan has started.
     started: bool,
     /// Whether a step is under way: a panic is the plan's then.
@@ -92,7 +98,9 @@ where
             clock: robot.clock(),
             samples: SampleGrid::NONE,
             sink,
-            is_there: false,
+            stall: None,
+            passed: robot.now(),
+            pulse: None,
             started: false,
             stepping: false,
             stepped: None,
@@ -142,7 +150,9 @@ where
             faults: self.faults.clone(),
             holds: self.holds.clone(),
             line: String::new(),
-            is_there: self.is_there,
+            stall: self.stall,
+            passed: self.passed,
+            pulse: self.pulse.clone(),
             started: self.started,
             stepping: self.stepping,
             stepped: self.stepped,
@@ -278,8 +288,17 @@ where
             Go::On => {}
             other => return Ok(other),
         }
+        // Before the robot's driver goes on, too: it repeats commands.
+        let late = before.since(self.passed);
+        if self.has_stalled(late, to) {
+            return Ok(Go::On);
+        }
         self.robot.advance(target);
         let now = self.robot.now();
+        self.passes(now);
+        if self.has_stalled(late + now.since(target.max(before)), to) {
+            return Ok(Go::On);
+        }
         match now == before && target > now {
             true => self.stood_still(now, to),
             false => self.still = 0,
@@ -353,24 +372,6 @@ where
         self.stepping = false;
         self.woke(wake, now, to);
         Ok(())
-    }
-
-    /// Does something with this session. Where a component panics meanwhile, nothing of the plan can be trusted any
-    /// more: the run ends, and there is more to do. A panic of anybody else goes on.
-    fn guarded(
-        &mut self,
-        to: &mut [&mut dyn Observer],
-        mut drive: impl FnMut(&mut Self, &mut [&mut dyn Observer]) -> Result<Go, StartError>,
-    ) -> Result<Go, StartError> {
-        match catch_unwind(AssertUnwindSafe(|| drive(self, to))) {
-            Ok(went) => went,
-            Err(panic) if !self.stepping => resume_unwind(panic),
-            Err(_) => {
-                self.stepping = false;
-                self.abort(Fault::PANIC, to);
-                Ok(Go::Again)
-            }
-        }
     }
 
     /// A step is over.

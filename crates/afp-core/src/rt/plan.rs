@@ -276,6 +276,7 @@ impl<R: Run> Cx<'_, R> {
         run: impl FnOnce(&mut Self) -> T,
     ) -> T {
         self.step.called = component;
+        self.sink.calls(component);
         run(self)
     }
 }

@@ -6,7 +6,7 @@ use afp_types::Instant;
 
 use super::State;
 use crate::clock::Clock;
-use crate::trace::{Record, Sink};
+use crate::trace::{ComponentId, Record, Sink};
 
 /// Whether a sink or a clock is being called.
 #[derive(Default)]
@@ -34,6 +34,11 @@ impl<S: Sink> Sink for Watched<'_, &mut S> {
     #[inline]
     fn record(&mut self, at: Instant, record: &Record<'_>) {
         self.outside.call(|| self.inner.record(at, record));
+    }
+
+    #[inline]
+    fn calls(&mut self, component: ComponentId) {
+        self.inner.calls(component);
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use afp_session::{NoWorld, Opened, Recipe, SessionError, Settings};
+use afp_project::Realtime;
+use afp_session::{NoWorld, Opened, Recipe, STALL, SessionError, Settings};
 
-use super::{Setting, drive, recipe};
+use super::{Guards, Setting, drive, recipe};
 use crate::error::RunError;
 use crate::options::{OF_ROBOT as PREFIX, RunOptions};
 use crate::picture::Rasterizer;
@@ -35,8 +36,11 @@ pub fn run_on_hardware(
         LoadedWorld { world: Arc::new(NoWorld), text: String::new(), path: None, start: None };
     let (of_robot, of_plan): (Vec<_>, Vec<_>) =
         options.set.iter().cloned().partition(|(name, _)| name.starts_with(PREFIX));
-    let settings = settings(program, &of_robot)?;
-    let Opened { mut session, last_resort } = open(&settings)?;
+    let (settings, realtime) = settings(program, &of_robot)?;
+    let Opened { mut session, last_resort, watch } = open(&settings)?;
+    let stall = realtime.stall.unwrap_or(STALL);
+    session.set_stall(stall);
+    let guards = Guards { last_resort, watch: watch.map(|watch| (watch, stall)) };
     inputs::set_all(&mut *session, &of_plan)?;
     let recipe = Recipe {
         robot: HARDWARE.to_owned(),
@@ -45,28 +49,39 @@ pub fn run_on_hardware(
     };
     let (world, facts, again) = (&world, &[][..], None);
     let setting = Setting { program, options, recipe, world, facts, again, rasterizer };
-    drive(&mut *session, last_resort, &setting)
+    drive(&mut *session, guards, &setting)
 }
 
-/// What the project says of the robot, and the command line in place of it.
-fn settings(program: &Program<'_>, set: &[(String, String)]) -> Result<Settings, RunError> {
-    let known = program.hardware.iter().map(|(name, _)| *name);
-    for (name, _) in set {
-        let name = name.strip_prefix(PREFIX).unwrap_or(name);
-        if !known.clone().any(|it| it == name) {
-            let all: Vec<_> = known.map(|name| format!("'{PREFIX}{name}'")).collect();
-            let help = match all.is_empty() {
-                true => "'settings' in '[robot.hardware]' of afp.toml has those that can be set"
-                    .to_owned(),
-                false => format!("it has {}", all.join(", ")),
-            };
-            return Err(RunError::usage(
-                format!("the robot has no setting '{PREFIX}{name}'"),
-                help,
-            ));
+/// What the project says of the robot and of its control loop, and the command line in place of it.
+fn settings(
+    program: &Program<'_>,
+    set: &[(String, String)],
+) -> Result<(Settings, Realtime), RunError> {
+    let known: Vec<_> = program.hardware.iter().map(|(name, _)| *name).collect();
+    let set = set.iter().map(|(name, text)| (name.strip_prefix(PREFIX).unwrap_or(name), &**text));
+    let (mut of_driver, mut realtime) = (Vec::new(), Realtime::default());
+    for (name, text) in program.hardware.iter().copied().chain(set) {
+        let of_loop = name.strip_prefix(Realtime::PREFIX);
+        match of_loop.filter(|name| Realtime::NAMES.contains(name)) {
+            Some(of_loop) => realtime.set(of_loop, text).map_err(|what| {
+                RunError::usage(
+                    format!("'{PREFIX}{name}' cannot be '{text}'"),
+                    format!("write {what}"),
+                )
+            })?,
+            None if known.contains(&name) => of_driver.push((name, text)),
+            None => return Err(unknown(name, &known)),
         }
     }
-    let said =
-        set.iter().map(|(name, text)| (name.strip_prefix(PREFIX).unwrap_or(name), text.as_str()));
-    Ok(Settings::new(program.hardware.iter().copied().chain(said)))
+    Ok((Settings::new(of_driver), realtime))
+}
+
+/// The robot has no setting of that name.
+fn unknown(name: &str, known: &[&str]) -> RunError {
+    let all: Vec<_> = known.iter().map(|name| format!("'{PREFIX}{name}'")).collect();
+    let help = match all.is_empty() {
+        true => "'settings' in '[robot.hardware]' of afp.toml has those that can be set".to_owned(),
+        false => format!("it has {}", all.join(", ")),
+    };
+    RunError::usage(format!("the robot has no setting '{PREFIX}{name}'"), help)
 }

@@ -91,6 +91,10 @@ where
         self.set_rest(rest);
     }
 
+    fn set_stall(&mut self, stall: Duration) {
+        self.stall = self.stall.map(|_| stall);
+    }
+
     fn tick(
         &mut self,
         limit: Instant,

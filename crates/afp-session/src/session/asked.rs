@@ -1,5 +1,7 @@
 //! What is asked of a session from outside.
 
+use std::sync::Arc;
+
 #[cfg(feature = "load")]
 use afp::load::{Injection, LoadedPlan, NotInjected};
 #[cfg(feature = "load")]
@@ -9,10 +11,10 @@ use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::ComponentId;
 #[cfg(feature = "load")]
 use afp_core::trace::Names as _;
-use afp_core::{Duration, EntryId, Instant, Value, WriteError};
+use afp_core::{Clock, Duration, EntryId, Instant, Value, WriteError};
 
 use super::Session;
-use crate::hardware::Hardware;
+use crate::hardware::{Hardware, STALL};
 use crate::holds::Hold;
 use crate::not_set::NotSet;
 use crate::observer::{Applied, Observer};
@@ -21,6 +23,7 @@ use crate::request::{Put, Request, RequestError, RequestId, Waiting};
 use crate::robot::Robot;
 use crate::sample::Pose2;
 use crate::stimulus::Stimulus;
+use crate::watch::{Pulse, Watch};
 
 /// What only loaded plans can do, as functions over them.
 pub(super) struct Testing<P> {
@@ -57,11 +60,21 @@ where
     P: NamedPlan + Plan<R>,
     R: Hardware,
 {
-    /// As [`Session::new`], on a robot that is there: nobody presses or breaks anything of it from here.
+    /// As [`Session::new`], on a robot that is there: nobody presses or breaks anything of it from here, and the run ends
+    /// if the control loop is later than [`STALL`].
     pub fn on_hardware(plan: P, robot: R) -> Self {
         let mut session = Session::new(plan, robot);
-        session.is_there = true;
+        session.stall = Some(STALL);
+        let pulse: Arc<Pulse> = Arc::default();
+        session.sink.pulse = Some(pulse.clone());
+        session.pulse = Some(pulse);
         session
+    }
+
+    /// What another thread watches the control loop with.
+    pub fn watch(&self) -> Option<Watch> {
+        let (pulse, clock) = (self.pulse.clone()?, self.robot.clock());
+        Some(Watch::new(pulse, Box::new(move || clock.now(Instant::ZERO))))
     }
 }
 
@@ -89,7 +102,7 @@ where
     /// It can never be done.
     pub fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError> {
         let now = self.robot.now();
-        if at < now && !self.is_there {
+        if at < now && self.stall.is_none() {
             return Err(RequestError::Over { at, now });
         }
         let at = at.max(now);
@@ -137,7 +150,7 @@ where
             return Err(RequestError::Ended);
         }
         match request {
-            Request::Press(..) | Request::Hold(..) | Request::Break(..) if self.is_there => {
+            Request::Press(..) | Request::Hold(..) | Request::Break(..) if self.stall.is_some() => {
                 Err(RequestError::Refused)
             }
             Request::Write(entry, value) => {

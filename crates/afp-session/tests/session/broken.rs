@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use afp_core::trace::{Ending, Record};
 use afp_core::{Duration, Fault, Platform};
-use afp_session::{NamedRecord, Observer, Open, Sampling, Session};
+use afp_session::{AnySession, NamedRecord, Observer, Open, Request, Sampling, Session};
 
 use super::support::{Toy, plan};
 use super::{Loaded, Notes, PLAN, at};
@@ -49,6 +49,45 @@ fn a_robot_whose_time_stands_still_once_its_plan_has_ended_ends_the_run_too() {
     session.stop(&mut []);
     session.run(at(3000), &mut Open, &mut []).unwrap();
     assert_eq!(session.ending(), Some(Ending::Interrupted));
+}
+
+#[test]
+fn a_control_loop_that_is_late_ends_the_run_of_a_real_robot_and_does_not_drive_on() {
+    let held_up = |millis| {
+        let mut toy = Toy::new();
+        toy.held_up = Some((at(500), Duration::from_millis(millis)));
+        toy
+    };
+    let ending = |mut session: Session<_, Toy>, stall: Option<Duration>| {
+        stall.into_iter().for_each(|stall| session.set_stall(stall));
+        session.at(at(900), Request::Stop).unwrap();
+        let stops = session.robot().stops.clone();
+        session.run(at(3000), &mut Open, &mut []).unwrap();
+        let way = session.robot().position;
+        session.run(at(6000), &mut Open, &mut []).unwrap();
+        assert_eq!(session.robot().position, way, "it drives on");
+        let code = match session.ending() {
+            Some(Ending::Error(fault)) => fault.code(),
+            Some(Ending::Interrupted) => "interrupted",
+            other => panic!("{other:?}"),
+        };
+        (code, stops.load(Ordering::Relaxed) > 0)
+    };
+    let real = |millis| Session::on_hardware(plan(PLAN), held_up(millis));
+    let more = Some(Duration::from_millis(300));
+    assert_eq!(ending(real(100), None), ("interrupted", false));
+    assert_eq!(ending(real(101), None), ("stalled", true));
+    assert_eq!(ending(real(300), more), ("interrupted", false));
+    assert_eq!(ending(real(301), more), ("stalled", true));
+    assert_eq!(ending(Session::loaded(plan(PLAN), held_up(300)), None), ("interrupted", false));
+    // Before the start, and after the end, nothing moves that could drive on.
+    let mut toy = Toy::new();
+    toy.held_up = Some((at(0), Duration::from_secs(1)));
+    let mut ended = Session::on_hardware(plan(PLAN), toy);
+    ended.run(at(1), &mut Open, &mut []).unwrap();
+    assert_eq!(ended.ending(), None);
+    ended.stop(&mut []);
+    assert_eq!(ended.ending(), Some(Ending::Interrupted));
 }
 
 /// Hears of faults.

@@ -98,6 +98,8 @@ pub struct Toy {
     grip: f64,
     /// Its time stands still from here on.
     pub stuck_from: Option<Instant>,
+    /// The first `advance` up to here or beyond takes longer by the duration.
+    pub held_up: Option<(Instant, Duration)>,
     /// It says from here on whether it is touched with a text.
     pub wordy_from: Option<Instant>,
     /// How often it was stopped by the strongest means, for who outlives it.
@@ -148,6 +150,9 @@ impl Platform for Toy {
         }
         self.position += self.speed * self.grip * to.since(self.now).as_secs_f64();
         self.now = self.now.max(to);
+        if let Some((_, late)) = self.held_up.take_if(|(from, _)| *from <= to) {
+            self.now = self.now + late;
+        }
     }
 }
 

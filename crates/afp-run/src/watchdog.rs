@@ -1,0 +1,73 @@
+//! A thread that watches the control loop of a real robot: if a component hangs, the robot is stopped without it.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, Thread};
+
+use afp_core::Duration;
+use afp_core::trace::Names;
+use afp_session::Watch;
+
+use crate::stderr::say;
+use crate::stop::StopFlag;
+
+/// Watches until it is dropped.
+pub(crate) struct Watchdog {
+    done: Arc<AtomicBool>,
+    thread: Thread,
+}
+
+impl Watchdog {
+    /// Watches a control loop, which may be late by less than `stall`.
+    ///
+    /// # Errors
+    /// There is no thread for it.
+    pub(crate) fn start(
+        watch: Watch,
+        stall: Duration,
+        stop: StopFlag,
+        names: Box<dyn Names + Send>,
+    ) -> io::Result<Self> {
+        let done: Arc<AtomicBool> = Arc::default();
+        let is_done = done.clone();
+        // Some time is left for what it does then.
+        let limit = Duration::from_nanos(stall.as_nanos() / 10 * 9);
+        let watches = move || {
+            // It begins with the run, which has shown no sign of life yet.
+            thread::park_timeout(limit.into());
+            while !is_done.load(Ordering::Relaxed) {
+                match watch.late() {
+                    late if late < limit => thread::park_timeout((limit - late).into()),
+                    late => return act(&watch, late, &stop, &*names),
+                }
+            }
+        };
+        let thread = thread::Builder::new().name("afp-watchdog".into()).spawn(watches)?;
+        Ok(Watchdog { done, thread: thread.thread().clone() })
+    }
+}
+
+/// Stops the robot, then says why.
+fn act(watch: &Watch, late: Duration, stop: &StopFlag, names: &dyn Names) {
+    let is_stopped = stop.take_power();
+    watch.cut();
+    let component = names.component(watch.called());
+    let by = match is_stopped {
+        true => "the robot was stopped without it",
+        false => "nothing can stop the robot without it",
+    };
+    let (path, template) = (component.path, component.template);
+    say(format_args!(
+        "error: the control loop has been held up for {} ms, since the call of '{path}' ({template}): {by}",
+        late.as_nanos() / 1_000_000
+    ));
+}
+
+impl Drop for Watchdog {
+    fn drop(&mut self) {
+        self.done.store(true, Ordering::Relaxed);
+        // It is not waited for: it may be writing to an output that nobody reads.
+        self.thread.unpark();
+    }
+}

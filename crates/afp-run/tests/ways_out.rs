@@ -1,0 +1,267 @@
+//! Every way out of a run on a robot: the robot hears `stop` last, or nothing any more, and the exit code says why.
+//!
+//! The program runs in a process of its own. The robot is the other end of a pseudo-terminal.
+#![cfg(unix)]
+
+#[path = "ways_out/program.rs"]
+mod program;
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use rustix::process::{Pid, Signal, kill_process};
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::stdio::dup2_stdout;
+
+/// Names the port in the environment of the program.
+const PORT: &str = "AFP_TEST_PORT";
+/// Has the options of the program, line by line; the first line is what its actor does.
+const OPTIONS: &str = "AFP_TEST_OPTIONS";
+
+/// Names the file that the program writes its output to, if there is one.
+const OUT: &str = "AFP_TEST_OUT";
+
+/// What a robot hears must come within this time.
+const LIMIT: Duration = Duration::from_secs(2);
+/// A busy machine needs this long for anything else.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Not a test of its own: the other tests start it as their program.
+#[test]
+fn program() {
+    let (Ok(port), Ok(options)) = (std::env::var(PORT), std::env::var(OPTIONS)) else { return };
+    if let Ok(out) = std::env::var(OUT) {
+        dup2_stdout(File::options().write(true).open(out).unwrap()).unwrap();
+    }
+    let options: Vec<_> = options.lines().collect();
+    let (does, to) = (options[0], if options[0] == "laps" { "go" } else { "terminate" });
+    let actor = format!("actor go: Go(does = \"{does}\") {{ Arrived -> {to} }}");
+    let plan = format!("use port\nplan Rove {{\n    start go\n    {actor}\n}}");
+    program::drive(&plan, &port, &options[1..]);
+}
+
+/// A pseudo-terminal, and the path of its other end.
+fn terminal() -> (File, String) {
+    let port = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&port).unwrap();
+    unlockpt(&port).unwrap();
+    let path = ptsname(&port, Vec::new()).unwrap().to_string_lossy().into_owned();
+    (File::from(port), path)
+}
+
+/// The robot's end of a port.
+struct Robot {
+    path: String,
+    /// What it hears.
+    heard: Receiver<String>,
+    /// Keeps the port until the program has ended.
+    end: Option<File>,
+}
+
+impl Robot {
+    fn new() -> Robot {
+        let (port, path) = terminal();
+        let end = File::options().read(true).write(true).open(&path).unwrap();
+        let (hears, heard) = channel();
+        thread::spawn(move || {
+            // Reading ends with an error once nobody holds the other end.
+            let lines = BufReader::new(port).lines().map_while(Result::ok);
+            lines.for_each(|line| drop(hears.send(line.trim().to_owned())));
+        });
+        Robot { path, heard, end: Some(end) }
+    }
+
+    /// Waits until it hears a word; gives what it heard before.
+    fn waits_for(&self, word: &str, limit: Duration) -> Vec<String> {
+        let (until, mut before) = (Instant::now() + limit, Vec::new());
+        loop {
+            match self.heard.recv_timeout(until.saturating_duration_since(Instant::now())) {
+                Ok(line) if line == word => return before,
+                Ok(line) => before.push(line),
+                Err(why) => panic!("it does not hear '{word}' but {before:?} ({why})"),
+            }
+        }
+    }
+
+    /// All that it hears until the program has ended.
+    fn rest(&mut self) -> Vec<String> {
+        self.end = None;
+        let mut rest = Vec::new();
+        loop {
+            match self.heard.recv_timeout(PATIENCE) {
+                Ok(line) => rest.push(line),
+                Err(RecvTimeoutError::Disconnected) => return rest,
+                Err(RecvTimeoutError::Timeout) => panic!("the port stays open"),
+            }
+        }
+    }
+}
+
+/// Starts the program, which does something and has options.
+fn start(robot: &Robot, does: &str, options: &[&str]) -> Command {
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.args(["--exact", "program", "--nocapture", "--test-threads=1"]);
+    let log = ["--log", "none"].iter().filter(|_| !options.contains(&"--log"));
+    let options: Vec<_> = [does].iter().chain(log).chain(options).copied().collect();
+    command.env(PORT, &robot.path).env(OPTIONS, options.join("\n"));
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    command
+}
+
+/// Waits until a program has ended; gives what it said on standard error, too.
+fn ended(mut child: Child) -> (ExitStatus, String) {
+    let mut said = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    (child.wait().unwrap(), said)
+}
+
+fn send(child: &Child, signal: Signal) {
+    kill_process(Pid::from_child(child), signal).unwrap();
+}
+
+#[test]
+fn a_run_that_ends_by_itself_stops_the_robot() {
+    for (does, code) in [("arrives", 0), ("fails", 3), ("panics", 3)] {
+        let mut robot = Robot::new();
+        let child = start(&robot, does, &[]).spawn().unwrap();
+        robot.waits_for("drive", PATIENCE);
+        let (status, said) = ended(child);
+        assert_eq!(status.code(), Some(code), "{does}: {said}");
+        assert_eq!(robot.rest().last().unwrap(), "stop", "{does}");
+    }
+}
+
+#[test]
+fn a_signal_that_ends_the_run_stops_the_robot() {
+    for (signal, code) in [
+        (Signal::INT, 0),
+        (Signal::TERM, 143),
+        (Signal::HUP, 129),
+        (Signal::TSTP, 0),
+        (Signal::XCPU, 152),
+    ] {
+        let mut robot = Robot::new();
+        let child = start(&robot, "drives", &[]).spawn().unwrap();
+        robot.waits_for("drive", PATIENCE);
+        send(&child, signal);
+        robot.waits_for("stop", LIMIT);
+        let (status, said) = ended(child);
+        assert_eq!(status.code(), Some(code), "{signal:?}: {said}");
+        let rest = robot.rest();
+        assert!(rest.iter().all(|word| word == "stop"), "{signal:?}: {rest:?}");
+    }
+}
+
+#[test]
+fn a_program_that_is_killed_leaves_the_robot_to_its_own_dead_man() {
+    let mut robot = Robot::new();
+    let child = start(&robot, "drives", &[]).spawn().unwrap();
+    robot.waits_for("drive", PATIENCE);
+    send(&child, Signal::KILL);
+    assert_eq!(ended(child).0.code(), None);
+    // Nothing speaks for it any more.
+    let rest = robot.rest();
+    assert!(rest.iter().all(|word| word == "drive"), "{rest:?}");
+}
+
+#[test]
+fn a_run_that_was_suspended_does_not_drive_on() {
+    let mut robot = Robot::new();
+    let stall = ["--set", "robot.realtime.stall=500ms"];
+    let child = start(&robot, "drives", &stall).spawn().unwrap();
+    robot.waits_for("drive", PATIENCE);
+    send(&child, Signal::STOP);
+    // All that was sent before.
+    thread::sleep(Duration::from_secs(1));
+    while robot.heard.try_recv().is_ok() {}
+    send(&child, Signal::CONT);
+    let before = robot.waits_for("stop", LIMIT);
+    assert!(!before.contains(&"drive".to_owned()), "it drives on: {before:?}");
+    let (status, said) = ended(child);
+    assert_eq!(status.code(), Some(3), "{said}");
+    let rest = robot.rest();
+    assert!(!rest.contains(&"drive".to_owned()), "it drives on: {rest:?}");
+}
+
+#[test]
+fn a_component_that_hangs_loses_the_robot_and_is_named() {
+    let mut robot = Robot::new();
+    let stall = ["--set", "robot.realtime.stall=500ms"];
+    let child = start(&robot, "hangs", &stall).spawn().unwrap();
+    robot.waits_for("drive", PATIENCE);
+    robot.waits_for("cut", PATIENCE);
+    // The program is not to be waited for: one signal ends it.
+    send(&child, Signal::TERM);
+    let (status, said) = ended(child);
+    assert_eq!(status.code(), Some(130), "{said}");
+    assert!(
+        said.contains("since the call of 'go' (Go): the robot was stopped without it"),
+        "{said}"
+    );
+    assert_eq!(robot.rest(), [""; 0]);
+}
+
+#[test]
+fn an_output_that_takes_no_more_stops_the_robot() {
+    // A device that is always full, and a limit of the system for files.
+    let mut robot = Robot::new();
+    let child = start(&robot, "drives", &[]).env(OUT, "/dev/full").spawn().unwrap();
+    let (status, said) = ended(child);
+    assert_eq!(status.code(), Some(1), "{said}");
+    assert_eq!(robot.rest().last().unwrap(), "stop");
+
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("a.mcap");
+    let mut robot = Robot::new();
+    let program = start(&robot, "laps", &["--log", log.to_str().unwrap()]);
+    let mut limited = Command::new("sh");
+    limited.args(["-c", "ulimit -f 32; exec \"$0\" \"$@\""]).arg(program.get_program());
+    limited.args(program.get_args()).stdin(Stdio::null()).stdout(Stdio::null());
+    limited.envs(program.get_envs().filter_map(|(name, value)| Some((name, value?))));
+    let child = limited.stderr(Stdio::piped()).spawn().unwrap();
+    robot.waits_for("stop", PATIENCE);
+    let (status, said) = ended(child);
+    assert!(matches!(status.code(), Some(1 | 153)), "{status} {said}");
+    let rest = robot.rest();
+    assert!(rest.iter().all(|word| word == "stop"), "{rest:?}");
+}
+
+#[test]
+fn a_reader_that_is_slow_does_not_hold_up_a_stop() {
+    let (_reader, path) = terminal();
+    let out = File::options().write(true).open(&path).unwrap();
+    let mut robot = Robot::new();
+    let child = start(&robot, "laps", &["--json"]).stdout(out).spawn().unwrap();
+    // Each lap is some lines, and the terminal takes some thousand bytes.
+    (0..200).for_each(|_| drop(robot.waits_for("drive", PATIENCE)));
+    send(&child, Signal::TERM);
+    robot.waits_for("stop", LIMIT);
+    // The robot stands, so the rest of the report may wait for its reader.
+    send(&child, Signal::TERM);
+    let (status, said) = ended(child);
+    assert!(matches!(status.code(), Some(130 | 143)), "{status} {said}");
+    assert!(!robot.rest().contains(&"drive".to_owned()));
+}
+
+#[test]
+fn two_programs_do_not_drive_one_robot_and_the_second_names_the_first() {
+    let mut robot = Robot::new();
+    let first = start(&robot, "drives", &[]).spawn().unwrap();
+    robot.waits_for("drive", PATIENCE);
+    let (status, said) = ended(start(&robot, "drives", &[]).spawn().unwrap());
+    assert_eq!(status.code(), Some(2), "{said}");
+    let by = format!("process {} ", first.id());
+    assert!(said.contains("has it open"), "{said}");
+    assert!(said.contains(&by) || !cfg!(target_os = "linux"), "{said}");
+    // The first one drives on as before.
+    robot.waits_for("drive", LIMIT);
+    send(&first, Signal::TERM);
+    let before = robot.waits_for("stop", LIMIT);
+    assert!(before.iter().all(|word| word == "drive"), "{before:?}");
+    assert_eq!(ended(first).0.code(), Some(143));
+    assert!(robot.rest().iter().all(|word| word == "stop"));
+}

@@ -1,0 +1,61 @@
+//! What another thread may know of the control loop of a real robot, in case it is held up.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+
+use afp_core::trace::ComponentId;
+use afp_core::{Duration, Instant};
+
+/// The signs of life of a control loop.
+#[derive(Debug, Default)]
+pub(crate) struct Pulse {
+    /// When time has passed last, in nanoseconds.
+    beat: AtomicU64,
+    /// The component that was called last.
+    called: AtomicU32,
+    /// Whether another thread has stopped the robot.
+    cut: AtomicBool,
+}
+
+impl Pulse {
+    pub(crate) fn beat(&self, now: Instant) {
+        self.beat.store(now.as_nanos(), Ordering::Relaxed);
+    }
+
+    #[inline]
+    pub(crate) fn calls(&self, component: ComponentId) {
+        self.called.store(component.0, Ordering::Relaxed);
+    }
+
+    pub(crate) fn is_cut(&self) -> bool {
+        self.cut.load(Ordering::Relaxed)
+    }
+}
+
+/// Watches the control loop of a real robot from another thread.
+pub struct Watch {
+    pulse: Arc<Pulse>,
+    clock: Box<dyn Fn() -> Instant + Send>,
+}
+
+impl Watch {
+    pub(crate) fn new(pulse: Arc<Pulse>, clock: Box<dyn Fn() -> Instant + Send>) -> Self {
+        Watch { pulse, clock }
+    }
+
+    /// How long ago the control loop let time pass last.
+    pub fn late(&self) -> Duration {
+        let beat = Instant::from_nanos(self.pulse.beat.load(Ordering::Relaxed));
+        (self.clock)().since(beat)
+    }
+
+    /// The component that was called last.
+    pub fn called(&self) -> ComponentId {
+        ComponentId(self.pulse.called.load(Ordering::Relaxed))
+    }
+
+    /// Ends the run with the control loop's next sign of life: the robot was stopped without it.
+    pub fn cut(&self) {
+        self.pulse.cut.store(true, Ordering::Relaxed);
+    }
+}
