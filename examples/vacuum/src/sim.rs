@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use afp::core::Platform;
+use afp::core::{Invalid, Platform};
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp::{Duration, Environment, Instant, Reading};
 use afp_platform::{Grid, Line, Noise, VirtualClock};
@@ -58,6 +58,8 @@ pub struct Vacuum {
     stopped: bool,
     blocked: bool,
     dead: bool,
+    /// Why the controller does not answer.
+    trouble: Option<Invalid>,
     grip: f64,
     lines: Lines,
 }
@@ -74,7 +76,7 @@ struct Lines {
 impl Vacuum {
     fn tick(&mut self) {
         for (n, fastest) in FASTEST.into_iter().enumerate() {
-            let wanted = if self.stopped { 0.0 } else { self.asked[n].clamp(-fastest, fastest) };
+            let wanted = if self.is_off() { 0.0 } else { self.asked[n].clamp(-fastest, fastest) };
             self.moving[n] += (wanted - self.moving[n]) * DT / LAG;
             if self.blocked {
                 self.moving[n] = 0.0;
@@ -111,11 +113,24 @@ impl Vacuum {
     }
 
     fn clean(&mut self) {
-        let rate = if self.suction && !self.dead { SUCTION } else { 0.0 };
+        let rate = if self.suction && !self.dead && !self.is_off() { SUCTION } else { 0.0 };
         let index = self.room.index(self.pose.x, self.pose.y);
         let Some(left) = index.and_then(|index| self.left.get_mut(index)) else { return };
         self.level = if rate > 0.0 { *left } else { 0.0 };
         *left = (*left - rate * DT).max(0.0);
+    }
+
+    /// Whether the controller has switched the motors off.
+    fn is_off(&self) -> bool {
+        self.stopped || self.trouble.is_some()
+    }
+
+    /// What the controller says of a sensor.
+    fn said<T: Copy>(&self, value: T) -> Reading<T> {
+        match self.trouble {
+            Some(why) => Reading::invalid(why, self.now),
+            None => Reading::valid(value, self.now),
+        }
     }
 
     fn fallen(&self) -> bool {
@@ -134,9 +149,7 @@ impl Vacuum {
         let edge = [self.pose.x + RADIUS * cos, self.pose.y + RADIUS * sin];
         let drop = self.room.letter(edge[0], edge[1]) == DROP;
         let bumper = [0, 1].map(|side| self.touched[side] || self.held[side]);
-        let now = self.now;
-        let (level, button) = (Reading::valid(self.level, now), Reading::valid(self.button, now));
-        (Reading::valid(bumper, now), Reading::valid(drop, now), level, button)
+        (self.said(bumper), self.said(drop), self.said(self.level), self.said(self.button))
     }
 }
 
@@ -161,8 +174,7 @@ impl Wheels for Vacuum {
 
     fn way(&self) -> Reading<Way> {
         let [ahead, turned] = self.way;
-        let way = Way { ahead: Length::from_si(ahead), turned: Angle::from_si(turned) };
-        Reading::valid(way, self.now)
+        self.said(Way { ahead: Length::from_si(ahead), turned: Angle::from_si(turned) })
     }
 }
 
@@ -232,6 +244,14 @@ impl Robot for Vacuum {
         self.blocked = active.find(Fault::wheels_blocked).is_some();
         self.grip = active.find(Fault::wheels_slip).unwrap_or(1.0);
         self.dead = active.find(Fault::suction_dead).is_some();
+        let restarts = active.find(Fault::controller_restarted).is_some();
+        if restarts {
+            self.way = [0.0; 2];
+        }
+        let stalls = active.find(Fault::controller_stalled).map(|()| Invalid::NoAnswer);
+        // After a restart it obeys nothing, until another run begins.
+        let restarted = self.trouble.filter(|why| *why == Invalid::Restarted);
+        self.trouble = if restarts { Some(Invalid::Restarted) } else { restarted.or(stalls) };
         let (bumper, cliff, dirt, button) = self.raw();
         self.lines.bumper.set(active.find(Fault::bumper), bumper);
         self.lines.cliff.set(active.find(Fault::cliff), cliff);
@@ -293,6 +313,7 @@ impl Simulated for Vacuum {
             stopped: false,
             blocked: false,
             dead: false,
+            trouble: None,
             grip: 1.0,
             lines: Lines::default(),
         })

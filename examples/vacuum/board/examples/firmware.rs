@@ -116,7 +116,10 @@ impl Firmware {
                 _ => {}
             }
         }
-        if self.stopped || self.receiver.is_silent(self.time.now(), COMMAND_TIMEOUT) {
+        // A computer that was held up does not know what has happened meanwhile: it must start again.
+        let moves = self.is_moving() || self.suction;
+        self.stopped |= moves && self.receiver.is_silent(self.time.now(), COMMAND_TIMEOUT);
+        if self.stopped {
             (self.motion, self.suction) = ([0.0; 2], false);
         }
         for (way, speed) in self.way.iter_mut().zip(self.motion) {

@@ -1,10 +1,10 @@
 //! The real vacuum cleaner: a board on a serial line drives the motors and reads the sensors.
 //!
 //! [`vacuum_protocol`] has the messages. The board stops the motors after 200 ms without a command,
-//! so the driver repeats its commands every 20 ms, which takes 15 % of 115,200 baud. A stop is sent
-//! at once, before everything in the output queue. While the board is silent, the driver sends only
-//! stops. After a restart of the board the driver also sends only stops, because the counters and
-//! the state were reset.
+//! so the driver repeats its commands every 20 ms, which takes 15 % of 115,200 baud. A board that has
+//! stopped while it moved obeys again after the next start. A stop is sent at once, before everything
+//! in the output queue. While the board is silent, the driver sends only stops. After a restart of
+//! the board the driver also sends only stops, because the counters and the state were reset.
 
 mod line;
 
@@ -52,10 +52,11 @@ impl Board {
         *self.heard.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The last report, or the reason why there is none.
+    /// The last report, or the reason why there is none. A board that has stopped by itself counts as silent.
     fn report(&self) -> Result<(Report, Instant), Invalid> {
         match self.heard() {
-            Some(Heard::Report(report, at)) if self.time.now().since(at) < STALE => {
+            Some(Heard::Report(report, at)) if self.time.now().since(at) < STALE && !report.stopped =>
+            {
                 Ok((report, at))
             }
             Some(Heard::Restarted) => Err(Invalid::Restarted),
@@ -181,6 +182,7 @@ impl Environment for Board {
 impl Drop for Board {
     fn drop(&mut self) {
         self.emergency_stop();
+        self.line.release();
     }
 }
 
@@ -196,11 +198,14 @@ impl Platform for Board {
     }
 
     fn advance(&mut self, to: Instant) {
-        while self.time.now() < to {
+        loop {
             self.tell_again();
             self.time.sleep_until(to.min(self.told + OFTEN));
+            // A sleep that lasted too long is noticed before anything is sent.
+            if self.time.now() >= to {
+                return;
+            }
         }
-        self.tell_again();
     }
 }
 

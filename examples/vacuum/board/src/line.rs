@@ -6,7 +6,7 @@ use std::io::{self, BufReader, Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
 
 use afp::Instant;
-use afp_platform::{LastResort, RealTime};
+use afp_platform::{LastResort, RealTime, open_device, release_device};
 use afp_wire::{Received, Receiver, Rejected, Sender};
 use rustix::fs::OFlags;
 use rustix::termios::{OptionalActions, QueueSelector, isatty, tcflush, tcgetattr, tcsetattr};
@@ -36,11 +36,12 @@ pub enum Heard {
     Version(u16),
 }
 
-/// Opens a port in both directions, without waiting. A serial line gets the speed in baud, and does not edit or echo.
+/// Opens a port in both directions, without waiting, for only this program. A serial line gets the
+/// speed in baud, and does not edit or echo.
 pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
     // The port must not become the controlling terminal of this process.
     let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits() as i32;
-    let to = File::options().read(true).write(true).custom_flags(flags).open(port)?;
+    let to = open_device(File::options().read(true).write(true).custom_flags(flags), port)?;
     let from = BufReader::new(to.try_clone()?);
     if isatty(&to) {
         let mut modes = tcgetattr(&to)?;
@@ -92,6 +93,11 @@ impl Line {
         let _ = tcflush(&self.port, QueueSelector::OFlush);
         self.whole = false;
         self.say(commands);
+    }
+
+    /// Lets other programs open the port.
+    pub fn release(&self) {
+        release_device(&self.port);
     }
 
     /// Stops the board even if the sending thread hangs: a board stops on a different boot id of

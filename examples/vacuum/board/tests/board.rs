@@ -315,6 +315,39 @@ fn a_board_must_start_and_have_the_right_version() {
 }
 
 #[test]
+fn a_board_that_has_stopped_by_itself_obeys_after_the_next_start() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    let far = thread::spawn(move || {
+        let mut moved = Vec::new();
+        for _ in 0..60 {
+            firmware.step().unwrap();
+            moved.push(firmware.is_moving());
+        }
+        moved
+    });
+    let settings = Settings::new([("port", &*path)]);
+    let mut board = Board::open(&settings).unwrap();
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    pass(&mut board, 100);
+    // The program is held up.
+    thread::sleep(std::time::Duration::from_millis(400));
+    pass(&mut board, 200);
+    assert_eq!(board.bumper().value, Err(Invalid::NoAnswer));
+    drop(board);
+    let mut board = Board::open(&settings).unwrap();
+    assert!(board.bumper().value.is_ok());
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    pass(&mut board, 100);
+    while !far.is_finished() {
+        pass(&mut board, 10);
+    }
+    let moved = far.join().unwrap();
+    let changes = moved.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    // It drives, stops by itself, and drives again with the second program.
+    assert_eq!((changes, moved.last()), (3, Some(&true)), "{moved:?}");
+}
+
+#[test]
 fn the_last_resort_works_by_itself() {
     let (board, far) = begin();
     thread::spawn(board.last_resort().unwrap()).join().unwrap();
@@ -361,4 +394,10 @@ fn a_failed_open_is_explained() {
     assert!(why(&Settings::default()).contains("'port'"));
     assert!(why(&Settings::new([("port", "/no/such/port")])).contains("/no/such/port"));
     assert!(why(&Settings::new([("port", "/dev/null"), ("baud", "9600")])).contains("38400"));
+    let (firmware, port) = Firmware::new().unwrap();
+    let (board, far) = opened(firmware, &port);
+    let other = why(&Settings::new([("port", &*port)]));
+    assert!(other.contains("has it open"), "{other}");
+    drop(board);
+    far.join().unwrap();
 }

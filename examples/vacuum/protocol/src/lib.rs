@@ -1,8 +1,8 @@
 //! The messages between the vacuum cleaner and its board, in frames of [`afp_wire`].
 //!
 //! The computer sends a [`Command`] whenever it changes, and every 20 ms. The board sends a [`Report`] every 20 ms. The board
-//! obeys from [`Command::Start`] to [`Command::Stop`]. It also stops if the computer restarts, and switches its motors off
-//! after [`COMMAND_TIMEOUT`](afp_wire::COMMAND_TIMEOUT) without a command.
+//! obeys from [`Command::Start`] to [`Command::Stop`]. It also stops if the computer restarts, and, while a motor runs, after
+//! [`COMMAND_TIMEOUT`](afp_wire::COMMAND_TIMEOUT) without a command.
 //!
 //! The crate is `no_std`, so that the board's program uses it, too.
 #![no_std]

@@ -12,6 +12,7 @@ mod pages;
 mod prose;
 mod public_names;
 mod rust_blocks;
+mod safety;
 mod toml_blocks;
 
 use std::path::{Path, PathBuf};
