@@ -65,7 +65,8 @@ pub fn is_of_hardware(log: &LogData) -> bool {
 
 /// A run without a world, on a robot that does not say where it is, has no picture.
 pub(crate) fn nothing_to_draw() -> RunError {
-    let message = "there is nothing to draw: the run has no world, and the robot reports no position";
+    let message =
+        "there is nothing to draw: the run has no world, and the robot reports no position";
     let help = "a robot that reports a signal of type 'pose' has a path";
     RunError::Missing { message: message.to_owned(), help: help.to_owned() }
 }
