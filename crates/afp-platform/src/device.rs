@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::Path;
 
-/// Opens a device, or a lock file in place of one, for this program alone, until all copies of the file are closed. The
+/// Opens a device, or a lock file in place of one, for only this program, until all copies of the file are closed. The
 /// system releases it when the process ends, in any way.
 ///
 /// The lock is advisory (`flock`). Other programs cannot open a serial line either, unless they run as root

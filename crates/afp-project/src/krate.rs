@@ -67,7 +67,7 @@ pub struct HardwareLink {
     pub krate: CrateLink,
     /// The type, seen from the crate's root.
     pub ty: String,
-    /// What it is opened with, name and value, and what [`Realtime`](crate::Realtime) takes, with its prefix.
+    /// Name and value of its settings, and of those of [`Realtime`](crate::Realtime) with their prefix.
     pub settings: Vec<(String, String)>,
 }
 

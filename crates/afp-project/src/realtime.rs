@@ -21,7 +21,7 @@ impl Realtime {
     /// The names of the settings, without the prefix.
     pub const NAMES: [&str; 3] = ["stall", "priority", "cpu"];
 
-    /// Sets the value of a name, as it is written.
+    /// Sets the value of a name from its text.
     ///
     /// # Errors
     /// Says which values the name takes.

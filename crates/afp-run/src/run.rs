@@ -185,11 +185,11 @@ fn log_of(
     Ok(SessionLog::new(recorder, devices, scene, options.camera))
 }
 
-/// What stops a real robot where its session cannot.
+/// Guards that stop a real robot if its session cannot.
 #[derive(Default)]
 struct Guards {
     last_resort: Option<LastResort>,
-    /// What the session is watched with, and how late it may be.
+    /// The watch of the session, and how late the session may be.
     watch: Option<(Watch, Duration)>,
 }
 

@@ -86,7 +86,7 @@ impl StopFlag {
         *self.0.last_resort.lock().unwrap_or_else(PoisonError::into_inner) = resort;
     }
 
-    /// Does what is to be done before the process ends by force; whether there is something.
+    /// Calls the last resort before the process ends by force. Returns whether there is one.
     fn resort(&self) -> bool {
         let resort = self.0.last_resort.lock().unwrap_or_else(PoisonError::into_inner).take();
         resort.map(|mut resort| resort()).is_some()

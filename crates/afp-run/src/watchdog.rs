@@ -31,7 +31,7 @@ impl Watchdog {
     ) -> io::Result<Self> {
         let done: Arc<AtomicBool> = Arc::default();
         let is_done = done.clone();
-        // Some time is left for what it does then.
+        // The rest is time for its action.
         let limit = Duration::from_nanos(stall.as_nanos() / 10 * 9);
         let watches = move || {
             // It begins with the run, which has shown no sign of life yet.

@@ -1,4 +1,4 @@
-//! Every way out of a run on a robot: the robot hears `stop` last, or nothing any more, and the exit code says why.
+//! Every way out of a run on a robot: the robot hears `stop` last, or falls silent with its program, and the exit code says why.
 //!
 //! The program runs in a process of its own. The robot is the other end of a pseudo-terminal.
 #![cfg(unix)]
@@ -19,13 +19,13 @@ use rustix::stdio::dup2_stdout;
 
 /// Names the port in the environment of the program.
 const PORT: &str = "AFP_TEST_PORT";
-/// Has the options of the program, line by line; the first line is what its actor does.
+/// Has the options of the program, line by line; the first line names the action of its actor.
 const OPTIONS: &str = "AFP_TEST_OPTIONS";
 
 /// Names the file that the program writes its output to, if there is one.
 const OUT: &str = "AFP_TEST_OUT";
 
-/// What a robot hears must come within this time.
+/// The limit for a stop.
 const LIMIT: Duration = Duration::from_secs(2);
 /// A busy machine needs this long for anything else.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -56,7 +56,7 @@ fn terminal() -> (File, String) {
 /// The robot's end of a port.
 struct Robot {
     path: String,
-    /// What it hears.
+    /// The lines that it hears.
     heard: Receiver<String>,
     /// Keeps the port until the program has ended.
     end: Option<File>,
@@ -163,7 +163,7 @@ fn a_program_that_is_killed_leaves_the_robot_to_its_own_dead_man() {
     robot.waits_for("drive", PATIENCE);
     send(&child, Signal::KILL);
     assert_eq!(ended(child).0.code(), None);
-    // Nothing speaks for it any more.
+    // Nothing speaks for the program.
     let rest = robot.rest();
     assert!(rest.iter().all(|word| word == "drive"), "{rest:?}");
 }

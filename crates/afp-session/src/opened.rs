@@ -19,7 +19,7 @@ pub struct Opened {
     pub session: Box<dyn AnySession>,
     /// What stops the robot where the session cannot.
     pub last_resort: Option<LastResort>,
-    /// What another thread watches the session with.
+    /// The watch of the session, for another thread.
     pub watch: Option<Watch>,
 }
 

@@ -1,4 +1,4 @@
-//! What another thread may know of the control loop of a real robot, in case it is held up.
+//! Signs of life of a real robot's control loop, for another thread.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};

@@ -125,7 +125,7 @@ impl Vacuum {
         self.stopped || self.trouble.is_some()
     }
 
-    /// What the controller says of a sensor.
+    /// The reading of a sensor as the controller reports it.
     fn said<T: Copy>(&self, value: T) -> Reading<T> {
         match self.trouble {
             Some(why) => Reading::invalid(why, self.now),

@@ -147,7 +147,7 @@ fn what_is_wrong_with_the_robot_itself_is_named_at_its_place() {
 }
 
 #[test]
-fn how_the_control_loop_runs_is_read_and_what_is_wrong_with_it_is_named_at_its_place() {
+fn settings_of_the_control_loop_are_read_and_errors_are_at_their_place() {
     let robot = |text: &str| format!("[robot]\nsim = 'V'\n[robot.realtime]\n{text}");
     let (project, mistakes) = read(&robot("stall = '50 ms'\npriority = 50\ncpu = 3"));
     assert_eq!(mistakes, []);

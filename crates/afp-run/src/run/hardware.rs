@@ -52,7 +52,7 @@ pub fn run_on_hardware(
     drive(&mut *session, guards, &setting)
 }
 
-/// What the project says of the robot and of its control loop, and the command line in place of it.
+/// The settings of the robot and of its control loop: of the project, unless the command line has others.
 fn settings(
     program: &Program<'_>,
     set: &[(String, String)],

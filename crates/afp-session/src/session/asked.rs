@@ -60,7 +60,7 @@ where
     P: NamedPlan + Plan<R>,
     R: Hardware,
 {
-    /// As [`Session::new`], on a robot that is there: nobody presses or breaks anything of it from here, and the run ends
+    /// As [`Session::new`], on a real robot: nobody presses or breaks anything of it from here, and the run ends
     /// if the control loop is later than [`STALL`].
     pub fn on_hardware(plan: P, robot: R) -> Self {
         let mut session = Session::new(plan, robot);
@@ -71,7 +71,7 @@ where
         session
     }
 
-    /// What another thread watches the control loop with.
+    /// The watch of the control loop, for another thread.
     pub fn watch(&self) -> Option<Watch> {
         let (pulse, clock) = (self.pulse.clone()?, self.robot.clock());
         Some(Watch::new(pulse, Box::new(move || clock.now(Instant::ZERO))))

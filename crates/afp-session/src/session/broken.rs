@@ -1,4 +1,4 @@
-//! Runs that cannot be trusted any more end in `Error`: a component panics, the robot's own Rust is wrong, or the control
+//! Runs that lost their trust end in `Error`: a component panics, the robot's own Rust is wrong, or the control
 //! loop of a real robot is late.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};

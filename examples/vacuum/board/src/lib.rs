@@ -55,7 +55,8 @@ impl Board {
     /// The last report, or the reason why there is none. A board that has stopped by itself counts as silent.
     fn report(&self) -> Result<(Report, Instant), Invalid> {
         match self.heard() {
-            Some(Heard::Report(report, at)) if self.time.now().since(at) < STALE && !report.stopped =>
+            Some(Heard::Report(report, at))
+                if self.time.now().since(at) < STALE && !report.stopped =>
             {
                 Ok((report, at))
             }
