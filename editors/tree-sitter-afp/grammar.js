@@ -111,7 +111,15 @@ module.exports = grammar({
 
     uses: ($) => seq('uses', $.name),
 
-    outcome: ($) => choice(seq('state', field('name', $.name)), seq('event', field('name', $.name), optional('once'))),
+    outcome: ($) =>
+      choice(
+        seq('state', field('name', $.name), optional($.condition), optional(braces($.bind_in))),
+        seq('event', field('name', $.name), optional('once')),
+      ),
+
+    condition: ($) => seq('when', $.comparison, repeat(seq('and', $.comparison))),
+
+    comparison: ($) => seq($._formula, choice('==', '!=', '<', '<=', '>', '>='), $._formula),
 
     states_of: ($) => seq('states', 'of', field('port', $.name)),
 

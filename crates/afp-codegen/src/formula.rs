@@ -40,16 +40,27 @@ fn atom(tokens: TokenStream) -> Expr {
 pub struct Formulas<'a> {
     /// The paths of types.
     pub type_paths: &'a TypePaths<'a>,
-    /// The getters of the plan's entries.
+    /// The getters of the plan's entries, or the fields of the input ports.
     pub entries: &'a [Ident],
+    /// What holds their values.
+    pub reads: Reads,
     /// The names of the scratch texts, for values outside of entries, in the order of their use.
     pub scratch: Vec<Ident>,
+}
+
+/// What holds the values that formulas read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Reads {
+    /// The configuration of a plan.
+    Config,
+    /// The inputs of a declared computation.
+    Inputs,
 }
 
 impl<'a> Formulas<'a> {
     /// The formulas of one component of a plan.
     pub fn new(type_paths: &'a TypePaths<'a>, entries: &'a [Ident]) -> Self {
-        Formulas { type_paths, entries, scratch: Vec::new() }
+        Formulas { type_paths, entries, reads: Reads::Config, scratch: Vec::new() }
     }
 
     /// The value for an input port of the formula's type: texts and objects are borrowed.
@@ -114,10 +125,17 @@ impl<'a> Formulas<'a> {
             },
             (Op::Entry(_), _) => {
                 let entry = self.entry(formula);
-                match formula.ty {
-                    Type::Text | Type::Object(_) => atom(quote!(config.#entry.get().clone())),
-                    _ => atom(quote!(config.#entry())),
-                }
+                atom(match (self.reads, &formula.ty) {
+                    (Reads::Config, Type::Text | Type::Object(_)) => {
+                        quote!(config.#entry.get().clone())
+                    }
+                    (Reads::Config, _) => quote!(config.#entry()),
+                    (Reads::Inputs, Type::Text) => quote!(Text::try_from(inputs.#entry)?),
+                    (Reads::Inputs, Type::Any | Type::Number | Type::Discrete) => {
+                        quote!(inputs.#entry.clone())
+                    }
+                    (Reads::Inputs, _) => quote!(inputs.#entry),
+                })
             }
             (Op::Neg, &[inner]) => self.negated(inner),
             (Op::Binary(operator), &[a, b]) => match formula.ty {
@@ -151,7 +169,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// A text for use within the expression: an `&str`.
-    fn text(&self, formula: Part<'_>) -> TokenStream {
+    pub fn text(&self, formula: Part<'_>) -> TokenStream {
         borrowed_text(self, formula).unwrap_or_else(|| {
             let text = self.expr(formula).at(Bond::Atom);
             quote!(#text.as_str())
@@ -285,7 +303,10 @@ fn borrowed_text(formulas: &Formulas<'_>, formula: Part<'_>) -> Option<TokenStre
         Op::Text(text) => Some(text.as_str().to_token_stream()),
         Op::Entry(_) => {
             let entry = formulas.entry(formula);
-            Some(quote!(config.#entry()))
+            Some(match formulas.reads {
+                Reads::Config => quote!(config.#entry()),
+                Reads::Inputs => quote!(inputs.#entry),
+            })
         }
         _ => None,
     }

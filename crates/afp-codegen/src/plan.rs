@@ -7,10 +7,11 @@
 mod accessors;
 mod bindings;
 mod components;
+mod computations;
 mod context;
 mod elements;
 mod graph_names;
-mod imports;
+pub(crate) mod imports;
 mod names;
 mod rules;
 mod shared;
@@ -60,6 +61,8 @@ pub fn plan(graph: &Graph, options: &Options) -> Generated {
     let shared = Shared::of(graph);
     let mut modules = shared::modules(graph, &shared.enums, options);
     modules.extend(tables::module(graph, &shared.enums, &shared.tables, options));
+    let declared = (&*shared.enums, &*shared.computations);
+    modules.extend(computations::modules(graph, declared, options));
     let ids = (0..=u16::MAX).map(PlanId).take(graph.plans.len());
     modules.extend(ids.map(|id| module(&Context::new(graph, &shared, id), options, id)));
     let (main, plan) = shared.names.plan(graph.main);

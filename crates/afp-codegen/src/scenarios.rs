@@ -110,7 +110,8 @@ impl<'a> ScenarioTests<'a> {
                 })
             };
         };
-        let toolboxes = plan.toolboxes.iter().map(|toolbox| {
+        let toolboxes = plan.toolboxes.iter().filter(|toolbox| toolbox.is_file());
+        let toolboxes = toolboxes.map(|toolbox| {
             let path: TokenStream = toolbox.rust_path.parse().unwrap_or_default();
             match (self.is_built_in)(&toolbox.rust_path) {
                 true => quote!(::#path::register!(registry, #robot);),

@@ -4,6 +4,7 @@
 //! An implementing crate has them in a module `templates`. The implementing types have the
 //! templates' names in the module around it.
 
+mod cases;
 mod complete;
 mod declared;
 mod devices;
@@ -33,7 +34,8 @@ pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     let rust_name = |choices: &Enum| ident(&camel(&choices.name));
     let enums = toolbox.enums.iter();
     let enums = enums.map(|choices| enums::choices(core, choices, &rust_name(choices)));
-    let templates = implemented(toolbox).map(|t| template(core, t));
+    let templates = toolbox.templates.iter().filter(|template| template.reads_table.is_none());
+    let templates = templates.map(|t| template(core, t));
     let register = register::register(core, toolbox);
     let devices = devices::devices(core, toolbox);
     quote! {
@@ -47,9 +49,11 @@ pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     }
 }
 
-/// The templates that Rust types implement; readers of tables have ports from the plan.
+/// The templates that Rust types of the crate implement. The plan has the readers of tables, and formulas declare
+/// some computations.
 fn implemented(toolbox: &Toolbox) -> impl Iterator<Item = &Template> {
-    toolbox.templates.iter().filter(|template| template.reads_table.is_none())
+    let all = toolbox.templates.iter();
+    all.filter(|template| template.reads_table.is_none() && template.cases.is_none())
 }
 
 /// The Rust names for templates of one kind.
@@ -91,13 +95,14 @@ pub(crate) fn module(template: &Template) -> Ident {
     if taken { ident(&format!("{name}_")) } else { ident(&name) }
 }
 
-fn template(core: &TokenStream, template: &Template) -> TokenStream {
+pub(crate) fn template(core: &TokenStream, template: &Template) -> TokenStream {
     let words = words(template.kind);
     let module = module(template);
     let about = doc("", &format!("Ports and {} of [`{}`].", words.outcomes, camel(&template.name)));
     let inputs = ports::inputs(core, template);
     let live = has_live(template).then(|| ports::live(core, template));
     let outcomes = outcomes::outcomes(core, template);
+    let computed = cases::implement(core, template);
     let marker = marker(template);
     let implemented = implement(core, template);
     quote! {
@@ -109,6 +114,7 @@ fn template(core: &TokenStream, template: &Template) -> TokenStream {
             #inputs
             #live
             #outcomes
+            #computed
         }
     }
 }

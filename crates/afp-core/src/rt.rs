@@ -22,7 +22,7 @@ pub use afp_types::{
     Scale, Unit, bool_to_float, bool_to_int, float_to_int, int_add, int_mul, int_neg, int_rem,
     int_sub, int_to_float, parse_bool, parse_choice, parse_float, parse_int, parse_quantity, rem,
 };
-pub use formula::{divisor, join, print_quantity};
+pub use formula::{divisor, join, order, print_quantity};
 pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan, PortRow};
 pub use native::{
     finite, initial, input, limited, output, print_choice, read_choice, set_input, stage_outside,

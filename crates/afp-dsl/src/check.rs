@@ -7,6 +7,7 @@ mod assemble;
 pub(crate) mod bindings;
 mod callee;
 mod choices;
+mod computations;
 mod consequences;
 mod convert;
 mod draft;
@@ -159,8 +160,9 @@ fn names(
     diags: &Diagnostics,
 ) -> (Meanings, Vec<Declared>) {
     let mut declared = toolboxes.declared().to_vec();
-    let is_tool = |item: &Item| {
-        matches!(item, Item::Toolbox(_) | Item::Template(_) | Item::Object(_) | Item::Device(_))
+    let is_tool = |item: &Item| match item {
+        Item::Template(node) => !node.is_declared(),
+        item => matches!(item, Item::Toolbox(_) | Item::Object(_) | Item::Device(_)),
     };
     let items: Vec<_> = files.iter().map(|file| file.tree.items()).collect();
     for (file, items) in files.iter().zip(&items) {
@@ -172,6 +174,12 @@ fn names(
     for (file, items) in files.iter().zip(&items) {
         if items.iter().any(is_tool) {
             declared.extend(index::of_toolbox(items, &own));
+        } else {
+            let templates = items.iter().filter_map(|item| match item {
+                Item::Template(node) => Some(node),
+                _ => None,
+            });
+            templates.for_each(|node| index::of_template(node, None, &own, &mut declared));
         }
         if diags.error_within(file.whole()) {
             index::unread(file.tree.root(), file.index, &mut own);

@@ -20,7 +20,7 @@ use crate::toolbox::TemplateKind;
 use afp_syntax::source::Span;
 
 pub(crate) use build::build;
-pub(crate) use declare::{Declared, of_toolbox};
+pub(crate) use declare::{Declared, of_template, of_toolbox};
 pub(crate) use record::{Found, Lookup, Meanings, Recorder};
 pub(crate) use unread::unread;
 

@@ -5,8 +5,6 @@
 //! [`crate::unfold`], values are in SI units, times in nanoseconds. What is pressed, fails or signals is the
 //! robot's: it goes by the names that toolboxes declare.
 
-mod comparison;
-
 use std::fmt;
 use std::sync::Arc;
 
@@ -16,7 +14,7 @@ use crate::types::Constant;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 
-pub use comparison::Comparison;
+pub use afp_types::Comparison;
 
 /// How long a scenario lasts unless it says otherwise, nanoseconds.
 pub const DEFAULT_UNTIL: u64 = 60_000_000_000;

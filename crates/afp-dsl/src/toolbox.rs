@@ -1,5 +1,6 @@
 //! What a toolbox file declares: templates with their ports, timing, help and icons; devices.
 
+pub mod case;
 pub mod device;
 
 use crate::table::Table;
@@ -10,6 +11,7 @@ use std::sync::Arc;
 
 pub use crate::types::Constant;
 pub use afp_syntax::ast::TemplateKind;
+pub use case::{Case, Condition};
 pub use device::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalType};
 
 /// A checked toolbox file.
@@ -36,6 +38,11 @@ impl Toolbox {
     /// Whether it says what is true of a robot as a whole, so that it is a robot's.
     pub(crate) fn declares_robot(&self) -> bool {
         self.devices.iter().any(|device| device.kind == DeviceKind::Robot)
+    }
+
+    /// Whether a toolbox file declares it. The computations of a plan file are a toolbox without a name.
+    pub fn is_file(&self) -> bool {
+        !self.name.is_empty()
     }
 
     /// Whether it comes with the compiler.
@@ -66,6 +73,8 @@ pub struct Template {
     pub outputs: Vec<OutPort>,
     /// States, or a supervisor's events, as written.
     pub outcomes: Vec<Outcome>,
+    /// What a declared computation does, state by state. No Rust type of a user implements it.
+    pub cases: Option<Arc<[Case]>>,
     /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
     /// there.
     pub states_of: Option<StatesOf>,

@@ -267,6 +267,7 @@ impl Body {
             | Kind::Scenario
             | Kind::Moment
             | Kind::Template
+            | Kind::Outcome
             | Kind::Element
             | Kind::Guard
             | Kind::Reactions

@@ -50,6 +50,30 @@ fn lines_that_count_from_a_moment_are_indented() {
 }
 
 #[test]
+fn bodies_of_states_stay_on_their_line_or_are_broken() {
+    becomes(
+        "computation Count{in value:int state Again when value<3 and  value!=-1{next=value+1,all=0}
+        state Done{
+        // From the start.
+        next=0
+        all=0}
+        state Last { } }
+",
+        "computation Count {
+    in  value: int
+    state Again when value < 3 and value != -1 { next = value + 1, all = 0 }
+    state Done {
+        // From the start.
+        next = 0
+        all = 0
+    }
+    state Last {}
+}
+",
+    );
+}
+
+#[test]
 fn the_plan_of_the_paper_and_a_scenario_are_canonical() {
     becomes(WALL_FOLLOWING, WALL_FOLLOWING);
     becomes(SCENARIO, SCENARIO);

@@ -93,7 +93,12 @@ impl Toolbox {
     /// Set the implementation of a template; a later one replaces an earlier one.
     fn _implement(&self, template: String, maker: Py<PyAny>) -> PyResult<()> {
         let declared = self.declared()?;
-        if !declared.templates.iter().any(|known| known.name == template) {
+        let found = declared.templates.iter().find(|known| known.name == template);
+        if found.is_some_and(|found| found.cases.is_some()) {
+            let text = format!("the states of '{template}' have bodies, so Python cannot implement it");
+            return Err(PyValueError::new_err(text));
+        }
+        if found.is_none() {
             let known: Vec<_> = declared.templates.iter().map(|known| &*known.name).collect();
             let text = format!(
                 "the toolbox '{}' has no template '{template}'; there are: {}",

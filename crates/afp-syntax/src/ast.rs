@@ -30,7 +30,9 @@ pub use formula::{Formula, FormulaKind, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions, Start};
 pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
 pub use table::{Column, Row, Table};
-pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
+pub use toolbox::{
+    Comparison, InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox,
+};
 
 /// A name and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -92,6 +92,7 @@ const WORDS: &[(&str, Roles)] = &[
     ("once", BEHIND_NUMBER),
     ("times", BEHIND_NUMBER),
     ("to", BEHIND_NUMBER),
+    ("when", BEHIND_NUMBER),
     ("within", BEHIND_NUMBER),
 ];
 

@@ -150,8 +150,12 @@ kinds! {
     Icon
     /// `uses navigator`
     Uses
-    /// `state S` or `event E`
+    /// `state S when a < b { out = formula }` or `event E`
     Outcome
+    /// `when a < b and c == d`
+    When
+    /// `a < b` in a condition
+    Comparison
     /// `states of port`
     StatesOf
     /// `in live port: type = formula from formula to formula`

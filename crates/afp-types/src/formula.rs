@@ -64,7 +64,7 @@ pub enum Shape {
     Text,
     /// A value of an enum.
     Choice,
-    /// An object.
+    /// An object, or a value whose type is known only at the use of a computation.
     Object,
 }
 

@@ -11,6 +11,7 @@
 #![warn(missing_docs)]
 
 mod arithmetic;
+mod comparison;
 mod decimal;
 pub mod devices;
 mod exact;
@@ -33,6 +34,7 @@ pub use arithmetic::{
     bool_to_float, bool_to_int, finite, float_to_int, int_add, int_mul, int_neg, int_rem, int_sub,
     int_to_float, rem,
 };
+pub use comparison::Comparison;
 pub use decimal::{Decimal, number_length};
 pub use exact::{RADIANS_PER_DEGREE, Scale, exact};
 pub use formula::{Node, Op, Operator, Part, Shape, Source};

@@ -4,6 +4,7 @@
 //! instance of a checked graph. Everything is allocated then; a step allocates nothing.
 
 mod config;
+mod declared;
 mod error;
 mod formula;
 mod inject;

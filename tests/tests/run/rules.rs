@@ -333,6 +333,11 @@ const RULES: &[Rule] = &[
     ("6.2", "the reactions of a sub-plan never reach inside", &["on_in_sub_plans"]),
     ("6.3", "'Every' reports each whole period, late ones once", &["every_period"]),
     ("6.5", "'Is' and 'Switch' choose by values that are equal or not", &["choosing"]),
+    (
+        "6.5",
+        "a declared computation reaches the first state whose condition holds, and writes what that state assigns",
+        &["declared", "declared_faults"],
+    ),
     ("6.5", "'Row' reads a row of a table, or says that there is none", &["row"]),
     (
         "6.6",

@@ -16,6 +16,7 @@ use afp_dsl::rows::Rows;
 use afp_dsl::toolbox::Template;
 use afp_dsl::types::{Enum, Object, Type};
 
+use super::computations::{FileComputations, computations_of};
 use super::graph_names::GraphNames;
 use super::imports::imported;
 use super::shared::enums_of;
@@ -72,6 +73,8 @@ pub struct Shared {
     pub enums: Vec<FileEnum>,
     /// The tables that some plan reads.
     pub tables: Vec<FileTable>,
+    /// The computations of the plan files that some plan uses.
+    pub computations: Vec<FileComputations>,
     /// The names that modules use for one another.
     pub names: GraphNames,
 }
@@ -79,7 +82,12 @@ pub struct Shared {
 impl Shared {
     /// The common parts of this graph's modules.
     pub fn of(graph: &Graph) -> Self {
-        Shared { enums: enums_of(graph), tables: tables_of(graph), names: GraphNames::new(graph) }
+        Shared {
+            enums: enums_of(graph),
+            tables: tables_of(graph),
+            computations: computations_of(graph),
+            names: GraphNames::new(graph),
+        }
     }
 }
 
@@ -128,20 +136,31 @@ impl<'a> Context<'a> {
         if let Some(paths) = self.table_paths(self.template(id)) {
             return paths;
         }
-        let toolbox = id.toolbox.index();
-        let module = path(&self.graph.toolboxes[toolbox].rust_path);
-        let alias = &self.shared.names.toolboxes[toolbox];
-        let template = self.template(id);
+        let (module, template) =
+            match self.shared.computations.iter().find(|file| file.toolbox == id.toolbox) {
+                Some(FileComputations { module, templates, .. }) => {
+                    (quote!(super::#module), &templates[usize::from(id.index)])
+                }
+                None => {
+                    let alias = &self.shared.names.toolboxes[id.toolbox.index()];
+                    (quote!(#alias), self.template(id))
+                }
+            };
         let (name, own) = (ident(&camel(&template.name)), toolbox::module(template));
         let generic = generic.map(|ty| {
             let ty = self.entry_type(ty);
             quote!(<#ty>)
         });
-        Paths {
-            marker: quote!(#alias::#name #generic),
-            module: quote!(#alias::#own),
-            implementation: quote!(#module::#name #generic),
-        }
+        let marker = quote!(#module::#name #generic);
+        // A declared computation is its own implementation.
+        let implementation = match template.cases {
+            Some(_) => marker.clone(),
+            None => {
+                let home = path(&self.graph.toolboxes[id.toolbox.index()].rust_path);
+                quote!(#home::#name #generic)
+            }
+        };
+        Paths { marker, module: quote!(#module::#own), implementation }
     }
 
     /// The paths of a table's reader, which is next to the plan's module.

@@ -44,7 +44,8 @@ const TYPES: &[&str] = &[
 ];
 /// Files and modules other than those of plans, and crates that code next to them may name without
 /// `::`.
-const MODULES: &[&str] = &["core", "enums", "lib", "main", "std", "tables", "units"];
+const MODULES: &[&str] =
+    &["computations", "core", "enums", "lib", "main", "std", "tables", "units"];
 /// Crates that code of a plan's module may name without `::`.
 const CRATES: &[&str] = &["afp", "afp_core", "alloc", "core", "std"];
 

@@ -73,6 +73,7 @@ const RT: &[&str] = &[
     "int_to_float",
     "join",
     "limited",
+    "order",
     "output",
     "parse_bool",
     "parse_float",
@@ -131,10 +132,23 @@ pub fn imports(
     aliases: &[Ident],
     sections: &[(&'static str, TokenStream)],
 ) -> TokenStream {
-    let mut used = BTreeSet::new();
-    for (_, tokens) in sections {
-        names(tokens.clone(), &mut used);
+    let (items, used) = (of_core(core, sections), used(sections));
+    let toolboxes = graph.toolboxes.iter().zip(aliases);
+    let files = toolboxes.filter(|(toolbox, _)| toolbox.is_file());
+    let toolboxes = files.filter_map(|(toolbox, alias)| {
+        let module = path(&toolbox.rust_path);
+        let item = quote!(use #module::templates as #alias;);
+        used.contains(&alias.to_string()).then_some(item)
+    });
+    quote! {
+        #items
+        #(#toolboxes)*
     }
+}
+
+/// The items for what the sections name of `afp_core`.
+pub fn of_core(core: &TokenStream, sections: &[(&'static str, TokenStream)]) -> TokenStream {
+    let used = used(sections);
     let groups = [
         (quote!(#core), CORE.to_vec()),
         (quote!(#core::quantity), QUANTITY.to_vec()),
@@ -150,16 +164,16 @@ pub fn imports(
             names => Some(quote!(use #module::{#(#names),*};)),
         }
     });
-    let toolboxes = graph.toolboxes.iter().zip(aliases);
-    let toolboxes = toolboxes.filter_map(|(toolbox, alias)| {
-        let module = path(&toolbox.rust_path);
-        let item = quote!(use #module::templates as #alias;);
-        used.contains(&alias.to_string()).then_some(item)
-    });
-    quote! {
-        #(#items)*
-        #(#toolboxes)*
+    items.collect()
+}
+
+/// The identifiers that begin the paths of the sections.
+fn used(sections: &[(&'static str, TokenStream)]) -> BTreeSet<String> {
+    let mut used = BTreeSet::new();
+    for (_, tokens) in sections {
+        names(tokens.clone(), &mut used);
     }
+    used
 }
 
 /// The identifiers at the start of a path.

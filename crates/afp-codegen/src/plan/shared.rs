@@ -122,6 +122,7 @@ fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
     }
     formulas(graph).for_each(|formula| formula.nodes().for_each(|node| see(&node.note.ty)));
     super::tables::types(graph, see);
+    super::computations::all_types(graph, see);
 }
 
 fn conversions(graph: &Graph, see: &mut dyn FnMut(&Conversion)) {

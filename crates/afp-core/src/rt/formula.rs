@@ -1,5 +1,7 @@
 //! Functions that generated formulas call besides those of `afp-types`, and the errors of both as faults.
 
+use core::cmp::Ordering;
+
 use afp_types::{Error, Quantity, Text, ValueRef, finite};
 
 use crate::fault::Fault;
@@ -28,6 +30,20 @@ pub fn divisor<T: Stored>(value: T) -> Result<T, Error> {
         finite(number)?;
     }
     Ok(value)
+}
+
+/// The order of two numbers.
+///
+/// # Errors
+/// [`Error::NotFinite`] for a number that is not finite.
+#[inline]
+pub fn order<T: Stored + PartialOrd>(left: &T, right: &T) -> Result<Ordering, Error> {
+    for number in [left, right] {
+        if let ValueRef::Float(number) = number.as_value() {
+            finite(number)?;
+        }
+    }
+    left.partial_cmp(right).ok_or(Error::NotFinite)
 }
 
 /// Two texts joined.

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use crate::check::foreign;
+use crate::check::imports::Import;
 use crate::check::names::{ambiguous, offer};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Context, PlanHead};
@@ -61,7 +62,7 @@ impl Context<'_> {
         if found.len() > 1 {
             record.several(name.span, found.iter().map(|each| each.span));
             let plans = found.iter().all(|each| each.home.is_none());
-            let what = if plans { "a plan" } else { "a template" };
+            let what = if plans { found[0].signature.kind.describe() } else { "a template" };
             let places: Vec<_> = found.iter().map(|each| (each.home, each.span)).collect();
             diags.push(ambiguous(what, &name.text, reference.span(), &places));
             return None;
@@ -109,16 +110,15 @@ impl Context<'_> {
             let signature = self.program.signatures.plan(*index).clone();
             found.push(Candidate { signature, home: None, span, is_built_in: false });
         }
-        for import in &self.file.imports {
-            if home.is_some_and(|home| home.text != import.qualifier) {
-                continue;
-            }
+        let fits = |import: &&Import| home.is_none_or(|home| home.text == import.qualifier);
+        for import in self.file.imports.iter().chain(&self.file.computations).filter(fits) {
             let templates = &import.toolbox.templates;
             let Some(index) = templates.iter().position(|each| each.name == name.text) else {
                 continue;
             };
             if let Some(signature) = self.program.signatures.template(import.id, index) {
-                let (home, span) = (Some(import.qualifier.as_str()), templates[index].span);
+                let home = Some(import.qualifier.as_str()).filter(|home| !home.is_empty());
+                let span = templates[index].span;
                 let (signature, is_built_in) = (signature.clone(), import.toolbox.is_built_in());
                 found.push(Candidate { signature, home, span, is_built_in });
             }
@@ -165,7 +165,8 @@ impl Context<'_> {
         if let Some(error) = self.in_another_toolbox(name, home, &error) {
             return error;
         }
-        let templates = self.file.imports.iter().flat_map(|import| &import.toolbox.templates);
+        let imports = self.file.imports.iter().chain(&self.file.computations);
+        let templates = imports.flat_map(|import| &import.toolbox.templates);
         let fitting = templates
             .filter(|template| SignatureKind::Template(template.kind).keyword() == wanted.keyword);
         let mut known: Vec<&str> = fitting.map(|template| template.name.as_str()).collect();

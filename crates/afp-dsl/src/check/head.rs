@@ -40,3 +40,21 @@ pub(crate) struct EntryDraft {
     /// The constants that the range is made of.
     pub ranged_by: Vec<EntryId>,
 }
+
+impl EntryDraft {
+    /// What formulas need to know of an entry or an input port.
+    pub fn readable(name: &str, span: Span, kind: EntryKind, ty: &Type) -> EntryDraft {
+        EntryDraft {
+            name: Name { text: name.to_owned(), span },
+            doc: String::new(),
+            kind,
+            live: false,
+            ty: Some(ty.clone()),
+            init: None,
+            has_init: true,
+            value: None,
+            range: None,
+            ranged_by: Vec::new(),
+        }
+    }
+}

@@ -13,6 +13,7 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// A toolbox that a file uses.
+#[derive(Clone)]
 pub(crate) struct Import {
     /// The name that qualifies what is in it.
     pub qualifier: String,
@@ -199,6 +200,7 @@ pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
     }
     for item in &items {
         let name = match item {
+            Item::Template(template) if template.is_declared() => None,
             Item::Template(template) => template.name(),
             Item::Object(object) => object.name(),
             Item::Device(device) => device.name().or_else(|| device.keyword()),

@@ -9,7 +9,7 @@ use crate::check::scope::FileScope;
 use crate::check::signature::Signatures;
 use crate::check::types::Types;
 use crate::check::{
-    PlanHead, Program, choices, endings, entries, enums, recursion, shadows, tables,
+    PlanHead, Program, choices, computations, endings, entries, enums, recursion, shadows, tables,
 };
 use crate::files::relative;
 use crate::gather::{PlanFile, Toolboxes};
@@ -40,6 +40,10 @@ pub(super) fn program<'a>(
     let own_tables = files.iter().zip(&scopes);
     let own_tables: Vec<_> =
         own_tables.map(|(file, scope)| tables::own(file, &scope.types, record, diags)).collect();
+    let own_computations = files.iter().zip(&scopes);
+    let own_computations: Vec<_> = own_computations
+        .map(|(file, scope)| computations::own(file, &scope.types, &mut linked, record, diags))
+        .collect();
     let mut plans = Vec::new();
     let mut own: Vec<FxHashMap<String, usize>> = Vec::new();
     for (index, file) in files.iter().enumerate() {
@@ -56,6 +60,7 @@ pub(super) fn program<'a>(
     for (index, file) in files.iter().enumerate() {
         for seen in std::iter::once(&index).chain(&file.uses) {
             scopes[index].tables.extend(own_tables[*seen].iter().cloned());
+            scopes[index].computations.extend(own_computations[*seen].clone());
             for (name, at) in &own[*seen] {
                 scopes[index].plans.entry(name.clone()).or_default().push(*at);
             }
@@ -92,6 +97,7 @@ fn scope<'a>(
         text: &file.source.text,
         source: (file.index, &file.source),
         imports,
+        computations: Vec::new(),
         types,
         tables: Vec::new(),
         incomplete: file.incomplete,

@@ -56,6 +56,8 @@ pub(crate) struct FileScope<'a> {
     pub source: (u16, &'a Arc<Source>),
     /// The toolboxes that it uses.
     pub imports: Vec<Import>,
+    /// The computations that plan files declare for it, as toolboxes without a name: its own first.
+    pub computations: Vec<Import>,
     /// The types that it can name.
     pub types: Types,
     /// The tables that it can name: its own first.

@@ -37,18 +37,7 @@ pub(super) fn own(
     diags: &mut Diagnostics,
 ) -> Vec<Arc<Table>> {
     let items = file.tree.items();
-    let mut names = DeclaredNames::default();
-    for item in &items {
-        let other = match item {
-            Item::Plan(node) => node.name(),
-            Item::Enum(node) => node.name(),
-            _ => None,
-        };
-        if let Some(name) = other {
-            // What is wrong with these is said elsewhere.
-            names.declare(&name, &mut Diagnostics::default());
-        }
-    }
+    let mut names = other_names(&items);
     let indices = Indices::default();
     let scope = Scope {
         types,
@@ -74,6 +63,23 @@ pub(super) fn own(
         names.declare(&name, diags).then(|| Arc::new(table))
     });
     tables.collect()
+}
+
+/// The names of the plans and enums of a file.
+pub(super) fn other_names(items: &[Item]) -> DeclaredNames {
+    let mut names = DeclaredNames::default();
+    for item in items {
+        let other = match item {
+            Item::Plan(node) => node.name(),
+            Item::Enum(node) => node.name(),
+            _ => None,
+        };
+        if let Some(name) = other {
+            // What is wrong with these is said elsewhere.
+            names.declare(&name, &mut Diagnostics::default());
+        }
+    }
+    names
 }
 
 /// Reads a table; `None` without a name.

@@ -1,5 +1,6 @@
 //! Reads a toolbox file and checks what it declares.
 
+mod cases;
 mod device;
 mod ports;
 mod template;
@@ -98,6 +99,16 @@ fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
         declared: index::of_toolbox(&items, &meanings),
         meanings,
     }
+}
+
+/// Reads a computation that a plan file declares.
+pub(crate) fn computation(
+    node: &ast::Template,
+    (types, source): (&Types, &str),
+    record: &Recorder,
+    diags: &mut Diagnostics,
+) -> Option<Template> {
+    template::read(node, &Site { types, source, record, devices: &[] }, diags)
 }
 
 /// Finds out what names mean that only toolboxes have, in a file that is none.

@@ -14,7 +14,7 @@ use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
 /// The types that a text can name: the built-in ones and these.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Types {
     /// Enums, with the name that qualifies them.
     pub enums: Vec<(Option<String>, Arc<Enum>)>,

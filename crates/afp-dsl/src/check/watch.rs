@@ -15,7 +15,7 @@ use crate::graph::{EntryId, Formula, Graph, Plan, PlanId, constant};
 use crate::index::Recorder;
 use crate::scenario::Comparison;
 use crate::types::{Constant, Enum, Type};
-use afp_syntax::ast::{self, Item, Name};
+use afp_syntax::ast::{self, Item};
 use afp_syntax::diagnostics::{Aim, Code, Diagnostic, Diagnostics};
 
 /// What comes before a formula so that it can be read like any other.
@@ -108,18 +108,9 @@ struct Inside {
 
 impl Inside {
     fn new(graph: &Graph, plan: &Plan) -> Inside {
-        let entries = plan.entries.iter().map(|entry| EntryDraft {
-            name: Name { text: entry.name.clone(), span: entry.span },
-            doc: String::new(),
-            kind: entry.kind,
-            live: entry.live,
-            ty: Some(entry.ty.clone()),
-            init: None,
-            has_init: true,
-            value: None,
-            range: None,
-            ranged_by: Vec::new(),
-        });
+        let entries = plan.entries.iter();
+        let entries = entries
+            .map(|entry| EntryDraft::readable(&entry.name, entry.span, entry.kind, &entry.ty));
         let names = plan.entries.iter().map(|entry| Some(entry.name.as_str()));
         let mut types = Types::default();
         for toolbox in &graph.toolboxes {

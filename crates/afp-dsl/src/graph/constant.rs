@@ -41,7 +41,7 @@ fn part(
 }
 
 /// The entries whose values are known.
-struct Known<'a>(&'a dyn Fn(u16) -> Option<Constant>);
+pub(crate) struct Known<'a>(pub &'a dyn Fn(u16) -> Option<Constant>);
 
 impl Source<Conversion> for Known<'_> {
     const FOLDS: bool = true;

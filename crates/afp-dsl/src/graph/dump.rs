@@ -158,7 +158,10 @@ impl Dump<'_> {
         let toolbox = &self.graph.toolboxes[id.toolbox.index()];
         let template = self.graph.template(id);
         Named {
-            head: format!("{}.{}", toolbox.name, template.name),
+            head: match toolbox.is_file() {
+                true => format!("{}.{}", toolbox.name, template.name),
+                false => template.name.clone(),
+            },
             inputs: template.inputs.iter().map(|port| port.name.clone()).collect(),
             outputs: template.outputs.iter().map(|port| port.name.clone()).collect(),
             outcomes: template.outcomes.iter().map(|outcome| outcome.name.clone()).collect(),

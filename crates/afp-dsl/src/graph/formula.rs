@@ -98,9 +98,9 @@ fn shape(ty: &Type) -> Shape {
     match ty {
         Type::Bool => Shape::Bool,
         Type::Int => Shape::Int,
-        Type::Quantity(_) | Type::Any | Type::Number | Type::Discrete => Shape::Float,
+        Type::Quantity(_) => Shape::Float,
         Type::Text => Shape::Text,
         Type::Enum(_) => Shape::Choice,
-        Type::Object(_) => Shape::Object,
+        Type::Object(_) | Type::Any | Type::Number | Type::Discrete => Shape::Object,
     }
 }

@@ -170,7 +170,8 @@ pub(crate) fn of_toolbox(items: &[Item], meanings: &Meanings) -> Vec<Declared> {
     all
 }
 
-fn of_template(
+/// What a template declares.
+pub(crate) fn of_template(
     node: &ast::Template,
     toolbox: Option<Span>,
     meanings: &Meanings,

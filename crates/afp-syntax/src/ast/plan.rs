@@ -335,7 +335,7 @@ pub(super) fn binds(node: &Node, file: u16) -> Vec<Bind> {
     args.children().filter_map(|node| bind(&node, file)).collect()
 }
 
-fn bind(node: &Node, file: u16) -> Option<Bind> {
+pub(super) fn bind(node: &Node, file: u16) -> Option<Bind> {
     let same = child(node, Kind::Ref).filter(|_| node.kind() == Kind::BindSame);
     let port = token(same.as_ref().unwrap_or(node), Kind::Name, file)?;
     let sign = |kinds: &[Kind]| {

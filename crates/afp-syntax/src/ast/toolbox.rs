@@ -1,8 +1,9 @@
 //! Toolboxes in the typed view.
 
+use super::plan::bind;
 use super::{
-    Formula, Name, Type, child, doc, keyword_as, keyword_token, live, named, range, range_ends,
-    span_of, token, tokens, views,
+    Bind, Formula, Name, Type, child, doc, find_token, keyword_as, keyword_token, live, named,
+    range, range_ends, span_of, token, tokens, views,
 };
 use crate::kind::Kind;
 use crate::source::Span;
@@ -15,6 +16,8 @@ views! {
     OutPort
     /// A state or an event.
     Outcome
+    /// `a < b`
+    Comparison
     /// `every 10 ms` or another time.
     Timing
 }
@@ -63,6 +66,12 @@ impl Template {
             "computation" => TemplateKind::Computation,
             _ => TemplateKind::Actor,
         })
+    }
+
+    /// Whether it is a computation that formulas declare, not Rust or Python.
+    pub fn is_declared(&self) -> bool {
+        let declared = |part: &Part| matches!(part, Part::Outcome(state) if state.is_declared());
+        self.kind() == TemplateKind::Computation && self.parts().iter().any(declared)
     }
 
     pub fn parts(&self) -> Vec<Part> {
@@ -133,6 +142,43 @@ impl Outcome {
     pub fn once(&self) -> bool {
         let words = tokens(&self.node, Kind::Keyword, self.file);
         words.iter().skip(1).any(|word| word.text == "once")
+    }
+}
+
+impl Outcome {
+    /// Whether it has a condition or a body.
+    pub fn is_declared(&self) -> bool {
+        self.body().is_some() || self.when().is_some()
+    }
+
+    /// The place of `when`, and the comparisons behind it.
+    pub fn when(&self) -> Option<(Span, Vec<Comparison>)> {
+        let when = child(&self.node, Kind::When)?;
+        let compared = when.children().filter(|node| node.kind() == Kind::Comparison);
+        let compared = compared.map(|node| Comparison::new(node, self.file)).collect();
+        Some((span_of(&when, Kind::Keyword, self.file)?, compared))
+    }
+
+    /// What it assigns; `None` without braces.
+    pub fn body(&self) -> Option<Vec<Bind>> {
+        token(&self.node, Kind::OpenBrace, self.file)?;
+        Some(self.node.children().filter_map(|node| bind(&node, self.file)).collect())
+    }
+}
+
+impl Comparison {
+    /// The sign, and what is compared.
+    pub fn parts(&self) -> Option<(Formula, Name, Formula)> {
+        let sign = find_token(&self.node, self.file, |kind, text, span| {
+            kind.is_comparison().then(|| Name { text: text.to_owned(), span })
+        });
+        let mut operands = Formula::children_of(&self.node, self.file).into_iter();
+        Some((operands.next()?, sign?, operands.next()?))
+    }
+
+    /// Its formulas, as far as they are written.
+    pub fn operands(&self) -> Vec<Formula> {
+        Formula::children_of(&self.node, self.file)
     }
 }
 

@@ -27,7 +27,7 @@ impl Parser<'_, '_> {
     }
 
     /// Whether `=` or `=>` stands behind the next token, or what is written for it.
-    fn at_sign_of_bind(&self) -> bool {
+    pub(super) fn at_sign_of_bind(&self) -> bool {
         let is_output = self.nth(1) == Kind::GreaterEqual && self.nth(2) == Kind::Name;
         let is_output = is_output && matches!(self.nth(3), Kind::Comma | Kind::CloseParen);
         self.names_something(0) || self.nth(1) == Kind::EqualEqual || is_output || self.changes()

@@ -287,7 +287,8 @@ impl Reader<'_, '_> {
                 self.lines.last().is_none_or(|it| it.first != at)
             }
             Kind::Name => {
-                matches!(sign, Some(Kind::Arrow | Kind::Comma | Kind::Name)) || self.is_list(at)
+                matches!(sign, Some(Kind::Arrow | Kind::Comma | Kind::Equal | Kind::Name))
+                    || self.is_list(at)
             }
             _ => false,
         }

@@ -116,6 +116,7 @@ impl Parser<'_, '_> {
                 if self.name("give it a name") && is_event {
                     self.eat_meant("once", |_| true);
                 }
+                self.case();
                 self.close_item();
             }
             _ => {
@@ -125,6 +126,59 @@ impl Parser<'_, '_> {
                 self.close_item();
             }
         }
+    }
+
+    /// `["when" condition] ["{" {bind} "}"]` behind a state of a declared computation.
+    fn case(&mut self) {
+        let has_condition = self.at_word("when") && self.on_same_line();
+        if has_condition {
+            self.condition();
+        }
+        if !has_condition && !self.at(Kind::OpenBrace) {
+            return;
+        }
+        let help = "write what the state assigns in braces, '{}' if it assigns nothing";
+        let Some(body) = self.open_body(help, |_| false) else { return };
+        while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_part_behind_case() {
+            self.repeat(|parser| match parser.at(Kind::Name) && parser.at_sign_of_bind() {
+                true => parser.bind(),
+                false => parser.skip("an assignment", "write an output, '=' and a formula", |p| {
+                    p.at(Kind::CloseBrace) || p.at_part_behind_case()
+                }),
+            });
+        }
+        self.close_body(body);
+    }
+
+    /// Whether a part of the template begins, which nothing binds.
+    fn at_part_behind_case(&self) -> bool {
+        self.at_part() && !self.at_sign_of_bind() || self.at_template()
+    }
+
+    /// `"when" comparison {"and" comparison}`
+    fn condition(&mut self) {
+        self.open(Kind::When);
+        self.keyword();
+        self.comparison();
+        while self.eat_word("and") {
+            self.comparison();
+        }
+        self.close();
+    }
+
+    fn comparison(&mut self) {
+        self.open(Kind::Comparison);
+        self.formula();
+        if self.unequal_meant() {
+            self.formula();
+        } else if self.nth(0).is_comparison() || self.comparison_meant() {
+            // A '=' is read as '=='.
+            self.bump_as(if self.at(Kind::Equal) { Kind::EqualEqual } else { self.nth(0) });
+            self.formula();
+        } else {
+            self.expected("a comparison", "write a sign such as '<' and another value");
+        }
+        self.close();
     }
 
     fn uses(&mut self) {

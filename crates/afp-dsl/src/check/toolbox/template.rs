@@ -1,6 +1,7 @@
 //! One template: its parts, each where it belongs and as often as it may stand.
 
 use crate::check::names::{DeclaredNames, unknown};
+use crate::check::toolbox::cases;
 use crate::check::toolbox::ports::{self, Site};
 use crate::check::{size, timing};
 use crate::index::Word;
@@ -58,6 +59,7 @@ pub(super) fn read(
             }
         }
     }
+    cases::read(&parts, &mut template, site, diags);
     too_large(&template, diags);
     deadline(&parts, &template, diags);
     without_outcomes(node, &template, diags);
@@ -129,7 +131,7 @@ fn names_device(resource: &Name, site: &Site<'_>, diags: &mut Diagnostics) {
     diags.push(unknown(Code::E0516, resource.span, message, &resource.text, names(), ""));
 }
 
-fn misfit(word: &str, why: &str, span: Span, diags: &mut Diagnostics) {
+pub(super) fn misfit(word: &str, why: &str, span: Span, diags: &mut Diagnostics) {
     diags.push(
         Diagnostic::new(Code::E0510, span, message!("{}, so it has no '{}'", Words(&why), word))
             .help(message!("remove '{}'", word)),

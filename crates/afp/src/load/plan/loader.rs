@@ -11,6 +11,7 @@ use afp_syntax::source::Span;
 use super::element::{ElementSlot, Running};
 use super::{EntryInfo, LoadedPlan, WatchSlot};
 use crate::load::config::Config;
+use crate::load::declared::DeclaredSlot;
 use crate::load::error::LoadError;
 use crate::load::formula::Formula;
 use crate::load::names::PlanNames;
@@ -79,9 +80,11 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
                 Running::Actor(self.find(id, element.span, Registry::new_actor)?)
             }
             Component::Computation(id) => {
-                Running::Computation(match self.graph.template(id).table() {
-                    Some((_, table)) => Box::new(RowSlot::new(table)),
-                    None => self.find(id, element.span, Registry::new_computation)?,
+                let template = self.graph.template(id);
+                Running::Computation(match (template.table(), &template.cases) {
+                    (Some((_, table)), _) => Box::new(RowSlot::new(table)),
+                    (_, Some(cases)) => Box::new(DeclaredSlot::new(template, cases)),
+                    _ => self.find(id, element.span, Registry::new_computation)?,
                 })
             }
             Component::SubPlan(id) => {

@@ -1,6 +1,6 @@
 //! How values are compared.
 
-use afp_types::ValueOf;
+use crate::{Error, Part, Source, Value, ValueOf, finite};
 
 /// How two values compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +38,19 @@ impl Comparison {
         !matches!(self, Comparison::Equal | Comparison::NotEqual)
     }
 
+    /// Whether the values of two formulas compare so.
+    ///
+    /// # Errors
+    /// Those of the formulas; [`Error::NotFinite`] for a number that is not finite.
+    pub fn of<C, N, S: Source<C>>(
+        self,
+        left: Part<'_, C, N>,
+        right: Part<'_, C, N>,
+        source: &S,
+    ) -> Result<bool, Error> {
+        Ok(self.holds(&comparable(left, source)?, &comparable(right, source)?))
+    }
+
     /// Whether two values compare so; an order is known of numbers alone, of which an int and a float compare as floats.
     pub fn holds<T: PartialEq>(self, left: &ValueOf<T>, right: &ValueOf<T>) -> bool {
         let order = match (left, right) {
@@ -45,7 +58,7 @@ impl Comparison {
             (ValueOf::Float(left), ValueOf::Float(right)) => left.partial_cmp(right),
             (ValueOf::Int(left), ValueOf::Float(right)) => (*left as f64).partial_cmp(right),
             (ValueOf::Float(left), ValueOf::Int(right)) => left.partial_cmp(&(*right as f64)),
-            _ if left == right => Some(std::cmp::Ordering::Equal),
+            _ if left == right => Some(core::cmp::Ordering::Equal),
             _ => None,
         };
         match self {
@@ -57,4 +70,12 @@ impl Comparison {
             Comparison::GreaterEqual => order.is_some_and(|order| order.is_ge()),
         }
     }
+}
+
+fn comparable<C, N, S: Source<C>>(part: Part<'_, C, N>, source: &S) -> Result<Value, Error> {
+    let value = part.value(source)?;
+    if let Value::Float(number) = value {
+        finite(number)?;
+    }
+    Ok(value)
 }

@@ -1,0 +1,234 @@
+//! What the states of a declared computation do: conditions and assignments over its input ports.
+
+use std::collections::BTreeMap;
+
+use crate::check::convert::compared_as;
+use crate::check::formula::Scope;
+use crate::check::head::EntryDraft;
+use crate::check::names::{Indices, unknown};
+use crate::check::toolbox::ports::Site;
+use crate::check::toolbox::template::misfit;
+use crate::graph::{EntryKind, Formula, Op};
+use crate::toolbox::{Case, Condition, OutPort, Template, TemplateKind};
+use crate::types::text::a_type;
+use crate::types::{Conversion, Type};
+use afp_syntax::ast::{self, Bind, Name, Part};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
+use afp_syntax::source::Span;
+use afp_types::Comparison;
+
+/// So many parts of formulas are computed in a microsecond, on the slowest target that plans are made for.
+const PARTS_PER_MICROSECOND: u64 = 16;
+
+/// Reads the bodies of the states; none without any.
+pub(super) fn read(
+    parts: &[Part],
+    template: &mut Template,
+    site: &Site<'_>,
+    diags: &mut Diagnostics,
+) {
+    let states = parts.iter().filter_map(|part| match part {
+        Part::Outcome(node) => Some((node, node.name()?)),
+        _ => None,
+    });
+    let states: Vec<_> = states.collect();
+    if !states.iter().any(|(node, _)| node.is_declared()) {
+        return;
+    }
+    if template.kind != TemplateKind::Computation {
+        let message = "only the states of a computation have conditions and bodies";
+        for (_, name) in states.iter().filter(|(node, _)| node.is_declared()) {
+            let error = Diagnostic::new(Code::E0519, name.span, message);
+            diags.push(error.help("remove them: Rust or Python implements the template"));
+        }
+    } else {
+        conditions_fit(&states, diags);
+        ports_fit(parts, template, diags);
+    }
+    let entries = template.inputs.iter();
+    let entries = entries
+        .map(|port| EntryDraft::readable(&port.name, port.span, EntryKind::In, &port.ty))
+        .collect::<Vec<_>>();
+    let names = template.inputs.iter().map(|port| Some(port.name.as_str()));
+    let scope = Scope {
+        types: site.types,
+        tables: &[],
+        entries: &entries,
+        indices: &Indices::of(names),
+        readable: &|_| true,
+        unreadable: "",
+        text: site.source,
+        record: site.record,
+    };
+    let bodies = Bodies { scope, outputs: &template.outputs };
+    let cases: Vec<_> = states.iter().map(|(node, _)| bodies.case(node, diags)).collect();
+    if template.kind != TemplateKind::Computation {
+        return;
+    }
+    written(&cases, template, diags);
+    let size: usize = cases.iter().flat_map(Case::formulas).map(|it| it.nodes().count()).sum();
+    let size = u64::try_from(size).unwrap_or(u64::MAX).max(1);
+    template.budget = Some(size.div_ceil(PARTS_PER_MICROSECOND).saturating_mul(1000));
+    template.cases = Some(cases.into());
+}
+
+/// Every state has a body, and every state but the last has a condition.
+fn conditions_fit(states: &[(&ast::Outcome, Name)], diags: &mut Diagnostics) {
+    let last = states.len() - 1;
+    for (place, (node, name)) in states.iter().enumerate() {
+        // A state that could not be read may have had both.
+        if diags.syntax_errors_within(node.span()).next().is_some() {
+            continue;
+        }
+        let error = |span, message| Diagnostic::new(Code::E0519, span, message);
+        if node.body().is_none() {
+            let message = message!("'{}' has no body, but another state has one", name.text);
+            diags.push(error(name.span, message).help("write '{}' behind it"));
+        }
+        match node.when() {
+            Some((when, _)) if place == last => {
+                let message = message!("the last state '{}' has a condition", name.text);
+                let help = "remove it, or add a state for the case that nothing holds";
+                diags.push(error(when, message).help(help));
+            }
+            None if place < last => {
+                let message = message!("no state below '{}' is ever reached", name.text);
+                diags.push(error(name.span, message).help("add 'when' and a comparison"));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Reports ports and parts that a declared computation cannot have.
+fn ports_fit(parts: &[Part], template: &Template, diags: &mut Diagnostics) {
+    let inputs = template.inputs.iter().map(|port| (&port.ty, port.span));
+    let ports = inputs.chain(template.outputs.iter().map(|port| (&port.ty, port.span)));
+    for (ty, span) in ports.filter(|(ty, _)| matches!(ty, Type::Object(_))) {
+        let message = message!("formulas cannot read {}", Words(a_type(ty)));
+        let error = Diagnostic::new(Code::E0519, span, message);
+        diags.push(error.help("use the type 'any': an object is only copied"));
+    }
+    for part in parts {
+        match part {
+            Part::Out(port) => {
+                for name in port.on().into_iter().flatten().take(1) {
+                    let message = "the bodies of the states decide where an output is written";
+                    let error = Diagnostic::new(Code::E0519, name.span, message);
+                    diags.push(error.help("remove 'on' and the states behind it"));
+                }
+            }
+            Part::Timing(time) => {
+                if let Some(word) = time.keyword().filter(|word| word.text == "budget") {
+                    let why = "the time of a declared computation follows from its formulas";
+                    misfit("budget", why, word.span, diags);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Notes which states write each output, and reports an output that none of them writes.
+fn written(cases: &[Case], template: &mut Template, diags: &mut Diagnostics) {
+    for (place, port) in (0..).zip(&mut template.outputs) {
+        let writes = |case: &Case| case.writes.iter().any(|(output, _)| *output == place);
+        let states = (0..).zip(cases).filter(|(_, case)| writes(case));
+        port.on = states.map(|(state, _)| state).collect();
+        if port.on.is_empty() && !diags.has_errors() {
+            let message = message!("no state assigns '{}'", port.name);
+            let error = Diagnostic::new(Code::E0514, port.span, message);
+            diags.push(error.help("assign it in a state, or remove it"));
+        }
+    }
+}
+
+/// What bodies can name.
+struct Bodies<'a> {
+    scope: Scope<'a>,
+    outputs: &'a [OutPort],
+}
+
+impl Bodies<'_> {
+    fn case(&self, node: &ast::Outcome, diags: &mut Diagnostics) -> Case {
+        let compared = node.when().map(|(_, compared)| compared).unwrap_or_default();
+        let when = compared.iter().filter_map(|one| self.condition(one, diags)).collect();
+        let mut assigned: BTreeMap<u16, (Span, Option<Formula>)> = BTreeMap::new();
+        for bind in node.body().unwrap_or_default() {
+            let Some((output, port, formula)) = self.assignment(bind, diags) else { continue };
+            if let Some((first, _)) = assigned.get(&output) {
+                let message = message!("'{}' is assigned twice", port.text);
+                let error = Diagnostic::new(Code::E0511, port.span, message);
+                diags.push(error.note(*first, "first assigned here").help("remove one of them"));
+            }
+            assigned.entry(output).or_insert((port.span, formula));
+        }
+        let writes = assigned.into_iter().filter_map(|(output, (_, it))| Some((output, it?)));
+        Case { when, writes: writes.collect() }
+    }
+
+    /// An assigned output by position, its name, and its value unless that has an error.
+    fn assignment(
+        &self,
+        bind: Bind,
+        diags: &mut Diagnostics,
+    ) -> Option<(u16, Name, Option<Formula>)> {
+        let (port, formula) = match bind {
+            Bind::In { port, formula, .. } => (port, formula),
+            Bind::Out { port, sign, .. } => {
+                let message = "an output takes the value of a formula";
+                diags.push(Diagnostic::new(Code::E0519, sign, message).write("="));
+                (port, None)
+            }
+        };
+        let Some(place) = self.outputs.iter().position(|output| output.name == port.text) else {
+            self.scope.record.unknown(port.span);
+            formula.iter().for_each(|formula| self.scope.names_only(formula));
+            let known = self.outputs.iter().map(|output| output.name.as_str());
+            let message = message!("the computation has no output '{}'", port.text);
+            let none = "declare it with 'out'";
+            diags.push(unknown(Code::E0202, port.span, message, &port.text, known, none));
+            return None;
+        };
+        let output = &self.outputs[place];
+        self.scope.record.definition(port.span, output.span);
+        let value = formula.and_then(|it| Some(self.scope.check(&it, Some(&output.ty), diags)?.0));
+        let value = value.filter(|value| reads_no_text(value, diags));
+        Some((u16::try_from(place).ok()?, port, value))
+    }
+
+    fn condition(&self, node: &ast::Comparison, diags: &mut Diagnostics) -> Option<Condition> {
+        let Some((left, sign, right)) = node.parts() else {
+            node.operands().iter().for_each(|operand| self.scope.names_only(operand));
+            return None;
+        };
+        let comparison = Comparison::parse(&sign.text)?;
+        let (left, right) = (self.scope.infer(&left, diags), self.scope.infer(&right, diags));
+        let (left, right) = (left?, right?);
+        let ty = compared_as(&left.ty, &right.ty);
+        let mut operand = |formula| self.scope.finish(formula, Some(&ty), None, diags);
+        let (left, right) = (operand(left), operand(right));
+        let (left, right) = (left?.0, right?.0);
+        let error = |message| Diagnostic::new(Code::E0519, sign.span, message);
+        if matches!(ty, Type::Any | Type::Object(_)) {
+            let message = message!("{} cannot be compared", Words(a_type(&ty)));
+            diags.push(error(message).help("use the type 'number' or 'discrete'"));
+        } else if comparison.is_order() && !ty.is_numeric() {
+            let message = message!("{} has no order", Words(a_type(&ty)));
+            diags.push(error(message).help("write '==' or '!='"));
+        }
+        let is_sound = [&left, &right].into_iter().all(|formula| reads_no_text(formula, diags));
+        is_sound.then_some(Condition { left, comparison, right })
+    }
+}
+
+/// Whether a formula converts no string to another type; reports it otherwise.
+fn reads_no_text(formula: &Formula, diags: &mut Diagnostics) -> bool {
+    let is_read = |op: &Op<Conversion>| matches!(op, Op::Convert(Conversion::FromText(_)));
+    let Some(node) = formula.nodes().find(|node| is_read(&node.op)) else { return true };
+    let message = message!("a computation makes {} of no text", Words(a_type(&node.note.ty)));
+    let error = Diagnostic::new(Code::E0519, node.note.span, message);
+    diags.push(error.help("give the port that type: the plan converts what it binds"));
+    false
+}
