@@ -1,10 +1,10 @@
 // Colours for plans and toolboxes in the rendered book. A test keeps the words those of the grammar.
 (() => {
   const words =
-    "active actor afp after always as at before budget by commit computation const deadline device end " +
+    "active actor afp after always and as at before budget by commit computation const deadline device end " +
     "enum event every expect fail false fault for forever from heading icon ignore in interrupt live never object " +
     "of on once out over plan press resume robot running scenario seed seeds sensor set signal start state states stop subplan " +
-    "supervise supervisor table terminate times to toolbox true truth until use uses var version within " +
+    "supervise supervisor table terminate times to toolbox true truth until use uses var version when within " +
     "world worlds";
   const unit = "([kcmun]?m|m?rad|deg|[mun]?s|min|h|k?g|[mk]?N|m?V|K|degC|[kM]?Hz)";
   hljs.registerLanguage("afp", () => ({

@@ -113,7 +113,7 @@ module.exports = grammar({
 
     outcome: ($) =>
       choice(
-        seq('state', field('name', $.name), optional($.condition), optional(braces($.bind_in))),
+        seq('state', field('name', $.name), optional(seq(optional($.condition), braces($.bind_in)))),
         seq('event', field('name', $.name), optional('once')),
       ),
 

@@ -3,6 +3,8 @@
 //! The build script compiles the same plans to Rust, so this module is independent of the package.
 
 // The path is explicit, because the build script includes this file.
+#[path = "random/declared.rs"]
+mod declared;
 #[path = "random/dice.rs"]
 pub mod dice;
 #[path = "random/element.rs"]
@@ -18,6 +20,7 @@ mod table;
 
 use std::fmt::Write;
 
+use declared::Declared;
 use dice::Dice;
 use plan::Shape;
 use table::Table;
@@ -47,15 +50,20 @@ pub fn plan(seed: u64) -> RandomPlan {
     let mut channels = Vec::new();
     let tables: Vec<Table> =
         (0..dice.between(0, 3)).map(|number| Table::new(number, &mut dice)).collect();
+    let declared: Vec<Declared> =
+        (0..dice.between(0, 3)).map(|number| Declared::new(number, &mut dice)).collect();
     // Inner plans first, since their users need their ports.
     let mut shapes: Vec<Shape> = Vec::new();
     for number in (0..dice.between(1, 4)).rev() {
-        let shape = Shape::new(number, (&shapes, &tables), &mut dice, &mut channels);
+        let shape = Shape::new(number, (&shapes, &tables, &declared), &mut dice, &mut channels);
         shapes.push(shape);
     }
     let mut text = "use std\nuse testing\n".to_owned();
     for table in &tables {
         let _ = write!(text, "\n{}", table.text);
+    }
+    for declared in &declared {
+        let _ = write!(text, "\n{}", declared.text);
     }
     for shape in shapes.iter().rev() {
         let _ = write!(text, "\n{}", shape.text);

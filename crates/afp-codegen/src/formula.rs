@@ -42,13 +42,13 @@ pub struct Formulas<'a> {
     pub type_paths: &'a TypePaths<'a>,
     /// The getters of the plan's entries, or the fields of the input ports.
     pub entries: &'a [Ident],
-    /// What holds their values.
+    /// The holder of their values.
     pub reads: Reads,
     /// The names of the scratch texts, for values outside of entries, in the order of their use.
     pub scratch: Vec<Ident>,
 }
 
-/// What holds the values that formulas read.
+/// The holder of the values that formulas read.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Reads {
     /// The configuration of a plan.

@@ -73,7 +73,7 @@ pub struct Template {
     pub outputs: Vec<OutPort>,
     /// States, or a supervisor's events, as written.
     pub outcomes: Vec<Outcome>,
-    /// What a declared computation does, state by state. No Rust type of a user implements it.
+    /// The states of a declared computation, with their conditions and assignments.
     pub cases: Option<Arc<[Case]>>,
     /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
     /// there.

@@ -95,7 +95,8 @@ impl Toolbox {
         let declared = self.declared()?;
         let found = declared.templates.iter().find(|known| known.name == template);
         if found.is_some_and(|found| found.cases.is_some()) {
-            let text = format!("the states of '{template}' have bodies, so Python cannot implement it");
+            let text =
+                format!("the states of '{template}' have bodies, so Python cannot implement it");
             return Err(PyValueError::new_err(text));
         }
         if found.is_none() {

@@ -4,29 +4,19 @@
 #![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
-mod assign;
 mod changed;
 mod check_timeout;
 mod check_value;
-mod compare;
-mod count;
 mod every;
 mod idle;
-mod is;
-mod log;
 mod switch;
 mod wait;
 
-pub use assign::Assign;
 pub use changed::Changed;
 pub use check_timeout::CheckTimeout;
 pub use check_value::CheckValue;
-pub use compare::Compare;
-pub use count::Count;
 pub use every::Every;
 pub use idle::Idle;
-pub use is::Is;
-pub use log::Log;
 pub use switch::Switch;
 pub use wait::Wait;
 

@@ -3,6 +3,7 @@
 //! Every part may be missing, since the text may be half typed; whoever reads the view skips holes,
 //! for which the parser has reported an error already.
 
+mod bind;
 mod comments;
 mod device;
 mod formula;
@@ -25,9 +26,10 @@ use comments::{doc, note};
 
 pub use crate::keywords::ENDS;
 pub use afp_types::Operator;
+pub use bind::Bind;
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Sign};
-pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions, Start};
+pub use plan::{Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions, Start};
 pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
 pub use table::{Column, Row, Table};
 pub use toolbox::{

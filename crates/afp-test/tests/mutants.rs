@@ -97,3 +97,11 @@ fn mutants_of_exploring_are_noticed() {
 fn mutants_of_going_to_a_place_are_noticed() {
     is_noticed("parts/go_to", &["go_to", "navigate_room"]);
 }
+
+#[test]
+fn a_declared_computation_has_mutants() {
+    let text = "computation Low { in a: int state Yes when a < 3 {} state No {} }";
+    let found = mutants(text, 0).into_iter().map(|it| format!("{} for {}", it.is, it.was));
+    let found: Vec<_> = found.collect();
+    assert_eq!(found, [">= for <", "4 for 3", "-3 for 3"]);
+}

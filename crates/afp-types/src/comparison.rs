@@ -51,7 +51,7 @@ impl Comparison {
         Ok(self.holds(&comparable(left, source)?, &comparable(right, source)?))
     }
 
-    /// Whether two values compare so; an order is known of numbers alone, of which an int and a float compare as floats.
+    /// Whether two values compare so. Only numbers have an order; an int and a float compare as floats.
     pub fn holds<T: PartialEq>(self, left: &ValueOf<T>, right: &ValueOf<T>) -> bool {
         let order = match (left, right) {
             (ValueOf::Int(left), ValueOf::Int(right)) => left.partial_cmp(right),

@@ -5,15 +5,6 @@
 /// What a computation does, or when a supervisor reports. States and events are given by position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Meaning {
-    /// Writes its input.
-    Assigns,
-    /// Ends in 0, 1 or 2 if its first input is less than, equal to or greater than the second.
-    Compares,
-    /// Ends in 0 and writes its first input plus one if that input is less than the second. Else ends in 1 and
-    /// writes zero.
-    Counts,
-    /// Ends in 0 if its inputs are equal, else in 1.
-    Equals,
     /// Shows its input to people.
     Logs,
     /// Ends in 0 and writes a row of a table; ends in 1 behind the last row.
@@ -36,12 +27,8 @@ impl Meaning {
     /// The meaning of a template; `None` if only its declaration is known.
     pub fn of(toolbox: &str, template: &str) -> Option<Meaning> {
         Some(match (toolbox, template) {
-            ("std", "Assign") => Meaning::Assigns,
             ("std", "CheckTimeout") => Meaning::TimesOut,
             ("std", "CheckValue") => Meaning::Limits,
-            ("std", "Compare") => Meaning::Compares,
-            ("std", "Count") => Meaning::Counts,
-            ("std", "Is") => Meaning::Equals,
             ("std", "Log") => Meaning::Logs,
             ("std", "Row") => Meaning::ReadsRow,
             ("std", "Switch") => Meaning::Selects,
@@ -54,13 +41,6 @@ impl Meaning {
 
     /// Whether it is a computation whose state depends only on its inputs.
     pub fn is_choice(self) -> bool {
-        use Meaning::{Compares, Counts, Equals, ReadsRow, Selects};
-        matches!(self, Compares | Counts | Equals | ReadsRow | Selects)
-    }
-
-    /// Whether it is a computation without faults of its own: only its inputs and outputs can be wrong.
-    pub fn never_fails(self) -> bool {
-        use Meaning::{Assigns, Compares, Counts, Equals, Logs, Selects};
-        matches!(self, Assigns | Compares | Counts | Equals | Logs | Selects)
+        matches!(self, Meaning::ReadsRow | Meaning::Selects)
     }
 }

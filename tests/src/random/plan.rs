@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::Channel;
+use super::declared::Declared;
 use super::dice::Dice;
 use super::element::{Made, actor, computation, guard, sub_plan};
 use super::entries::{Entries, Type};
@@ -22,6 +23,7 @@ pub struct Shape {
 struct Builder<'a> {
     number: u64,
     tables: &'a [Table],
+    declared: &'a [Declared],
     entries: Entries,
     dice: &'a mut Dice,
     channels: &'a mut Vec<Channel>,
@@ -35,10 +37,10 @@ struct Builder<'a> {
 }
 
 impl Shape {
-    /// The plan with a number, which may use earlier ones, and tables.
+    /// The plan with a number, which may use earlier ones, tables and computations.
     pub fn new(
         number: u64,
-        (others, tables): (&[Shape], &[Table]),
+        (others, tables, declared): (&[Shape], &[Table], &[Declared]),
         dice: &mut Dice,
         channels: &mut Vec<Channel>,
     ) -> Self {
@@ -47,6 +49,7 @@ impl Shape {
         let mut builder = Builder {
             number,
             tables,
+            declared,
             entries,
             dice,
             channels,
@@ -116,7 +119,10 @@ impl Builder<'_> {
             return self.rows(index);
         }
         let made = if !last && self.dice.percent(30) {
-            computation(&self.entries, self.tables, self.dice)
+            match !self.declared.is_empty() && self.dice.percent(30) {
+                true => self.dice.pick(self.declared).used(&self.entries, self.dice),
+                false => computation(&self.entries, self.tables, self.dice),
+            }
         } else {
             actor(&name, &self.entries, self.dice, self.channels)
         };

@@ -349,7 +349,7 @@ where
                 let computed = cx
                     .compute::<
                         std_templates::Log<Text>,
-                        afp_std::Log<Text>,
+                        std_templates::Log<Text>,
                     >(log_inputs(&self.config));
                 return Started::computed(computed, |_| Ok(()), cx);
             }

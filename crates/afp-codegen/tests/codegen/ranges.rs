@@ -622,7 +622,7 @@ where
                 let computed = cx
                     .compute::<
                         std_templates::Count,
-                        afp_std::Count,
+                        std_templates::Count,
                     >(count_inputs(&self.config));
                 return Started::computed(
                     computed,

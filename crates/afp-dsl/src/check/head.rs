@@ -42,7 +42,7 @@ pub(crate) struct EntryDraft {
 }
 
 impl EntryDraft {
-    /// What formulas need to know of an entry or an input port.
+    /// A draft that formulas can read, of an entry or an input port.
     pub fn readable(name: &str, span: Span, kind: EntryKind, ty: &Type) -> EntryDraft {
         EntryDraft {
             name: Name { text: name.to_owned(), span },

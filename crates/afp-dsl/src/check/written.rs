@@ -1,7 +1,7 @@
 //! Values that are known to be written: the cells of a table, and what `Assign` is given. The entry that takes one must
 //! let it pass.
 
-use afp_types::{Error, Meaning};
+use afp_types::{Error, Op};
 
 use crate::check::formula::{Scope, fault_diagnostic};
 use crate::check::head::EntryDraft;
@@ -25,10 +25,10 @@ pub(super) fn fits(
 ) {
     for output in outputs {
         let Some(entry) = scope.entries.get(output.entry.index()) else { continue };
-        let error = match (signature.template().and_then(Template::table), inputs) {
-            (Some((_, table)), _) => cell(entry, output, table),
-            (None, [value]) if assigns(signature) => assigned(scope, entry, output, value),
-            _ => None,
+        let error = match signature.template().and_then(Template::table) {
+            Some((_, table)) => cell(entry, output, table),
+            None => copied(signature, inputs, output)
+                .and_then(|value| assigned(scope, entry, output, value)),
         };
         if let Some(error) = error {
             diags.push(error.note(entry.name.span, "the entry is declared here"));
@@ -36,8 +36,18 @@ pub(super) fn fits(
     }
 }
 
-fn assigns(signature: &Signature) -> bool {
-    signature.template().is_some_and(|template| template.meaning == Some(Meaning::Assigns))
+/// The input that an output is a copy of, in a computation with one state.
+fn copied<'f>(
+    signature: &Signature,
+    inputs: &'f [Formula],
+    output: &Output,
+) -> Option<&'f Formula> {
+    let [case] = signature.template()?.cases.as_deref()? else { return None };
+    let (_, formula) = case.writes.iter().find(|(port, _)| *port == output.port)?;
+    match formula.op() {
+        Op::Entry(port) => inputs.get(port.index()),
+        _ => None,
+    }
 }
 
 /// The first cell of a column that does not fit.
@@ -54,7 +64,7 @@ fn cell(entry: &EntryDraft, output: &Output, table: &Table) -> Option<Diagnostic
     })
 }
 
-/// What `Assign` is given, where that is known and can never be written.
+/// What a computation such as `Assign` is given, where that is known and can never be written.
 fn assigned(
     scope: &Scope<'_>,
     entry: &EntryDraft,

@@ -1,10 +1,10 @@
-//! What a declared computation does: the first state is reached whose condition holds.
+//! Declared computations: the first state whose condition holds is reached.
 
 use afp_types::{Comparison, Error};
 
-use crate::graph::Formula;
 use crate::graph::constant::{Known, evaluate};
-use crate::types::Constant;
+use crate::graph::{Formula, Op, Operator, Part};
+use crate::types::{Constant, Conversion};
 
 /// One state of a declared computation. Entries of its formulas are input ports, by position.
 #[derive(Clone, Debug)]
@@ -39,6 +39,14 @@ impl Case {
         evaluate(formula, inputs).ok()?
     }
 
+    /// Whether none of its formulas can fail if no input does: it reads ports and constants, or counts up to a limit.
+    pub(crate) fn never_fails(&self) -> bool {
+        self.formulas().all(|formula| {
+            let part = formula.part();
+            is_plain(part) || self.when.first().and_then(|one| one.counted(part)).is_some()
+        })
+    }
+
     fn holds(&self, inputs: KnownInputs<'_>) -> Result<bool, Error> {
         for Condition { left, comparison, right } in &self.when {
             if !comparison.of(left.part(), right.part(), &Known(inputs))? {
@@ -46,6 +54,49 @@ impl Case {
             }
         }
         Ok(true)
+    }
+}
+
+impl Condition {
+    /// The port that is less than another one, if a formula adds one to it.
+    fn counted(&self, next: Part<'_>) -> Option<(u16, u16)> {
+        let (Op::Entry(value), Op::Entry(limit)) = (self.left.op(), self.right.op()) else {
+            return None;
+        };
+        let (counted, one) = next.both()?;
+        let adds_one = matches!(
+            (counted.op(), next.op(), one.op()),
+            (Op::Entry(counted), Op::Binary(Operator::Add), Op::Int(1)) if counted == value
+        );
+        (adds_one && self.comparison == Comparison::Less).then_some((value.0, limit.0))
+    }
+}
+
+/// The ports of a computation that is the head of a counting loop.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Counting {
+    pub value: u16,
+    pub limit: u16,
+    /// The output that is one more than the value while that is less than the limit.
+    pub next: u16,
+}
+
+/// How a computation counts, if its first state does: it adds one to a port that is less than another port.
+pub(crate) fn counting(cases: &[Case]) -> Option<Counting> {
+    let [Case { when, writes }, _, ..] = cases else { return None };
+    let [condition] = when.as_slice() else { return None };
+    writes.iter().find_map(|(next, formula)| {
+        let (value, limit) = condition.counted(formula.part())?;
+        Some(Counting { value, limit, next: *next })
+    })
+}
+
+/// Whether a formula reads a port or a constant, perhaps converted to a number with every value of its own.
+fn is_plain(part: Part<'_>) -> bool {
+    use Conversion::{BoolToFloat, BoolToInt, IntToFloat};
+    match part.op() {
+        Op::Convert(IntToFloat | BoolToInt | BoolToFloat) => part.operand().is_some_and(is_plain),
+        op => op.is_literal() || matches!(op, Op::Entry(_)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Scenarios in the typed view.
 
-use super::plan::binds;
+use super::bind::binds;
 use super::{Bind, Formula, Name, Ref, child, children, find_token, keyword, token, tokens, views};
 use crate::Node;
 use crate::kind::Kind;

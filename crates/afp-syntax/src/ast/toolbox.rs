@@ -1,6 +1,6 @@
 //! Toolboxes in the typed view.
 
-use super::plan::bind;
+use super::bind::bind;
 use super::{
     Bind, Formula, Name, Type, child, doc, find_token, keyword_as, keyword_token, live, named,
     range, range_ends, span_of, token, tokens, views,
@@ -159,7 +159,7 @@ impl Outcome {
         Some((span_of(&when, Kind::Keyword, self.file)?, compared))
     }
 
-    /// What it assigns; `None` without braces.
+    /// The assignments in its body; `None` without braces.
     pub fn body(&self) -> Option<Vec<Bind>> {
         token(&self.node, Kind::OpenBrace, self.file)?;
         Some(self.node.children().filter_map(|node| bind(&node, self.file)).collect())
@@ -167,7 +167,7 @@ impl Outcome {
 }
 
 impl Comparison {
-    /// The sign, and what is compared.
+    /// The left formula, the sign and the right formula.
     pub fn parts(&self) -> Option<(Formula, Name, Formula)> {
         let sign = find_token(&self.node, self.file, |kind, text, span| {
             kind.is_comparison().then(|| Name { text: text.to_owned(), span })
@@ -176,7 +176,7 @@ impl Comparison {
         Some((operands.next()?, sign?, operands.next()?))
     }
 
-    /// Its formulas, as far as they are written.
+    /// The written formulas, also of an incomplete comparison.
     pub fn operands(&self) -> Vec<Formula> {
         Formula::children_of(&self.node, self.file)
     }

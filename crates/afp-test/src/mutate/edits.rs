@@ -8,11 +8,12 @@ use afp_syntax::{Kind, Node, node_span, parse};
 
 use super::site::{MutantKind, Site};
 
-/// All places of every plan in a text.
+/// All places of every plan and every declared computation in a text.
 pub(super) fn sites(text: &str, seed: u64) -> Vec<Site> {
     let tree = parse(text, 0, &mut Diagnostics::default());
     let mut finder = Finder { text, noise: Noise::new(seed, "mutants"), sites: Vec::new() };
-    for plan in tree.root().children().filter(|node| node.kind() == Kind::Plan) {
+    let mutated = [Kind::Plan, Kind::Template];
+    for plan in tree.root().children().filter(|node| mutated.contains(&node.kind())) {
         finder.plan(&plan);
     }
     finder.sites
@@ -36,6 +37,7 @@ impl Finder<'_> {
                 Kind::Literal => self.literal(&node),
                 Kind::Negation => self.positive(&node),
                 Kind::Sum => self.sum(&node),
+                Kind::Comparison => self.comparison(&node),
                 Kind::Ref if is_operand(&node) => self.negative(&node),
                 _ => {}
             }
@@ -129,6 +131,23 @@ impl Finder<'_> {
         let whole = place(node);
         let is = format!("-{}", self.at(&whole));
         self.add(MutantKind::Sign, whole, is, str::to_owned);
+    }
+
+    /// A comparison becomes the opposite one.
+    fn comparison(&mut self, node: &Node) {
+        let opposites = [
+            (Kind::Less, ">="),
+            (Kind::LessEqual, ">"),
+            (Kind::Greater, "<="),
+            (Kind::GreaterEqual, "<"),
+            (Kind::EqualEqual, "!="),
+            (Kind::NotEqual, "=="),
+        ];
+        for (kind, is) in opposites {
+            if let Some(place) = token(node, kind) {
+                self.add(MutantKind::Sign, place, is.to_owned(), str::to_owned);
+            }
+        }
     }
 
     /// `+` becomes `-`, and `-` becomes `+`.

@@ -1,4 +1,4 @@
-//! What the states of a declared computation do: conditions and assignments over its input ports.
+//! States of declared computations: conditions and assignments over the input ports.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,7 @@ use crate::check::convert::compared_as;
 use crate::check::formula::Scope;
 use crate::check::head::EntryDraft;
 use crate::check::names::{Indices, unknown};
-use crate::check::toolbox::ports::Site;
-use crate::check::toolbox::template::misfit;
+use crate::check::toolbox::ports::{Site, misfit};
 use crate::graph::{EntryKind, Formula, Op};
 use crate::toolbox::{Case, Condition, OutPort, Template, TemplateKind};
 use crate::types::text::a_type;
@@ -21,7 +20,7 @@ use afp_types::Comparison;
 /// So many parts of formulas are computed in a microsecond, on the slowest target that plans are made for.
 const PARTS_PER_MICROSECOND: u64 = 16;
 
-/// Reads the bodies of the states; none without any.
+/// Reads the bodies of the states, if there are any.
 pub(super) fn read(
     parts: &[Part],
     template: &mut Template,
@@ -144,7 +143,7 @@ fn written(cases: &[Case], template: &mut Template, diags: &mut Diagnostics) {
     }
 }
 
-/// What bodies can name.
+/// The names that bodies can use.
 struct Bodies<'a> {
     scope: Scope<'a>,
     outputs: &'a [OutPort],
@@ -176,7 +175,9 @@ impl Bodies<'_> {
     ) -> Option<(u16, Name, Option<Formula>)> {
         let (port, formula) = match bind {
             Bind::In { port, formula, .. } => (port, formula),
-            Bind::Out { port, sign, .. } => {
+            Bind::Out { port, sign, entry, formula } => {
+                entry.iter().for_each(|name| _ = self.scope.entry(name));
+                formula.iter().for_each(|formula| self.scope.names_only(formula));
                 let message = "an output takes the value of a formula";
                 diags.push(Diagnostic::new(Code::E0519, sign, message).write("="));
                 (port, None)

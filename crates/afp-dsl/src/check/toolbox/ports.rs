@@ -11,6 +11,7 @@ use crate::types::{Constant, Type};
 use afp_syntax::ast::{self, Formula};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
+use afp_syntax::source::Span;
 
 /// Reads an input port; `None` when it has no name or no type.
 pub(super) fn input(
@@ -95,6 +96,14 @@ pub(super) fn output(
     let ty = types.resolve(&node.ty()?, record, diags);
     let (name, ty) = (name?, ty?);
     Some(OutPort { doc: node.doc(), on, span: name.span, name: name.text, ty })
+}
+
+/// Reports a part that does not belong in the template.
+pub(super) fn misfit(word: &str, why: &str, span: Span, diags: &mut Diagnostics) {
+    diags.push(
+        Diagnostic::new(Code::E0510, span, message!("{}, so it has no '{}'", Words(&why), word))
+            .help(message!("remove '{}'", word)),
+    );
 }
 
 pub(super) struct Site<'a> {

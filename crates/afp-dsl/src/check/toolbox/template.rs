@@ -2,7 +2,7 @@
 
 use crate::check::names::{DeclaredNames, unknown};
 use crate::check::toolbox::cases;
-use crate::check::toolbox::ports::{self, Site};
+use crate::check::toolbox::ports::{self, Site, misfit};
 use crate::check::{size, timing};
 use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
@@ -129,13 +129,6 @@ fn names_device(resource: &Name, site: &Site<'_>, diags: &mut Diagnostics) {
     site.record.unknown(resource.span);
     let message = message!("the toolbox has no device '{}'", resource.text);
     diags.push(unknown(Code::E0516, resource.span, message, &resource.text, names(), ""));
-}
-
-pub(super) fn misfit(word: &str, why: &str, span: Span, diags: &mut Diagnostics) {
-    diags.push(
-        Diagnostic::new(Code::E0510, span, message!("{}, so it has no '{}'", Words(&why), word))
-            .help(message!("remove '{}'", word)),
-    );
 }
 
 fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use super::{decided, holding};
 use crate::flow::view::{Cause, Edge, View};
 use crate::graph::{EntryId, Formula};
-use afp_types::Meaning;
 
 /// Whether the computations of a cycle choose as they have chosen: nothing on it writes what they read, so none fails that has
 /// not failed at first. Where two of them read the same entry, their choices may contradict each other, so that the cycle is
@@ -22,7 +21,7 @@ pub(super) fn never_change(view: &View<'_>, cycle: &[Edge]) -> bool {
         let mut read = BTreeSet::new();
         read.extend(element.inputs.iter().flat_map(Formula::entries).map(|(entry, _)| entry));
         let stays = written.is_disjoint(&read);
-        let fails_by_inputs = || view.meaning(element).is_some_and(Meaning::never_fails);
+        let fails_by_inputs = || holding::is_known(view, element);
         let is_open = is_choice && !read_by_others.is_disjoint(&read);
         if is_choice {
             read_by_others.extend(read);

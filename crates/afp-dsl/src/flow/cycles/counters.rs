@@ -1,23 +1,23 @@
 //! How often cycles may be taken within one step, because a counter on them reaches its limit.
 //!
-//! A counter is a `Count` of the standard toolbox with a limit that is known, which counts in an entry that begins with
-//! known values. On a cycle where nothing but `Again` writes that entry it goes on at most so often as the limit is above
-//! the least of them; cycles within that cycle have their own counters.
+//! A counter is a declared computation such as `Count` whose first state adds one to an entry while that is less than a
+//! known limit. The entry begins with known values. On a cycle where only the first state writes that entry, the loop goes
+//! on at most as often as the limit is above the least of them. Cycles within that cycle have their own counters.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use afp_types::{MAX_TRANSITIONS_PER_STEP, Meaning};
+use afp_types::MAX_TRANSITIONS_PER_STEP;
 
 use super::decided;
 use super::is_quick;
 use crate::flow::strong;
 use crate::flow::view::{Cause, Counter, Counters, Edge, Node, View};
 use crate::graph::{Element, ElementId, EntryId, EntryKind, Op, Output};
+use crate::toolbox::case::{Counting, counting};
 use crate::types::Constant;
 
-/// The state in which `Count` goes on, and that in which it begins again with zero.
+/// The state in which a counter goes on.
 const AGAIN: u16 = 0;
-const DONE: u16 = 1;
 /// A cycle that is taken so often does not end within one step.
 pub(super) const MOST_ROUNDS: u64 = MAX_TRANSITIONS_PER_STEP as u64;
 /// How deep cycles with counters are looked into that lie in others.
@@ -103,37 +103,38 @@ impl Counters {
     }
 }
 
-/// The entry that a `Count` reads.
-fn count_of(view: &View<'_>, element: &Element) -> Option<EntryId> {
-    if view.meaning(element) != Some(Meaning::Counts) {
-        return None;
-    }
-    match element.inputs.first()?.op() {
-        Op::Entry(entry) => Some(*entry),
+/// The entry that a counter reads, and how it counts.
+fn count_of(view: &View<'_>, element: &Element) -> Option<(EntryId, Counting)> {
+    let counting = counting(view.cases(element)?)?;
+    match element.inputs.get(usize::from(counting.value))?.op() {
+        Op::Entry(entry) => Some((*entry, counting)),
         _ => None,
     }
 }
 
-/// The entry that a `Count` reads and writes.
+/// The entry that a counter reads and writes.
 fn counted(view: &View<'_>, element: &Element) -> Option<EntryId> {
-    let entry = count_of(view, element)?;
-    let next = |output: &Output| output.entry == entry && output.conversion.is_none();
-    element.outputs.iter().any(next).then_some(entry)
+    let (entry, Counting { next, .. }) = count_of(view, element)?;
+    let is_next = |output: &Output| {
+        (output.port, output.entry) == (next, entry) && output.conversion.is_none()
+    };
+    element.outputs.iter().any(is_next).then_some(entry)
 }
 
-/// The `Count` that says `Again` for ever, since it does not write what it counts in, and that entry.
+/// The counter that goes on forever, since it does not write what it counts in, and that entry.
 pub(super) fn forgotten<'v>(view: &View<'v>, cause: Cause) -> Option<(&'v str, &'v str)> {
     let Cause::State(id, AGAIN) = cause else { return None };
     let element = &view.plan.elements[id.index()];
-    let entry = &view.plan.entries[count_of(view, element)?.index()];
+    let entry = &view.plan.entries[count_of(view, element)?.0.index()];
     let is_written = counted(view, element).is_some();
     let writable = matches!(entry.kind, EntryKind::Var | EntryKind::Out);
     (writable && !is_written).then_some((&element.name, &entry.name))
 }
 
-/// How far a `Count` of the standard toolbox counts, where that is written.
+/// How far a counter counts, where that is written.
 fn limit(view: &View<'_>, element: &Element) -> Option<i64> {
-    whole(view.constant(element.inputs.get(1)?)?)
+    let (_, counting) = count_of(view, element)?;
+    whole(view.constant(element.inputs.get(usize::from(counting.limit))?)?)
 }
 
 fn whole(value: Constant) -> Option<i64> {
@@ -144,7 +145,7 @@ fn whole(value: Constant) -> Option<i64> {
 }
 
 /// The least values that entries begin with that are counted in, where all that is written to them is known: their values at the
-/// start of the plan, those of `Assign`, and the zero of `Done`.
+/// start of the plan, and those that declared computations write.
 fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryId, i64> {
     let at_start = decided::at_start(view);
     let mut values: BTreeMap<EntryId, Vec<i64>> = BTreeMap::new();
@@ -158,10 +159,11 @@ fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryI
     }
     for (_, element) in view.elements() {
         for output in element.outputs.iter().filter(|it| counted_in.contains(&it.entry)) {
-            match assigned(view, element) {
-                _ if counted(view, element) == Some(output.entry) => {}
-                Some(value) if output.conversion.is_none() => {
-                    values.get_mut(&output.entry).into_iter().for_each(|all| all.push(value));
+            let all = assigned(view, element, output).map(|(_, value)| value);
+            let all: Option<Vec<_>> = all.collect();
+            match all {
+                Some(all) if view.cases(element).is_some() => {
+                    values.get_mut(&output.entry).into_iter().for_each(|it| it.extend(&all));
                 }
                 _ => _ = values.remove(&output.entry),
             }
@@ -182,18 +184,14 @@ pub(super) fn entered(view: &View<'_>, id: ElementId, entry: EntryId) -> i64 {
     let at_start = declared.value.clone().or_else(|| decided::at_start(view).remove(&entry));
     let at_start = at_start.and_then(whole).filter(|_| comes(vec![view.start()]));
     let written = view.elements().filter(|(node, _)| view.reached[*node]);
-    let written = written.filter_map(|(node, element)| {
-        let writes = element.outputs.iter().any(|output| output.entry == entry);
-        let (value, of) = match counted(view, element) == Some(entry) {
-            true => (0, Some(DONE)),
-            false => (assigned(view, element).filter(|_| writes)?, None),
-        };
-        let edges = view.from(node).iter();
-        let to = edges.filter(|edge| match edge.cause {
-            Cause::State(_, state) => of.is_none_or(|of| of == state),
-            _ => false,
-        });
-        comes(to.map(|edge| edge.to).collect()).then_some(value)
+    let written = written.flat_map(|(node, element)| {
+        let outputs = element.outputs.iter().filter(|output| output.entry == entry);
+        outputs.flat_map(|output| assigned(view, element, output)).filter_map(move |(of, value)| {
+            let edges = view.from(node).iter();
+            let to = edges.filter(|edge| matches!(edge.cause, Cause::State(_, it) if it == of));
+            let to = to.map(|edge| edge.to).collect();
+            value.filter(|_| comes_unwritten(view, to, id.index(), entry))
+        })
     });
     at_start.into_iter().chain(written).min().unwrap_or(0)
 }
@@ -219,12 +217,24 @@ fn comes_unwritten(view: &View<'_>, from: Vec<Node>, to: Node, entry: EntryId) -
     false
 }
 
-/// What an `Assign` of the standard toolbox writes, where that is a whole number.
-fn assigned(view: &View<'_>, element: &Element) -> Option<i64> {
-    if view.meaning(element) != Some(Meaning::Assigns) {
-        return None;
-    }
-    whole(view.constant(element.inputs.first()?)?)
+/// The states of a declared computation that write an output, each with the whole number that it writes if that is known;
+/// not the state in which a counter goes on.
+fn assigned<'v>(
+    view: &'v View<'_>,
+    element: &'v Element,
+    output: &'v Output,
+) -> impl Iterator<Item = (u16, Option<i64>)> + 'v {
+    let is_counted = counted(view, element) == Some(output.entry);
+    let cases = (0..).zip(view.cases(element).unwrap_or_default());
+    let writing = cases.filter(move |(state, case)| {
+        let writes = case.writes.iter().any(|(port, _)| *port == output.port);
+        writes && !(is_counted && *state == AGAIN)
+    });
+    writing.map(move |(state, case)| {
+        let input = |port: u16| view.constant(element.inputs.get(usize::from(port))?);
+        let value = case.written(output.port, &input).filter(|_| output.conversion.is_none());
+        (state, value.and_then(whole))
+    })
 }
 
 /// Takes the edges away by which counters go on, cycle by cycle, those within others too, unless a node may be entered

@@ -1,4 +1,4 @@
-//! What computations with a known meaning decide where the values that go into them are known.
+//! What declared computations, and those with a known meaning, decide where the values that go into them are known.
 //!
 //! Known are constants, the values that entries have at the start of a plan, what every user of a sub-plan binds to an
 //! input of it, and what these computations write from those.
@@ -11,6 +11,7 @@ use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::constant::{convert, evaluate};
 use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
 use crate::table::Table;
+use crate::toolbox::case::reached;
 use crate::types::Constant;
 
 /// Values of entries; those of others are not known.
@@ -19,10 +20,11 @@ pub(super) type Known = BTreeMap<EntryId, Constant>;
 /// Greatest number of entries of a plan that are followed; with more none is.
 const MOST: usize = 64;
 
-/// The entries that a computation with a known meaning reads, with their values at the start of the plan.
+/// The entries that such a computation reads, with their values at the start of the plan.
 pub(super) fn at_start(view: &View<'_>) -> Known {
     let mut read = BTreeSet::new();
-    for (_, element) in view.elements().filter(|(_, element)| view.meaning(element).is_some()) {
+    let is_known = |it: &Element| view.cases(it).is_some() || view.meaning(it).is_some();
+    for (_, element) in view.elements().filter(|(_, element)| is_known(element)) {
         read.extend(element.inputs.iter().flat_map(Formula::entries).map(|(entry, _)| entry));
     }
     if read.is_empty() || read.len() > MOST {
@@ -122,24 +124,18 @@ pub(super) fn is_choice(element: &Element, state: u16) -> bool {
 
 /// Whether a computation is known to choose by what goes into it alone.
 pub(super) fn chooses_by_inputs(view: &View<'_>, element: &Element) -> bool {
-    view.meaning(element).is_some_and(Meaning::is_choice)
+    view.cases(element).is_some() || view.meaning(element).is_some_and(Meaning::is_choice)
 }
 
 /// The state in which a computation ends with these values.
 pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Option<u16> {
-    use std::cmp::Ordering::{Equal, Greater, Less};
-    let value = |input: usize| value_of(element.inputs.get(input)?, known);
-    let yes = |holds: bool| Some(u16::from(!holds));
+    let value = |input: u16| value_of(element.inputs.get(usize::from(input))?, known);
+    if let Some(cases) = view.cases(element) {
+        return reached(cases, &value);
+    }
     match view.meaning(element)? {
-        Meaning::Compares => Some(match order(&value(0)?, &value(1)?)? {
-            Less => 0,
-            Equal => 1,
-            Greater => 2,
-        }),
-        Meaning::Counts => yes(order(&value(0)?, &value(1)?)? == Less),
-        Meaning::Equals => yes(value(0)? == value(1)?),
         Meaning::ReadsRow => match value(0)? {
-            Constant::Int(index) if index >= 0 => yes(index < rows(view, element)?),
+            Constant::Int(index) if index >= 0 => Some(u16::from(index >= rows(view, element)?)),
             _ => None,
         },
         Meaning::Selects => match value(0)? {
@@ -172,15 +168,10 @@ fn written(
 ) -> Option<(EntryId, Constant)> {
     let Cause::State(id, state) = cause else { return None };
     let element = &view.plan.elements[id.index()];
-    let value = |input: usize| value_of(element.inputs.get(input)?, known);
-    let value = match (view.meaning(element)?, state) {
-        (Meaning::Assigns, _) => value(0)?,
-        (Meaning::Counts, 0) => match value(0)? {
-            Constant::Int(count) => Constant::Int(count.checked_add(1)?),
-            _ => return None,
-        },
-        (Meaning::Counts, _) => Constant::Int(0),
-        (Meaning::ReadsRow, 0) => cell(view, element, value(0)?, output.port)?,
+    let value = |input: u16| value_of(element.inputs.get(usize::from(input))?, known);
+    let value = match (view.cases(element), view.meaning(element), state) {
+        (Some(cases), ..) => cases.get(usize::from(state))?.written(output.port, &value)?,
+        (_, Some(Meaning::ReadsRow), 0) => cell(view, element, value(0)?, output.port)?,
         _ => return None,
     };
     let value = match &output.conversion {
@@ -192,14 +183,6 @@ fn written(
 
 fn value_of(formula: &Formula, known: &Known) -> Option<Constant> {
     evaluate(formula, &|entry| known.get(&EntryId(entry)).cloned()).ok()?
-}
-
-fn order(left: &Constant, right: &Constant) -> Option<std::cmp::Ordering> {
-    match (left, right) {
-        (Constant::Int(left), Constant::Int(right)) => Some(left.cmp(right)),
-        (Constant::Float(left), Constant::Float(right)) => left.partial_cmp(right),
-        _ => None,
-    }
 }
 
 /// How many rows the table of a `Row` has.

@@ -9,6 +9,7 @@ use afp_types::{MAX_TEXT, Meaning};
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, View};
 use crate::graph::{Component, Element, EntryId, Formula, Op, Output, Part, Supervisor};
+use crate::toolbox::Case;
 use crate::types::{Constant, Conversion, Type};
 
 /// The event of a limit that reports a value below its limit; the other one reports one above.
@@ -55,8 +56,9 @@ pub(super) fn never_fails(view: &View<'_>, element: &Element) -> bool {
 }
 
 /// Whether a computation is known to have no fault of its own.
-fn is_known(view: &View<'_>, element: &Element) -> bool {
-    view.meaning(element).is_some_and(Meaning::never_fails)
+pub(super) fn is_known(view: &View<'_>, element: &Element) -> bool {
+    let declared = view.cases(element).is_some_and(|cases| cases.iter().all(Case::never_fails));
+    declared || view.meaning(element) == Some(Meaning::Selects)
 }
 
 /// Whether an output takes every value.

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::graph::{ElementId, EntryId};
+use super::View;
+use crate::graph::{Component, Element, ElementId, EntryId};
+use crate::toolbox::Case;
 
 /// A `Count` of which is known how far it counts.
 #[derive(Clone, Copy)]
@@ -17,3 +19,13 @@ pub(crate) struct Counter {
 /// The counters of a plan.
 #[derive(Default)]
 pub(crate) struct Counters(pub BTreeMap<ElementId, Counter>);
+
+impl<'a> View<'a> {
+    /// The states of a computation that formulas declare.
+    pub fn cases(&self, element: &Element) -> Option<&'a [Case]> {
+        match element.component {
+            Component::Computation(id) => self.model.template(id).cases.as_deref(),
+            _ => None,
+        }
+    }
+}
