@@ -87,11 +87,8 @@ pub(crate) const HARDWARE: &[Key] = &[
 ];
 
 /// `realtime` of `[robot]`
-pub(crate) const REALTIME: &[Key] = &[
-    key("stall", "The run ends if the control loop is later than this.", "stall = \"100 ms\""),
-    key("priority", "The FIFO priority of the control loop, 1 to 99.", "priority = 50"),
-    key("cpu", "The processor that the control loop runs on.", "cpu = 3"),
-];
+pub(crate) const REALTIME: &[Key] =
+    &[key("stall", "The run ends if the control loop is later than this.", "stall = \"100 ms\"")];
 
 /// What a crate has beside where it comes from.
 pub(crate) const CRATE: &[Key] = &[
