@@ -33,9 +33,8 @@ impl Watchdog {
         let is_done = done.clone();
         // The rest is time for its action.
         let limit = Duration::from_nanos(stall.as_nanos() / 10 * 9);
+        watch.begin();
         let watches = move || {
-            // It begins with the run, which has shown no sign of life yet.
-            thread::park_timeout(limit.into());
             while !is_done.load(Ordering::Relaxed) {
                 match watch.late() {
                     late if late < limit => thread::park_timeout((limit - late).into()),

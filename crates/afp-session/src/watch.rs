@@ -43,6 +43,11 @@ impl Watch {
         Watch { pulse, clock }
     }
 
+    /// Counts from now on, for a control loop that begins now.
+    pub fn begin(&self) {
+        self.pulse.beat((self.clock)());
+    }
+
     /// How long ago the control loop let time pass last.
     pub fn late(&self) -> Duration {
         let beat = Instant::from_nanos(self.pulse.beat.load(Ordering::Relaxed));
