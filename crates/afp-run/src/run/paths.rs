@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use afp_log::LogError;
+
 use crate::Program;
 use crate::error::RunError;
 use crate::options::{Destination, OnRobot, RunOptions};
@@ -33,7 +35,7 @@ impl Paths {
                 None => {
                     let folder = Path::new(RUNS);
                     fs::create_dir_all(folder)
-                        .map_err(RunError::file("cannot make the folder", folder))?;
+                        .map_err(|error| LogError::Create { path: folder.to_owned(), error })?;
                     let mut name = stem.to_owned();
                     name.push(extension);
                     Ok(Some(folder.join(name)))

@@ -259,6 +259,18 @@ fn a_file_in_a_read_only_folder_is_written() {
 }
 
 #[test]
+fn a_run_in_a_folder_that_takes_no_files_names_the_options_for_none() {
+    let place = Place::with_plan();
+    let mut command = place.command();
+    command.args(["run", "wall_following.afp", "--until", "1s"]);
+    without_rights(&place, &mut command);
+    fs::set_permissions(place.path(""), Permissions::from_mode(0o555)).unwrap();
+    let said = said(command.output().unwrap());
+    fs::set_permissions(place.path(""), Permissions::from_mode(0o755)).unwrap();
+    said.fails(1, &["Permission denied", "'--log none --svg none'"]);
+}
+
+#[test]
 fn a_full_disk_keeps_the_old_file() {
     for writer in WRITERS {
         let place = place();
