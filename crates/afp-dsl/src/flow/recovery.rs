@@ -115,7 +115,7 @@ fn commands(view: &View<'_>, element: &Element) -> bool {
 }
 
 /// Warns of events that take turns while both hold: each ends what the other has started, before that has done anything
-/// about it. What a recovery runs into by its own supervisors is left out where the recovery is `reported` already.
+/// about it. Events of its own supervisors are left out where the recovery is `reported` already.
 fn alternate(
     view: &View<'_>,
     all: &[(Recovery, Vec<usize>)],
@@ -183,7 +183,7 @@ fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnosti
         let line = format!("on {} {{ {event} -> ignore }}", supervisor.name);
         Some(message!("'{}' in '{}'", line, view.node_name(node)))
     };
-    // What is declared first is mostly more urgent.
+    // The supervisor that is declared first is mostly more urgent.
     let help = match (ignored(other), ignored(one)) {
         (Some(late), Some(early)) => {
             message!("let one of them finish: write {}, or {}", late, early)

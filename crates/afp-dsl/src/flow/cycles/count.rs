@@ -84,7 +84,7 @@ impl<'a, 'b> Loops<'a, 'b> {
         }
         let loops = self.found.iter().map(|it| (it.component, it.taken));
         let inner = sub_plans.iter().map(|(node, _, taken)| (component[*node], *taken));
-        // What takes too many is reported by itself.
+        // A loop with too many edges is reported by itself.
         let taken_in = loops.chain(inner).filter(|(_, taken)| *taken < MOST).collect();
         let ways = Ways::of(view, component, &taken_in);
         let mut is_reported = false;
