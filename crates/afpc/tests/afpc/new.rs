@@ -84,6 +84,16 @@ fn existing_files_are_kept_and_names_are_checked() {
     assert!(place.files().iter().all(|name| name.starts_with("patrol/")), "{:?}", place.files());
 }
 
+#[test]
+fn an_empty_folder_becomes_a_project_of_its_name() {
+    let place = Place::new();
+    std::fs::create_dir(place.path("rover")).unwrap();
+    let made = in_folder(&place, "rover", "new .");
+    assert!(made.succeeds().out.contains("plans/rover.afp\n"), "{}", made.out);
+    in_folder(&place, "rover", "check plans/rover.afp").succeeds();
+    in_folder(&place, "rover", "new .").fails(2, &["'.' already exists and is not empty"]);
+}
+
 #[cfg(unix)]
 #[test]
 fn an_incomplete_project_leaves_no_files() {

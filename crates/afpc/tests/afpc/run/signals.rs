@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 
-use crate::common::Place;
+use crate::common::{Place, said};
 
 /// Starts a run in real time, acts on it, and returns its exit code and the rest of its output.
 fn interrupted(place: &Place, act: impl FnOnce(u32)) -> (Option<i32>, String) {
@@ -38,6 +38,21 @@ fn the_log_of_a_killed_run_is_kept() {
     let saved = place.afpc("log a.2.mcap.part recover");
     assert!(saved.succeeds().out.ends_with("a.2.recovered.mcap\n"), "{}", saved.out);
     assert_eq!(place.afpc("log a.2.recovered.mcap doctor").succeeds().out, "sound\n");
+}
+
+/// The system's limit of the size of files stops the run, not the process.
+#[test]
+fn a_limit_of_the_size_of_files_ends_a_run_in_order() {
+    let place = Place::with_plan();
+    let mut shell = Command::new("sh");
+    shell.args([
+        "-c",
+        "ulimit -f 20; exec \"$AFPC\" run wall_following.afp --until 20s --log a.mcap --svg none",
+    ]);
+    shell.env("AFPC", env!("CARGO_BIN_EXE_afpc")).current_dir(place.path(""));
+    let said = said(shell.output().unwrap());
+    said.fails(1, &["cannot write the log 'a.mcap': File too large"]);
+    assert_eq!(said.last_json()["summary"]["stopped_by"], "signal");
 }
 
 #[test]
