@@ -55,7 +55,10 @@ module.exports = grammar({
     start: ($) => seq('start', field('target', $.name)),
 
     element: ($) =>
-      seq(choice('actor', 'computation', 'subplan'), $._head, braces(choice($.guard, $.reactions, $.edge))),
+      seq(choice('actor', 'computation', 'subplan'), $._head, choice(braces(choice($.guard, $.reactions, $.edge)), alias($._only_edge, $.edge))),
+
+    // For the only state of an element without braces.
+    _only_edge: ($) => seq('->', $._edge_target),
 
     guard: ($) => seq('supervise', $._head, repeat($.timing), braces($.edge)),
 
@@ -69,8 +72,7 @@ module.exports = grammar({
       seq(
         field('outcome', choice($.name, name($, 'supervise', 'on'))),
         repeat(seq(',', field('outcome', $.name))),
-        '->',
-        $._edge_target,
+        $._only_edge,
       ),
 
     _edge_target: ($) =>

@@ -13,6 +13,7 @@ macro_rules! halts_when_interrupted {
 mod approach_infrared;
 mod choose_view;
 mod curve;
+mod drive;
 mod drive_to;
 mod find_object;
 mod follow_object;
@@ -32,6 +33,7 @@ mod wall_forward;
 pub use approach_infrared::ApproachInfrared;
 pub use choose_view::ChooseView;
 pub use curve::Curve;
+pub use drive::Drive;
 pub use drive_to::DriveTo;
 pub use find_object::FindObject;
 pub use follow_object::FollowObject;

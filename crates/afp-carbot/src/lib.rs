@@ -32,9 +32,9 @@ pub mod templates;
 mod fake;
 
 pub use actors::{
-    ApproachInfrared, ChooseView, Curve, DriveTo, FindObject, FollowObject, FollowPath, Forward,
-    Hold, LearnObject, LookAround, Retrace, SearchWall, Signal, Stop, Turn, TurnToInfrared,
-    WallForward,
+    ApproachInfrared, ChooseView, Curve, Drive, DriveTo, FindObject, FollowObject, FollowPath,
+    Forward, Hold, LearnObject, LookAround, Retrace, SearchWall, Signal, Stop, Turn,
+    TurnToInfrared, WallForward,
 };
 pub use computations::{DescribeObject, NewPath, WidestGap};
 pub use devices::Carbot;
@@ -42,9 +42,9 @@ pub use helpers::sighting::Sighting;
 pub use helpers::{guard, history, tracking, trail};
 pub use objects::{Appearance, DistanceMap, Path};
 pub use supervisors::{
-    CheckBattery, CheckColor, CheckDistance, CheckDrivingLane, CheckEscapeButton,
+    Blink, CheckBattery, CheckColor, CheckDistance, CheckDrivingLane, CheckEscapeButton,
     CheckEscapeButtonClick, CheckInfrared, CheckLine, CheckMotion, CheckProgress, CheckTouchSensor,
-    CheckTouchSensorClick, PlanPath,
+    CheckTouchSensorClick, MeasureDistance, MeasureLight, PlanPath,
 };
 
 /// What [`register!`] names in the crates of others.

@@ -74,6 +74,26 @@ fn bodies_of_states_stay_on_their_line_or_are_broken() {
 }
 
 #[test]
+fn an_edge_in_place_of_braces_stays_on_the_line_of_its_element() {
+    becomes(
+        "plan P{start a actor a:Wait(duration=1 s)->b// soon
+  subplan b:Q(x=1,
+y=>z)
+ ->  fail \"no\",computation c:Log->a}",
+        "plan P {
+    start a
+    actor a: Wait(duration = 1 s) -> b // soon
+    subplan b: Q(
+        x = 1,
+        y => z,
+    ) -> fail \"no\"
+    computation c: Log -> a
+}
+",
+    );
+}
+
+#[test]
 fn the_plan_of_the_paper_and_a_scenario_are_canonical() {
     becomes(WALL_FOLLOWING, WALL_FOLLOWING);
     becomes(SCENARIO, SCENARIO);

@@ -6,6 +6,7 @@
 //! other files, a change can edit several files.
 
 mod add;
+mod braces;
 mod buffer;
 mod connect;
 mod doc;

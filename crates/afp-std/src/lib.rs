@@ -4,19 +4,26 @@
 #![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod after;
 mod changed;
 mod check_timeout;
 mod check_value;
 mod every;
 mod idle;
+mod random;
+mod since;
+mod stopwatch;
 mod switch;
 mod wait;
 
+pub use after::After;
 pub use changed::Changed;
 pub use check_timeout::CheckTimeout;
 pub use check_value::CheckValue;
 pub use every::Every;
 pub use idle::Idle;
+pub use random::Random;
+pub use stopwatch::Stopwatch;
 pub use switch::Switch;
 pub use wait::Wait;
 

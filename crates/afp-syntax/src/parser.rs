@@ -7,6 +7,7 @@
 mod bind;
 mod braces;
 mod device;
+mod edge;
 mod elsewhere;
 mod file;
 mod formula;

@@ -165,9 +165,7 @@ impl Builder<'_> {
         Again -> e{step}
         Done -> e{next}
     }}
-    computation e{step}: Assign(value = {float} + {int}, result => {float}) {{
-        Done -> e{index}
-    }}
+    computation e{step}: Assign(value = {float} + {int}, result => {float}) -> e{index}
 "
         );
         2
@@ -187,7 +185,7 @@ impl Builder<'_> {
             self.text,
             "    computation e{index}: Assign(value = 0, result => {int}) {{ Done -> e{read} }}
     computation e{read}: {} {{ Row -> e{step} End -> e{next}{error} }}
-    computation e{step}: Assign(value = {int} + 1, result => {int}) {{ Done -> e{read} }}
+    computation e{step}: Assign(value = {int} + 1, result => {int}) -> e{read}
 ",
             made.call
         );

@@ -332,6 +332,7 @@ const RULES: &[Rule] = &[
     ),
     ("6.2", "the reactions of a sub-plan never reach inside", &["on_in_sub_plans"]),
     ("6.3", "'Every' reports each whole period, late ones once", &["every_period"]),
+    ("6.3", "'After' reports each start once, 'Stopwatch' the time since it", &["after_once"]),
     ("6.5", "'Is' and 'Switch' choose by values that are equal or not", &["choosing"]),
     (
         "6.5",

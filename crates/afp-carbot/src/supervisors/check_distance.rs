@@ -13,41 +13,33 @@ const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 /// So many pings in a row say that it is farther: one alone may have been lost.
 const FARTHER: u32 = 4;
 
-/// Keeps the range sensor pointed in one direction and compares what it hears with a distance.
+/// The range sensor, pointed in one direction.
 #[derive(Clone, Debug)]
-pub struct CheckDistance {
+pub(super) struct Pointed {
     bearing: Angle,
     last_ping: Instant,
     guard: Guard,
     arrival: Arrival,
     repeats: Repeats<Length>,
-    /// Pings in a row that heard nothing nearer.
-    farther: u32,
 }
 
-impl<E> Supervisor<templates::CheckDistance, E> for CheckDistance
-where
-    E: Navigator + Odometry + Ultrasonic + Rotator + ?Sized,
-{
-    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        env.point(inputs.bearing, now);
-        Ok(CheckDistance {
-            bearing: inputs.bearing,
+impl Pointed {
+    pub(super) fn new<E: Rotator + ?Sized>(bearing: Angle, env: &mut E, now: Instant) -> Pointed {
+        env.point(bearing, now);
+        Pointed {
+            bearing,
             last_ping: now,
             guard: Guard::of_echoes(now),
             arrival: Arrival::new(now),
             repeats: Repeats::of_echoes(now),
-            farther: 0,
-        })
+        }
     }
 
-    fn poll(
-        &mut self,
-        live: Live,
-        wanted: Events,
-        env: &mut E,
-        now: Instant,
-    ) -> Result<Option<Event>, Fault> {
+    /// The distance of a new echo from the robot's outside; infinite if nothing reflected the ping.
+    pub(super) fn echo<E>(&mut self, env: &mut E, now: Instant) -> Result<Option<Length>, Fault>
+    where
+        E: Navigator + Odometry + Ultrasonic + ?Sized,
+    {
         let reading = env.echo();
         self.repeats.check_echo(reading, env.motion())?;
         let Some(echo) = self.guard.next(reading, self.last_ping, now)? else { return Ok(None) };
@@ -58,7 +50,35 @@ where
         }
         self.arrival = Arrival::new(now);
         let clear = clear(&echo, env.body(), env.beam().forward);
-        if let Some(clear) = clear.filter(|clear| *clear < live.distance) {
+        Ok(Some(clear.unwrap_or(Length::from_si(f64::INFINITY))))
+    }
+}
+
+/// Compares what the range sensor hears in one direction with a distance.
+#[derive(Clone, Debug)]
+pub struct CheckDistance {
+    sensor: Pointed,
+    /// Pings in a row that heard nothing nearer.
+    farther: u32,
+}
+
+impl<E> Supervisor<templates::CheckDistance, E> for CheckDistance
+where
+    E: Navigator + Odometry + Ultrasonic + Rotator + ?Sized,
+{
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(CheckDistance { sensor: Pointed::new(inputs.bearing, env, now), farther: 0 })
+    }
+
+    fn poll(
+        &mut self,
+        live: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
+        let Some(clear) = self.sensor.echo(env, now)? else { return Ok(None) };
+        if clear < live.distance {
             self.farther = 0;
             return Ok(wanted.contains(0).then_some(Event::Nearer { seen: clear }));
         }

@@ -1,5 +1,7 @@
 //! Where states and events lead: every one of them is connected, once, to something that is there.
 
+mod nameless;
+
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -19,6 +21,8 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 use afp_types::MAX_TEXT;
+
+pub(crate) use nameless::name;
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";
@@ -165,13 +169,16 @@ pub(crate) struct WrittenEdge {
 }
 
 impl WrittenEdge {
-    /// Edges, one for each state or event; each has a name, or it would not have been taken for one.
+    /// Edges, one for each state or event. An edge without a name has an empty one until [`name`] is called.
     pub fn read(edges: Vec<Edge>) -> Vec<WrittenEdge> {
         let mut written = Vec::with_capacity(edges.len());
         for edge in edges {
             let end = edge.end();
-            let Edge { mut names, target, reason, .. } = edge;
-            let Some(last) = names.pop() else { continue };
+            let Edge { mut names, arrow, target, reason } = edge;
+            // An arrow of another language has no span.
+            let arrow = arrow.or_else(|| target.as_ref().map(|to| to.span.before()));
+            let nameless = arrow.map(|span| Name { text: String::new(), span });
+            let Some(last) = names.pop().or(nameless) else { continue };
             written.extend(names.into_iter().map(|name| WrittenEdge {
                 span: name.span,
                 name,
@@ -182,6 +189,10 @@ impl WrittenEdge {
             written.push(WrittenEdge { span, name: last, target, reason });
         }
         written
+    }
+
+    fn is_nameless(&self) -> bool {
+        self.name.text.is_empty()
     }
 }
 
@@ -215,6 +226,10 @@ pub(super) fn connect<'e>(
     let extra = origin.extra();
     for edge in edges {
         let name = &edge.name;
+        if edge.is_nameless() {
+            leads_to(edge, origin, elements);
+            continue;
+        }
         let index = signature.outcomes.iter().position(|outcome| **outcome == *name.text);
         outcome(origin, index, name, elements.record);
         if let Some(first) = seen.iter().find(|known| known.text == name.text) {
@@ -266,6 +281,7 @@ pub(crate) fn names_only(
         let name = &edge.name;
         match word(&name.text).filter(|_| words.contains(&name.text.as_str())) {
             Some(word) => elements.record.word(name.span, word),
+            None if edge.is_nameless() => {}
             None => elements.record.unknown(name.span),
         }
         match &edge.target {

@@ -185,6 +185,14 @@ impl Signature {
         self.template()?.outcomes.get(outcome).map(|outcome| outcome.span)
     }
 
+    /// The states or events that have to be connected.
+    pub fn required(&self) -> impl Iterator<Item = &str> {
+        let is_plan = matches!(self.kind, SignatureKind::Plan(_));
+        let optional = is_plan && self.interrupting.is_none();
+        let outcomes = self.outcomes.iter().map(|outcome| &**outcome);
+        outcomes.filter(move |outcome| !(optional && *outcome == "Interrupted"))
+    }
+
     /// What an element made from it is; `None` for a supervisor.
     pub fn component(&self) -> Option<Component> {
         match self.kind {

@@ -4,7 +4,7 @@ use super::buffer::{self, Splice, TextBuffer};
 use super::list::{Page, Place};
 use super::name;
 use super::tree::{self, Scope, children, name_of};
-use super::{Refused, TextEdit, fragment};
+use super::{Item, Refused, TextEdit, braces, fragment};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -108,7 +108,7 @@ pub(super) fn items(
 ) -> Result<(), Refused> {
     let root = buffer.root();
     let (lines, nodes) = fragment::items(text, owner.is_some())?;
-    let (list, scope) = match owner {
+    let (mut list, scope) = match owner {
         None => {
             let list = tree::plan(&root, plan)?;
             (list.clone(), Scope::Plan(list))
@@ -120,6 +120,10 @@ pub(super) fn items(
         }
     };
     new_names(&nodes, &scope)?;
+    if let Some(owner) = owner {
+        braces::with_braces(buffer, &Item::inner(plan, owner))?;
+        list = tree::element(&buffer.root(), plan, owner)?;
+    }
     place(buffer, &list, &lines, nodes[0].kind(), before)
 }
 

@@ -1,5 +1,6 @@
 //! Edges and the start of a plan.
 
+use super::braces::{self, edge};
 use super::buffer::TextBuffer;
 use super::list::Page;
 use super::tree::{self, children, edges, name_token, range};
@@ -14,11 +15,17 @@ pub(super) fn connect(
     outcome: &str,
     to: &str,
 ) -> Result<(), Refused> {
-    name::check(outcome)?;
     let root = buffer.root();
     let component = tree::component(&root, from)?;
+    if !outcome.is_empty() || tree::nameless(&component).is_none() {
+        name::check(outcome)?;
+    }
     check_target(&tree::plan(&root, from.plan_name())?, &component, to)?;
-    let edge = tree::edge(&component, outcome);
+    let edge = edge(buffer, &component, outcome);
+    if edge.is_none() && tree::nameless(&component).is_some() {
+        braces::with_braces(buffer, from)?;
+        return connect(buffer, from, outcome, to);
+    }
     let target = edge.as_ref().and_then(tree::target);
     let shared = edge.as_ref().and_then(|edge| tree::without_outcome(edge, outcome));
     let leaves = shared.filter(|_| target.is_some_and(|target| target.text() != to));
@@ -96,13 +103,13 @@ pub(super) fn disconnect(
 ) -> Result<(), Refused> {
     let root = buffer.root();
     let component = tree::component(&root, from)?;
-    let edge = tree::edge(&component, outcome).ok_or_else(|| {
+    let edge = edge(buffer, &component, outcome).ok_or_else(|| {
         Refused::new(format!("'{outcome}' of '{}' is not connected", from.name()))
     })?;
     let page = Page { text: buffer.text(), root };
     let splice = match tree::without_outcome(&edge, outcome) {
         Some(place) => (place, String::new()),
-        None => page.remove(&edge),
+        None => braces::removal(&page, &edge),
     };
     buffer.splice(vec![splice]);
     Ok(())

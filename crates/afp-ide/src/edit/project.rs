@@ -34,8 +34,8 @@ pub(super) struct Project {
     pub sees: Vec<Vec<usize>>,
     /// The meaning of their names.
     index: Index,
-    /// The number of toolbox files before them in the index.
-    first: usize,
+    /// The toolboxes, whose files stand before them in the index.
+    toolboxes: Rc<Toolboxes>,
 }
 
 impl Project {
@@ -51,26 +51,37 @@ impl Project {
         sources: Vec<Source>,
         toolboxes: Rc<Toolboxes>,
     ) -> Project {
-        let first = toolboxes.sources().len();
-        Project { sees, roots, index: index_files(&sources, &toolboxes), first }
+        Project { sees, roots, index: index_files(&sources, &toolboxes), toolboxes }
     }
 
     fn span(&self, file: usize, token: &Token) -> Option<Span> {
         let range = token.text_range();
         let (start, end) = (range.start().into(), range.end().into());
-        Some(Span { file: u16::try_from(self.first + file).ok()?, start, end })
+        Some(Span { file: u16::try_from(self.toolboxes.sources().len() + file).ok()?, start, end })
     }
 
     /// The tokens that refer to a declared name, with their files.
     pub fn references(&self, file: usize, name: &Token) -> Vec<(usize, Token)> {
         let declared = self.span(file, name).and_then(|span| self.index.declared_at(span));
         let spans = declared.into_iter().flat_map(|id| self.index.references(id));
-        spans.filter_map(|span| self.token(span)).collect()
+        // An arrow also refers to the state of its edge, but holds no name.
+        let tokens = spans.filter_map(|span| self.token(span));
+        tokens.filter(|(_, token)| token.kind() != Kind::Arrow).collect()
     }
 
     pub fn declaration(&self, file: usize, token: &Token) -> Option<(usize, Token)> {
         let meaning = self.index.name(self.span(file, token)?)?.meaning;
         self.token(self.index.definition(meaning.definition()?).name)
+    }
+
+    /// The name that a token of the first file refers to. A toolbox may declare it.
+    pub fn declared_name(&self, token: &Token) -> Option<String> {
+        let meaning = self.index.name(self.span(0, token)?)?.meaning;
+        let span = self.index.definition(meaning.definition()?).name;
+        match self.toolboxes.sources().text(span) {
+            "" => self.token(span).map(|(_, token)| token.text().to_owned()),
+            name => Some(name.to_owned()),
+        }
     }
 
     pub fn item(&self, file: usize, token: &Token) -> Option<(usize, Node)> {
@@ -109,7 +120,7 @@ impl Project {
     }
 
     fn token(&self, span: Span) -> Option<(usize, Token)> {
-        let file = usize::from(span.file).checked_sub(self.first)?;
+        let file = usize::from(span.file).checked_sub(self.toolboxes.sources().len())?;
         let found = self.roots.get(file)?.token_at_offset(rowan::TextSize::from(span.start));
         Some((file, found.right_biased()?))
     }

@@ -6,7 +6,7 @@ use super::buffer::TextBuffer;
 use super::list::{Page, Place};
 use super::project::Project;
 use super::tree::{self, Scope, children, name_of, target};
-use super::{Item, Refused, add, name, port, refer, remove};
+use super::{Item, Refused, add, braces, name, port, refer, remove};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -80,6 +80,9 @@ pub(super) fn shift(
         Kind::Entry => check_unused(buffer, item)?,
         _ if !same_plan => check_entries(buffer, &node, &there, plan)?,
         _ => {}
+    }
+    if let Some(owner) = owner {
+        braces::with_braces(buffer, &Item::inner(plan, owner))?;
     }
     remove::cut_edges_from(buffer, item, &there);
     if node.kind() == Kind::Element {

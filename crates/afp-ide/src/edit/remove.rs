@@ -4,8 +4,8 @@ use super::buffer::{Splice, TextBuffer};
 use super::list::Page;
 use super::project::Project;
 use super::refer;
-use super::tree::{self, below, children, name_of, name_token, target};
-use super::{Item, Refused, port};
+use super::tree::{self, below, children, name_of, target};
+use super::{Item, Refused, braces, port};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
@@ -101,7 +101,7 @@ pub(super) fn cut_edges_to(buffer: &mut TextBuffer, element: &Item) {
     let kinds = [Kind::Edge, Kind::Start];
     let nodes = others.filter_map(|token| around(&token, &kinds));
     backwards(buffer, nodes, &kinds, |buffer, node| {
-        Some(Page { text: buffer.text(), root: buffer.root() }.remove(node))
+        Some(braces::removal(&Page { text: buffer.text(), root: buffer.root() }, node))
     });
 }
 
@@ -118,11 +118,11 @@ fn backwards(
     change: impl Fn(&TextBuffer, &Node) -> Option<Splice>,
 ) {
     let mut places: Vec<_> =
-        nodes.filter_map(|node| Some(name_token(&node)?.text_range().start())).collect();
+        nodes.filter_map(|node| tree::solid_range(&node).map(|range| range.start)).collect();
     places.sort_unstable();
     places.dedup();
     for place in places.into_iter().rev() {
-        let token = buffer.root().token_at_offset(place).right_biased();
+        let token = tree::solid_after(&buffer.root(), place);
         let node = token.and_then(|token| around(&token, kinds));
         if let Some(splice) = node.and_then(|node| change(buffer, &node)) {
             buffer.splice(vec![splice]);
@@ -146,6 +146,6 @@ pub(super) fn cut_edges_from(buffer: &mut TextBuffer, component: &Item, there: &
     };
     let edges = below(&own, Kind::Edge).filter(leads_away);
     backwards(buffer, edges, &[Kind::Edge], |buffer, edge| {
-        Some(Page { text: buffer.text(), root: buffer.root() }.remove(edge))
+        Some(braces::removal(&Page { text: buffer.text(), root: buffer.root() }, edge))
     });
 }

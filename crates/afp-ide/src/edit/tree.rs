@@ -188,9 +188,15 @@ pub(super) fn edges(component: &Node) -> impl Iterator<Item = Node> {
     children(component, Kind::Edge)
 }
 
-/// The edge of a state or event.
+/// The edge of a state or event. The edge of a sub-plan without braces is for `OK`.
 pub(super) fn edge(component: &Node, outcome: &str) -> Option<Node> {
-    edges(component).find(|edge| outcomes(edge).any(|name| name.text() == outcome))
+    let named = edges(component).find(|edge| outcomes(edge).any(|name| name.text() == outcome));
+    named.or_else(|| nameless(component).filter(|_| outcome == "OK" && is_subplan(component)))
+}
+
+/// The edge of an element without braces, which names no state.
+pub(super) fn nameless(component: &Node) -> Option<Node> {
+    edges(component).find(|edge| name_token(edge).is_none())
 }
 
 /// The states or events of an edge.

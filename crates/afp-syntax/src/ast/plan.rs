@@ -37,10 +37,10 @@ pub enum ElementKind {
     SubPlan,
 }
 
-/// `State -> target`
+/// `State -> target`, or `-> target` in the place of braces.
 #[derive(Clone, Debug)]
 pub struct Edge {
-    /// The states or events that lead there.
+    /// The states or events that lead there. An empty list means the only state of the element.
     pub names: Vec<Name>,
     /// The place of its arrow.
     pub arrow: Option<Span>,
@@ -207,9 +207,9 @@ impl Guard {
 }
 
 impl Edge {
-    /// Its place, from its first name to the last part that is there.
+    /// Its place, from its first part to the last one that is there.
     pub fn span(&self) -> Option<Span> {
-        let first = self.names.first()?.span;
+        let first = self.names.first().map(|name| name.span).or(self.arrow)?;
         Some(first.to(self.end().unwrap_or(first)))
     }
 

@@ -197,6 +197,10 @@ fn find(tokens: &[Token<'_>]) -> Option<Wrong> {
         let wrong = match token.kind {
             Kind::OpenBrace => reader.opening(at),
             Kind::CloseBrace => reader.closing(at, last),
+            Kind::Arrow => {
+                reader.arrow(at);
+                None
+            }
             _ => None,
         };
         if wrong.is_some() {
@@ -291,6 +295,17 @@ impl Reader<'_, '_> {
                     || self.is_list(at)
             }
             _ => false,
+        }
+    }
+
+    /// An element with an arrow after its template has no body.
+    fn arrow(&mut self, at: usize) {
+        let mut before = self.tokens[..at].iter().rev().filter(|token| !token.kind.is_trivia());
+        let kinds = (before.next().map(|it| it.kind), before.next().map(|it| it.kind));
+        let is_template =
+            matches!(kinds, (Some(Kind::CloseParen), _) | (_, Some(Kind::Colon | Kind::Dot)));
+        if let Some(line) = self.lines.last_mut().filter(|line| is_template && !line.opens) {
+            line.is_head = false;
         }
     }
 

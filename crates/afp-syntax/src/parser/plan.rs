@@ -2,7 +2,6 @@
 
 use super::Parser;
 use super::recovery::Body;
-use crate::diagnostics::{Code, Diagnostic};
 use crate::habits;
 use crate::keywords::{self, ENTRY, NAMED, PLAN};
 use crate::kind::Kind;
@@ -159,6 +158,9 @@ impl Parser<'_, '_> {
         self.keyword();
         self.head("an actor's template, a computation's or a plan", false);
         self.no_timing();
+        if self.edge_without_braces() {
+            return self.close_item();
+        }
         let body = self.open_body("put supervisors and edges in braces", Self::begins_body);
         let template = self.template;
         if let Some(body) = body {
@@ -319,132 +321,5 @@ impl Parser<'_, '_> {
         self.skip(what, help, |p| {
             p.at(Kind::CloseBrace) || p.at_watch() || p.leaves_body() || p.begins_edge()
         });
-    }
-
-    /// How many tokens ahead the last of the names stands, from the token so many ahead on, between which there are
-    /// commas.
-    fn last_name(&self, ahead: usize) -> usize {
-        let from = self.at + ahead;
-        let (first, end) = self.names.get();
-        // What was found for one of the names holds for those behind it.
-        if (first..=end).contains(&from) && (from - first).is_multiple_of(2) {
-            return end - self.at;
-        }
-        let mut last = ahead;
-        while self.nth(last) == Kind::Name
-            && self.nth(last + 1) == Kind::Comma
-            && self.nth(last + 2) == Kind::Name
-        {
-            last += 2;
-        }
-        self.names.set((from, self.at + last));
-        last
-    }
-
-    /// Whether names with commas between them stand before an arrow.
-    pub(super) fn at_edge(&self) -> bool {
-        self.edge_at(0)
-    }
-
-    /// The same from the token so many ahead on.
-    pub(super) fn edge_at(&self, ahead: usize) -> bool {
-        let last = self.last_name(ahead);
-        self.nth(last) == Kind::Name && self.arrow_at(last + 1).is_some()
-    }
-
-    /// Whether names with commas between them end a body.
-    fn at_bare_names(&self) -> bool {
-        self.nth(self.last_name(0) + 1) == Kind::CloseBrace
-    }
-
-    /// `NAME {"," NAME} "->" target`
-    fn edge(&mut self) {
-        self.open_item(Kind::Edge);
-        let whole = self.at_edge() || self.at_bare_names();
-        self.event = self.word(0);
-        self.take_name();
-        while whole && self.eat(Kind::Comma) {
-            self.take_name();
-        }
-        self.end_of_edge();
-    }
-
-    /// Names behind a sign in the place of a comma, and the end of their edge.
-    pub(super) fn rest_of_edge(&mut self) {
-        self.take_name();
-        self.end_of_edge();
-    }
-
-    /// `"->" target`
-    fn end_of_edge(&mut self) {
-        if !self.arrow() {
-            return self.close_item();
-        }
-        if self.at(Kind::Name) && (self.on_same_line() || self.target_of_another_line()) {
-            self.no_word_before_target();
-            let brackets = self.no_brackets();
-            self.target(brackets);
-            self.habit_behind_target();
-            self.no_more_targets();
-        } else if !self.habit_of_target() && !self.target_in_signs() {
-            let here = self.behind();
-            self.error(
-                Diagnostic::new(Code::E0109, here, "no target on the line of its '->'")
-                    .help("name an element of the plan, or write 'terminate'"),
-            );
-        }
-        self.close_item();
-    }
-
-    /// Takes the arrow of an edge, or what was written for it. Returns whether there may be a target.
-    fn arrow(&mut self) -> bool {
-        match self.arrow_at(0) {
-            Some(1) if self.at(Kind::Arrow) => self.bump(),
-            Some(tokens) => {
-                let message = "'->' leads from a state or event to what comes next";
-                self.wrong_arrow(tokens, message, "->");
-            }
-            None if self.at_arrow_word() => {
-                let message = "'->' leads from a state or event to what comes next";
-                self.wrong_arrow(1, message, "->");
-            }
-            // The arrow alone is missing.
-            None if self.at(Kind::Name) && self.on_same_line() && !self.names_something(0) => {
-                let here = self.here().before();
-                self.error(
-                    Diagnostic::new(Code::E0109, here, "missing '->' before the target")
-                        .help("write '->'")
-                        .fix(here, "-> "),
-                );
-            }
-            None => {
-                let here = self.behind();
-                self.error(
-                    Diagnostic::new(Code::E0109, here, "the edge leads nowhere")
-                        .help("write '->' and the name of an element, or 'terminate'"),
-                );
-                return false;
-            }
-        }
-        true
-    }
-
-    /// `NAME`, or `"fail" [STRING]`
-    fn target(&mut self, brackets: usize) {
-        self.open(Kind::Target);
-        let fails = self.word(0) == "fail";
-        self.take_name();
-        self.pass_tokens(brackets);
-        if fails {
-            self.reason_without_quotes();
-        }
-        if fails && self.at(Kind::Text) {
-            self.reason_of_another_line();
-            self.bump();
-        }
-        self.close();
-        if !fails {
-            self.no_text_behind_target();
-        }
     }
 }

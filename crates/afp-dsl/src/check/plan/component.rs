@@ -75,10 +75,10 @@ impl Components<'_> {
         &self,
         head: (ComponentKind, Option<ast::Name>),
         frame: Frame,
-        written: WrittenParts,
-        check: impl FnOnce(&Frame, &WrittenParts) -> Parts<T>,
+        mut written: WrittenParts,
+        check: impl FnOnce(&Frame, &mut WrittenParts) -> Parts<T>,
     ) -> Checked<T> {
-        let Parts { built, user, made } = check(&frame, &written);
+        let Parts { built, user, made } = check(&frame, &mut written);
         let draft = draft(head, frame, &made, written, self.context.file.text);
         Checked { built, user, signature: made.signature, draft }
     }
@@ -87,7 +87,7 @@ impl Components<'_> {
         &self,
         node: &ast::Element,
         frame: &Frame,
-        written: &WrittenParts,
+        written: &mut WrittenParts,
         diags: &mut Diagnostics,
     ) -> Parts<Element> {
         if node.kind() == ElementKind::Computation {
@@ -121,6 +121,7 @@ impl Components<'_> {
                 return Parts::broken(made);
             }
         };
+        edges::name(&mut written.edges, &signature, diags);
         let span = name.as_ref().map_or(frame.span, |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: false };

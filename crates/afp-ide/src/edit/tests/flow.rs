@@ -113,3 +113,79 @@ fn a_state_that_shares_an_edge_leaves_it() {
     changed(connect(back(), "Lost", "go"), two, "        Done -> terminate\n        Lost -> go\n");
     changed(disconnect(back(), "Done"), two, "        Lost -> terminate\n");
 }
+
+/// A plan whose elements have no braces.
+const SHORT: &str = "\
+use std
+
+plan P {
+    start rest
+    actor rest: Wait(duration = 1 s) -> work // then work
+    subplan work: Q -> say,
+    computation say: Log(value = 1) -> fail \"late\"
+}
+
+plan Q {
+    start rest
+    actor rest: Wait -> terminate
+}
+";
+
+fn rest() -> Item {
+    Item::inner("P", "rest")
+}
+
+/// Checks that a change of the short plan replaces one text in it.
+#[track_caller]
+fn shortens(change: Change, old: &str, new: &str) {
+    let changed = after(SHORT, change);
+    assert_eq!(changed, SHORT.replacen(old, new, 1));
+    afp_format::format(&changed).unwrap();
+}
+
+#[test]
+fn an_edge_without_braces_leads_elsewhere() {
+    shortens(connect(rest(), "Elapsed", "say"), "-> work //", "-> say //");
+    shortens(connect(Item::inner("P", "work"), "OK", "rest"), "-> say,", "-> rest,");
+    shortens(connect(Item::inner("P", "say"), "Done", "rest"), "-> fail \"late\"", "-> rest");
+    shortens(connect(rest(), "Elapsed", "work"), "", "");
+}
+
+#[test]
+fn an_element_without_braces_gets_them_for_more_edges_and_supervisors() {
+    let opened = "{\n        Elapsed -> work\n        Error -> say\n    } //";
+    shortens(connect(rest(), "Error", "say"), "-> work //", opened);
+    let opened = "{\n        OK -> say\n        Interrupted -> rest\n    },";
+    shortens(connect(Item::inner("P", "work"), "Interrupted", "rest"), "-> say,", opened);
+    let text = "supervise late: CheckTimeout { TimedOut -> work }".to_owned();
+    let owner = Some("rest".to_owned());
+    let add = Change::Add { plan: "P".into(), owner, text, before: None };
+    let opened = "{\n        supervise late: CheckTimeout { TimedOut -> work }\n        Elapsed -> work\n    } //";
+    shortens(add, "-> work //", opened);
+}
+
+#[test]
+fn an_element_without_braces_loses_its_edge() {
+    shortens(disconnect(rest(), "Elapsed"), "-> work //", "{} //");
+    refused(SHORT, disconnect(rest(), "Error"), "'Error' of 'rest' is not connected");
+    let removed = after(SHORT, Change::Remove { item: Item::inner("P", "say") });
+    assert!(removed.contains("subplan work: Q {},\n}"), "{removed}");
+    let unknown = SHORT.replacen("Wait(", "Nothing(", 1);
+    let why = "the edge of 'rest' is for no state that is known";
+    refused(&unknown, connect(rest(), "Error", "say"), why);
+}
+
+#[test]
+fn a_sub_plan_without_braces_is_put_into_its_plan() {
+    let inline = Change::Inline { plan: "P".into(), element: "work".into() };
+    let text = after(SHORT, inline);
+    assert!(text.contains("Wait -> say"), "{text}");
+    let extract = Change::Extract {
+        plan: "P".into(),
+        elements: vec!["rest".into(), "work".into()],
+        new_plan: "Both".into(),
+        element: "both".into(),
+    };
+    let text = after(SHORT, extract);
+    assert!(text.contains("subplan work: Q -> terminate"), "{text}");
+}
