@@ -1,6 +1,6 @@
 //! Where states and events lead: every one of them is connected, once, to something that is there.
 
-mod nameless;
+mod written_edge;
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -14,7 +14,7 @@ use crate::check::synonyms::{self, Leads};
 use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
 use crate::index::{Recorder, Word};
 use crate::toolbox::TemplateKind;
-use afp_syntax::ast::{Edge, Name};
+use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, list, words};
 use afp_syntax::habits::{STATES, ours};
 use afp_syntax::message;
@@ -22,7 +22,7 @@ use afp_syntax::source::Span;
 use afp_syntax::unquote;
 use afp_types::MAX_TEXT;
 
-pub(crate) use nameless::name;
+pub(crate) use written_edge::{WrittenEdge, name};
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";
@@ -155,44 +155,6 @@ impl<'a> Elements<'a> {
     /// The names that are there, as written.
     pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.names.iter().flatten().map(|name| name.text.as_str())
-    }
-}
-
-pub(crate) struct WrittenEdge {
-    pub name: Name,
-    /// Where it leads.
-    pub target: Option<Name>,
-    /// The text behind `fail`, quotes included.
-    pub reason: Option<Name>,
-    /// The name, and, behind the last of several, everything that is there.
-    pub span: Span,
-}
-
-impl WrittenEdge {
-    /// Edges, one for each state or event. An edge without a name has an empty one until [`name`] is called.
-    pub fn read(edges: Vec<Edge>) -> Vec<WrittenEdge> {
-        let mut written = Vec::with_capacity(edges.len());
-        for edge in edges {
-            let end = edge.end();
-            let Edge { mut names, arrow, target, reason } = edge;
-            // An arrow of another language has no span.
-            let arrow = arrow.or_else(|| target.as_ref().map(|to| to.span.before()));
-            let nameless = arrow.map(|span| Name { text: String::new(), span });
-            let Some(last) = names.pop().or(nameless) else { continue };
-            written.extend(names.into_iter().map(|name| WrittenEdge {
-                span: name.span,
-                name,
-                target: target.clone(),
-                reason: reason.clone(),
-            }));
-            let span = last.span.to(end.unwrap_or(last.span));
-            written.push(WrittenEdge { span, name: last, target, reason });
-        }
-        written
-    }
-
-    fn is_nameless(&self) -> bool {
-        self.name.text.is_empty()
     }
 }
 

@@ -1,10 +1,48 @@
-//! The edge of an element without braces, which names no state.
+//! Edges as the file has them; an element without braces has an edge that names no state.
 
-use super::WrittenEdge;
 use crate::check::signature::Signature;
-use afp_syntax::ast::Name;
+use afp_syntax::ast::{Edge, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, list};
 use afp_syntax::message;
+use afp_syntax::source::Span;
+
+pub(crate) struct WrittenEdge {
+    pub name: Name,
+    /// Where it leads.
+    pub target: Option<Name>,
+    /// The text behind `fail`, quotes included.
+    pub reason: Option<Name>,
+    /// The name, and, behind the last of several, everything that is there.
+    pub span: Span,
+}
+
+impl WrittenEdge {
+    /// Edges, one for each state or event. An edge without a name has an empty one until [`name`] is called.
+    pub fn read(edges: Vec<Edge>) -> Vec<WrittenEdge> {
+        let mut written = Vec::with_capacity(edges.len());
+        for edge in edges {
+            let end = edge.end();
+            let Edge { mut names, arrow, target, reason } = edge;
+            // An arrow of another language has no span.
+            let arrow = arrow.or_else(|| target.as_ref().map(|to| to.span.before()));
+            let nameless = arrow.map(|span| Name { text: String::new(), span });
+            let Some(last) = names.pop().or(nameless) else { continue };
+            written.extend(names.into_iter().map(|name| WrittenEdge {
+                span: name.span,
+                name,
+                target: target.clone(),
+                reason: reason.clone(),
+            }));
+            let span = last.span.to(end.unwrap_or(last.span));
+            written.push(WrittenEdge { span, name: last, target, reason });
+        }
+        written
+    }
+
+    pub(super) fn is_nameless(&self) -> bool {
+        self.name.text.is_empty()
+    }
+}
 
 /// Gives an edge without a name the state that it is for: the only one that has to be connected. If there are more,
 /// which is reported, it is for all of them.
