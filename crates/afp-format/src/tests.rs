@@ -60,7 +60,7 @@ fn bodies_of_states_stay_on_their_line_or_are_broken() {
         state Last { } }
 ",
         "computation Count {
-    in  value: int
+    in value: int
     state Again when value < 3 and value != -1 { next = value + 1, all = 0 }
     state Done {
         // From the start.

@@ -212,7 +212,7 @@ mod tests {
         for (text, why) in [
             ("d", "such as distance=20cm..60cm"),
             ("d=20cm..1m", "same unit"),
-            ("d=a..b", "no number"),
+            ("d=a..b", "not a number"),
             ("d=60cm..20cm:5cm", "no values lie in"),
             ("d=0..1:0", "no values lie in"),
             ("d=0cm..1cm:1m", "write the step '1m' in 'cm'"),

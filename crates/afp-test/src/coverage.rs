@@ -15,6 +15,7 @@ use crate::watch::hits::{Hits, Touched};
 /// The use counts of a plan's parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coverage {
+    /// The plan's name.
     pub plan: String,
     /// Elements, then outcomes of each component, then entries.
     pub parts: Vec<Part>,
@@ -22,8 +23,10 @@ pub struct Coverage {
     pub usage: Usage,
 }
 
+/// A part of a plan with its number of uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
+    /// The part's kind.
     pub kind: PartKind,
     /// Its name: `go`, `go.touch.TouchSensorPressed`, `walldist`.
     pub name: String,
@@ -31,20 +34,25 @@ pub struct Part {
     pub count: u64,
 }
 
+/// The kinds of parts that coverage counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartKind {
     /// A started actor, computation or sub-plan.
     Element,
+    /// A state of an element.
     State,
+    /// An event of a supervisor.
     Event,
     /// A connected `DeadlineMissed`.
     Deadline,
     /// A connected `Error`.
     Error,
+    /// An entry of the configuration.
     Entry,
 }
 
 impl PartKind {
+    /// Every kind, in the order of the table.
     pub const ALL: [PartKind; 6] = [
         PartKind::Element,
         PartKind::State,
@@ -54,6 +62,7 @@ impl PartKind {
         PartKind::Entry,
     ];
 
+    /// The name of several parts of this kind.
     pub fn plural(self) -> &'static str {
         match self {
             PartKind::Element => "elements",
@@ -98,6 +107,7 @@ impl Coverage {
         (parts().count(), parts().filter(|part| part.count > 0).count())
     }
 
+    /// The parts that no run used.
     pub fn unused(&self) -> impl Iterator<Item = &Part> {
         self.parts.iter().filter(|part| part.count == 0)
     }

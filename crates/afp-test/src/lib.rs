@@ -37,7 +37,9 @@ pub use watch::{Activation, Broken};
 /// The recording of a run, with the inputs that repeat it.
 #[derive(Clone, Copy)]
 pub struct Recording<'a> {
+    /// Its path.
     pub path: &'a Path,
+    /// Its plans and scenarios.
     pub compiled: &'a Compiled,
 }
 

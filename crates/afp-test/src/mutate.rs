@@ -15,6 +15,7 @@ pub use site::MutantKind;
 /// A plan's text with one small change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mutant {
+    /// The kind of the change.
     pub kind: MutantKind,
     /// The line of the change, from 1.
     pub line: usize,
@@ -24,6 +25,7 @@ pub struct Mutant {
     pub was: String,
     /// The new text.
     pub is: String,
+    /// The whole text with the change.
     pub text: String,
 }
 

@@ -11,6 +11,7 @@ use afp_session::{AnyRobot, Pose2};
 /// The world of a scenario, with the robot at its start.
 #[derive(Clone, Debug)]
 pub struct Setting {
+    /// The world with its text.
     pub world: LoadedWorld,
 }
 

@@ -11,10 +11,12 @@ use crate::watch::{Activation, Broken};
 const BEFORE: usize = 8;
 const BEHIND: usize = 3;
 
+/// The result of a scenario.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// Unmet expectations by time; empty if the scenario passed.
     pub broken: Vec<Broken>,
+    /// The time at which the run was over.
     pub end: Instant,
     /// The ending of the plan, if it ended.
     pub ending: Option<Ending>,
@@ -66,6 +68,7 @@ impl Verdict {
         text
     }
 
+    /// The simulated time of the run.
     pub fn length(&self) -> Duration {
         self.end.since(Instant::ZERO)
     }

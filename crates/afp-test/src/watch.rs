@@ -51,6 +51,7 @@ pub(crate) struct Watch<'a> {
 /// A time span in which an element was active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Activation {
+    /// The element's number in the graph.
     pub element: u32,
     /// The start.
     pub from: Instant,

@@ -44,6 +44,7 @@ plan P {
         Error -> terminate
     }
 
+    /// Goes back.
     actor back: B(
         // why
         distance = -limit, // because

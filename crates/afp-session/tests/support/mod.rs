@@ -151,7 +151,7 @@ impl Platform for Toy {
         self.position += self.speed * self.grip * to.since(self.now).as_secs_f64();
         self.now = self.now.max(to);
         if let Some((_, late)) = self.held_up.take_if(|(from, _)| *from <= to) {
-            self.now = self.now + late;
+            self.now += late;
         }
     }
 }

@@ -146,7 +146,7 @@ fn an_open_text_without_a_file_gets_the_new_text() {
     place.types(1, 2, &mine);
     let what = json!({ "uri": place.uri("p.afp"), "text": "" });
     let refused = place.ask(1, "afp/create", what).unwrap_err();
-    assert!(refused.contains("about to be written"), "{refused}");
+    assert!(refused.contains("about to be saved"), "{refused}");
     place.pass(300);
     assert_eq!(place.on_disk(), mine);
 }

@@ -251,7 +251,7 @@ fn one_client_has_the_edit_lock() {
     let out = place.types(2, 3, "nothing");
     assert_eq!((out[0].0, &out[0].1["params"]["text"]), (2, &json!(next)));
     let refused = place.ask(2, "afp/create", json!({ "uri": place.uri("n.afp") })).unwrap_err();
-    assert!(refused.contains("pen"), "{refused}");
+    assert!(refused.contains("edit lock"), "{refused}");
     assert_eq!(place.ask(2, "afp/pen", json!({ "take": true })).unwrap()["yours"], true);
     place.takes(2, 4, PLAN, out[0].1["params"]["number"].clone());
     place.pass(300);
@@ -372,7 +372,9 @@ fn jobs_with_code_need_trust_and_files_of_the_folder() {
         let refused = place.ask(1, "afp/job", wrong).unwrap_err();
         assert!(refused.contains(why), "{refused}");
     }
-    for (until, why) in [("0 s", "'0 s' is no time"), ("0.0ms", "no time"), ("soon?", "'30 s'")] {
+    for (until, why) in
+        [("0 s", "'0 s' is not a time"), ("0.0ms", "not a time"), ("soon?", "'30 s'")]
+    {
         let order = json!({ "kind": "sweep", "file": file, "until": until });
         let refused = place.ask(1, "afp/job", order).unwrap_err();
         assert!(refused.contains(why), "{refused}");

@@ -52,6 +52,8 @@ impl Parser<'_, '_> {
         let more = (0..).step_by(2).take_while(|at| {
             (self.nth(*at), self.nth(at + 1)) == (Kind::Comma, Kind::Name)
                 && !self.begins_line(at + 1)
+                && (matches!(self.nth(at + 2), Kind::Comma | Kind::CloseBrace)
+                    || self.begins_line(at + 2))
         });
         let more = 2 * more.count();
         if more > 0 && self.on_same_line() {

@@ -46,6 +46,7 @@ struct Case {
     quiet: bool,
 }
 
+/// The result of the scenarios for a mutant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MutantStatus {
     /// It does not compile.
@@ -59,9 +60,12 @@ pub enum MutantStatus {
     },
 }
 
+/// A mutant with its result.
 #[derive(Clone, Debug)]
 pub struct Judged {
+    /// The judged mutant.
     pub mutant: Mutant,
+    /// The result of the scenarios.
     pub status: MutantStatus,
 }
 

@@ -3,8 +3,10 @@
 use std::fmt;
 use std::ops::Range;
 
+/// The kinds of changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum MutantKind {
+    /// A comparison or a sign is reversed.
     Sign,
     /// A different target of an edge or the start.
     Target,

@@ -1,5 +1,4 @@
-//! `afpc dap`: its end over standard input, and its messages to one or several clients over a
-//! socket.
+//! `afpc dap`: its end over standard input, and its messages to clients over a socket.
 
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpStream;

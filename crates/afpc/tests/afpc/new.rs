@@ -127,7 +127,9 @@ fn templates_are_listed_and_described() {
     let place = Place::new();
     let all = place.afpc("templates");
     all.succeeds();
-    for line in ["std: What every robot", "  actor Forward", "  supervisor CheckTouchSensor"] {
+    for line in
+        ["std: Templates for every robot", "  actor Forward", "  supervisor CheckTouchSensor"]
+    {
         assert!(all.out.contains(line), "{}", all.out);
     }
     assert!(!place.afpc("templates std").out.contains("Forward"));

@@ -174,6 +174,7 @@ plan P {
 
     start align
 
+    /// Aligns.
     subplan align: Align(limit = base + 1 m, gap => gap) {
         // well
         OK          -> go
