@@ -77,7 +77,7 @@ fn projects_with_rust_run_and_pass_their_tests_unchanged() {
 fn existing_files_are_kept_and_names_are_checked() {
     let place = Place::new();
     place.afpc("new patrol").succeeds();
-    place.afpc("new patrol").fails(2, &["'patrol' is there already"]);
+    place.afpc("new patrol").fails(2, &["'patrol' already exists"]);
     place.afpc("new Patrol").fails(2, &["cannot be the name", "'my-rover'"]);
     place.afpc("new turn").fails(2, &["the name 'turn' is taken", "'my-turn'"]);
     place.afpc("new x --toolbox --robot").fails(2, &["--robot"]);
@@ -105,7 +105,7 @@ fn an_incomplete_project_leaves_no_files() {
     said(full.output().unwrap()).fails(1, &["cannot write 'patrol/", "File too large"]);
     assert!(!place.path("patrol").exists());
     std::os::unix::fs::symlink("nowhere", place.path("link")).unwrap();
-    place.afpc("new link").fails(2, &["'link' is there already"]);
+    place.afpc("new link").fails(2, &["'link' already exists"]);
     place.afpc("new patrol").succeeds();
 }
 
