@@ -22,8 +22,7 @@ pub fn a(name: &str) -> String {
 /// use afp_excerpt::words::shell_word;
 ///
 /// assert_eq!(shell_word("plans/square.afp"), "plans/square.afp");
-/// assert_eq!(shell_word("name=it's"), r"'name=it'
-/// ''s'");
+/// assert_eq!(shell_word("name=it's"), r"'name=it'\''s'");
 /// ```
 pub fn shell_word(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "._-+=:/,@%".contains(c);

@@ -81,7 +81,7 @@ const MISSING: &[(&[&str], &[&str])] = &[
         &["run 'python3 -m pip install ziglang', then"],
     ),
     // The compiler of another machine does not help.
-    (&["rustc with library", "arm-linux-gnueabihf-gcc"], &["links for it is missing"]),
+    (&["rustc with library", "arm-linux-gnueabihf-gcc"], &["linker for it is missing"]),
 ];
 
 #[test]
