@@ -163,7 +163,7 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
         simulation.fire("nobody", "Done")
     with pytest.raises(ValueError, match="no control 'enter'; it has 'touch', 'escape'"):
         simulation.press("enter")
-    with pytest.raises(ValueError, match="no time"):
+    with pytest.raises(ValueError, match="not a time"):
         simulation.press(at=float("nan"))
     with pytest.raises(TypeError, match="needs a Plan, not a str"):
         afp.Simulation("wall.afp")  # type: ignore[arg-type]
