@@ -153,5 +153,5 @@ fn templates_are_listed_and_described() {
     let own = in_folder(&place, "greeter", "templates");
     assert!(own.out.contains("greeter: ") && own.out.contains("actor Wag"), "{}", own.out);
     let row = place.afpc("templates Row").out;
-    assert!(row.contains("  in table: (a table)  The table: its name"), "{row}");
+    assert!(row.contains("  in table: (a table)  The name of the table."), "{row}");
 }
