@@ -52,7 +52,7 @@ async function typeAlone(page: Page, crash: () => Promise<void>): Promise<void> 
   await page.locator(".rail button", { hasText: "Text" }).click();
   await page.locator(".cm-line", { hasText: "start go" }).waitFor();
   await crash();
-  await shows(page.locator(".banner.warning"), /start it again with 'afpc studio \S+ --port \d+' and open the address/);
+  await shows(page.locator(".banner.warning"), /start it again with 'afpc studio \S+ --port \d+' and open the printed address/);
   await page.locator(".cm-line", { hasText: "start go" }).click();
   await page.keyboard.press("End");
   await page.keyboard.type(typed);

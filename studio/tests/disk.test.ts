@@ -108,7 +108,7 @@ inBrowser("a long text is taken, and one that is too long is refused", { "plan.a
   const wanted = PLAN.replace("start go", `start go // here${lines(1.5)}`);
   await holds("plan.afp", wanted);
   await paste(2.5);
-  await shows(page.locator(".banner.error"), /longer than 4 MiB/);
+  await shows(page.locator(".banner.error"), /at most 4 MiB/);
   await isSaved();
   await holds("plan.afp", wanted);
 });

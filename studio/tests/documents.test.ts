@@ -131,7 +131,7 @@ test("an edit that is too old each time is told, and not counted as made", async
   await open(uri);
   const edit = { documentChanges: [{ textDocument: { uri, version: -1 }, edits: [] }] };
   let asked = 0;
-  await assert.rejects(change(async () => ((asked += 1), { edit, label: "add 'go'" })), /add 'go'\. Do it once more/);
+  await assert.rejects(change(async () => ((asked += 1), { edit, label: "add 'go'" })), /add 'go'\. Try again/);
   assert.equal(asked, 4);
 });
 
@@ -187,7 +187,7 @@ test("a change that would make a text too long is not made, by nobody and not by
   session.hello.value = { longest: 24 } as session.Hello;
   try {
     const put = (insert: string): void => typed([{ uri, from: 0, to: 0, insert }]);
-    assert.throws(() => put("abcdef"), /longer than .* MiB/);
+    assert.throws(() => put("abcdef"), /at most .* MiB/);
     assert.deepEqual([text(uri), room.texts.get(uri), undoLabel.value], ["ö".repeat(10), "ö".repeat(10), null]);
     put("abcd");
     typed([{ uri, from: 0, to: 4, insert: "" }]);

@@ -112,7 +112,7 @@ inBrowser("a value is set by steps, sign and formula; a name where it stands; a 
   const popup = page.locator(".value-popup");
   await popup.getByRole("button", { name: "flip the sign" }).click();
   await popup.getByRole("button", { name: "more" }).click();
-  await popup.getByRole("button", { name: "Set" }).click();
+  await popup.getByRole("button", { name: "Set", exact: true }).click();
   await studio.becomes("plan.afp", /Turn\(angle = -\d+ deg\)/);
   await popup.waitFor({ state: "detached" });
   await page.mouse.dblclick(...(await middle(page, name("P.turn"))));

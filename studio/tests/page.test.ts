@@ -166,7 +166,7 @@ inBrowser("a code opens its page of the book, with both examples", { "plan.afp":
   const button = page.getByRole("button", { name: /^Explain E\d+/ }).first();
   const code = await button.textContent();
   await button.click();
-  const book = page.getByRole("dialog", { name: `What ${code} means` });
+  const book = page.getByRole("dialog", { name: `Explain ${code}` });
   await book.getByRole("heading", { name: new RegExp(`^${code}:`) }).waitFor();
   assert.ok((await book.locator("pre").count()) >= 2);
   await book.getByRole("button", { name: "Close" }).click();

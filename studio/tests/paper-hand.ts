@@ -146,7 +146,7 @@ export class Hand {
   async value(port: string, value: string): Promise<void> {
     await this.port(port);
     await this.page.locator(".inspector .value input[type=text]").fill(value);
-    await this.pointer.press(this.page.locator(".inspector .value").getByRole("button", { name: "Set" }));
+    await this.pointer.press(this.page.locator(".inspector .value").getByRole("button", { name: "Set", exact: true }));
     await this.has(`${port} = ${value}`);
   }
 

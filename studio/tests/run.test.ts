@@ -101,7 +101,7 @@ inBrowser("a change of the text during a run marks it as older", { "plan.afp": P
   await page.keyboard.press("End");
   await page.keyboard.type(" // now");
   const older = page.getByRole("button", { name: /The plan has changed since this run started/ });
-  await shows(older, /older text/);
+  await shows(older, /plan changed/);
   // What is taken back is the text that runs.
   await page.keyboard.press("Control+z");
   await older.waitFor({ state: "detached" });

@@ -21,7 +21,7 @@ inBrowser("the session of the book goes as it is told", {}, async ({ page }) => 
   await shows(page.locator(".clock"), /^3\.0 s/);
   await page.keyboard.press("w");
   const why = page.locator("section, aside, div", { hasText: /^Why backupCollision\?/ }).first();
-  await shows(why, /active since 3\.010 s/);
+  await shows(why, /Active since 3\.010 s/);
   await shows(why, /searchFirstWall\.touch event TouchSensorPressed -> backupCollision/);
   await shows(why, /distance\s+-30 cm/);
   await page.locator(".rail button", { hasText: "Text" }).click();

@@ -44,7 +44,7 @@ inBrowser("a page that is loaded anew shows the plan that it showed, and says th
   await page.reload();
   await page.locator('.node [data-item="Outer.work"]').first().waitFor();
   assert.equal(await shown.innerText(), "Outer");
-  await shows(page.locator(".banner.error"), /The run was ended: the page was loaded anew/);
+  await shows(page.locator(".banner.error"), /The run has ended: the page was reloaded/);
   await page.reload();
   await page.locator('.node [data-item="Outer.work"]').first().waitFor();
   assert.equal(await page.locator(".banner.error").count(), 0);

@@ -39,7 +39,7 @@ inBrowser("taps add, connect and set values", { "plan.afp": PLAN }, async (studi
   await page.locator('.node [data-item="P.turn"]').waitFor();
   await page.locator(".inspector .row", { hasText: "angle" }).tap();
   await page.locator(".inspector .value").getByRole("button", { name: "flip the sign" }).tap();
-  await page.locator(".inspector .value").getByRole("button", { name: "Set" }).tap();
+  await page.locator(".inspector .value").getByRole("button", { name: "Set", exact: true }).tap();
   await studio.becomes("plan.afp", /Turn\(angle = -90 deg\)/);
   assert.match(await read("plan.afp.layout"), /^P\.go -?\d+ -?\d+\nP\.start -?\d+ -?\d+\nP\.turn -?\d+ -?\d+\n$/);
 }, fingers);
