@@ -1,11 +1,11 @@
-//! The workspace's `dev` profile, for builds outside the workspace and for builds that need less of it.
+//! The workspace's `dev` profile, for builds that need less of it.
 
 use std::fs;
 use std::process::Command;
 
 use toml_edit::{DocumentMut, Item, TableLike};
 
-use crate::shell::{Failure, root, target};
+use crate::shell::{Failure, root};
 
 /// A command that optimises nothing: what it builds runs for a moment.
 ///
@@ -17,21 +17,6 @@ pub fn unoptimised(command: &mut Command) -> Result<&mut Command, Failure> {
         command.arg("--config").arg(format!("profile.dev.package.{name}.opt-level=0"));
     }
     Ok(command)
-}
-
-/// A cargo in a folder outside the workspace that builds packages with the workspace's `dev` profile and so takes what the
-/// workspace has built.
-///
-/// # Errors
-/// The manifest cannot be read.
-pub fn shared(command: &mut Command) -> Result<&mut Command, Failure> {
-    let manifest: DocumentMut = fs::read_to_string(root().join("Cargo.toml"))?.parse()?;
-    for (name, settings) in packages(&manifest)?.iter() {
-        if let Some(level) = settings.get("opt-level").and_then(Item::as_integer) {
-            command.arg("--config").arg(format!("profile.dev.package.{name}.opt-level={level}"));
-        }
-    }
-    Ok(command.arg("--config").arg("profile.dev.lto='off'").env("CARGO_TARGET_DIR", target()))
 }
 
 /// The packages for which the `dev` profile has settings of their own.

@@ -8,7 +8,6 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use crate::profiles;
 use crate::shell::{
     Failure, cargo, output, program, quickly_built, root, run as run_command, target,
 };
@@ -31,12 +30,15 @@ pub fn test() -> Result<(), Failure> {
         }
         let mut new = program(target().join("debug/afpc"));
         run_command(new.args(["new", option]).arg(&folder))?;
-        run_command(profiles::shared(cargo().current_dir(folder))?.arg("test"))?;
+        let mut tests = cargo();
+        run_command(tests.arg("test").current_dir(folder).env("CARGO_TARGET_DIR", target()))?;
     }
     let folder = root().join(FOLDER);
     // The versions that the workspace is tested with.
     fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock"))?;
-    run_command(profiles::shared(cargo().current_dir(folder))?.args(["test", "--workspace"]))
+    let mut tests = cargo();
+    tests.args(["test", "--workspace"]).current_dir(folder);
+    run_command(tests.env("CARGO_TARGET_DIR", target()))
 }
 
 /// Runs every command of `afpc` on the robot, and the program that it builds: it says what the interpreter says.
