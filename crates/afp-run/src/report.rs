@@ -96,7 +96,7 @@ impl Report {
 
     /// Whether nobody reads any more, or nothing can be written.
     pub(crate) fn is_closed(&self) -> bool {
-        self.failure.is_some()
+        self.failure.is_some() || self.out.has_failed()
     }
 
     /// The lines that say what runs.

@@ -114,9 +114,20 @@ fn start(robot: &Robot, does: &str, options: &[&str]) -> Command {
 
 /// Waits until a program has ended; gives what it said on standard error, too.
 fn ended(mut child: Child) -> (ExitStatus, String) {
-    let mut said = String::new();
-    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
-    (child.wait().unwrap(), said)
+    let mut stderr = child.stderr.take().unwrap();
+    let (end, said) = channel();
+    thread::spawn(move || {
+        let mut text = String::new();
+        let read = stderr.read_to_string(&mut text);
+        end.send(read.map(|_| text))
+    });
+    match said.recv_timeout(PATIENCE) {
+        Ok(said) => (child.wait().unwrap(), said.unwrap()),
+        Err(_) => {
+            child.kill().unwrap();
+            panic!("the program does not end");
+        }
+    }
 }
 
 fn send(child: &Child, signal: Signal) {

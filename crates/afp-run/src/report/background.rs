@@ -42,6 +42,11 @@ impl BackgroundWriter {
         }
     }
 
+    /// Whether the thread has ended by itself: it does so only after an error.
+    fn has_failed(&self) -> bool {
+        self.writer.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
     /// Waits until all is written: for when the robot stands.
     fn finish(&mut self) -> io::Result<()> {
         self.pieces = None;
@@ -77,6 +82,14 @@ pub(super) enum Out {
 }
 
 impl Out {
+    /// Whether an error is known, or waits for whoever writes next.
+    pub(super) fn has_failed(&self) -> bool {
+        match self {
+            Out::Here(_) => false,
+            Out::Background(writer) => writer.has_failed(),
+        }
+    }
+
     /// What is still to be written once nothing more comes; how many lines were lost.
     pub(super) fn finish(self) -> io::Result<u64> {
         match self {
@@ -163,5 +176,21 @@ mod tests {
             writeln!(writer, "line").err()
         });
         assert_eq!(told.map(|error| error.kind()), Some(io::ErrorKind::BrokenPipe));
+    }
+
+    /// Without this, a robot that has nothing more to say would drive on.
+    #[test]
+    fn an_error_is_noticed_without_another_line() {
+        let (out, written) = channel();
+        drop(written);
+        let mut writer = BackgroundWriter::new(Box::new(Slow(channel().1, out))).unwrap();
+        writeln!(writer, "line").unwrap();
+        let deadline = std::time::Instant::now() + Duration::from_secs(60);
+        while !writer.has_failed() {
+            assert!(std::time::Instant::now() < deadline, "nobody notices");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let error = Out::Background(writer).finish().unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::BrokenPipe);
     }
 }
