@@ -1,6 +1,6 @@
 //! The actors of the toolbox, a file each.
 
-/// How an actor that only drives is interrupted: the drive stops.
+/// Stops the drive on interruption.
 macro_rules! halts_when_interrupted {
     () => {
         fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {

@@ -1,9 +1,9 @@
-//! What the robot's devices offer, one trait each.
+//! The robot's devices, one trait each.
 //!
-//! The list `devices!` below has the traits that templates ask for. [`Carbot`] and [`register!`](crate::register) follow
-//! from it.
+//! The list `devices!` below has the traits that templates need. It generates [`Carbot`] and
+//! [`register!`](crate::register).
 //!
-//! A robot implements the traits of the devices that it has. Sensors answer with a [`Reading`]:
+//! A robot implements the traits of its devices. Sensors answer with a [`Reading`]:
 //!
 //! ```
 //! use afp_carbot::devices::{Invalid, Reading, TouchSensor};
@@ -11,7 +11,7 @@
 //!
 //! struct Board {
 //!     now: Instant,
-//!     /// The bumper as the board reported it last, and when.
+//!     /// The board's last report of the bumper, and its time.
 //!     bumper: Option<(bool, Instant)>,
 //! }
 //!
@@ -62,20 +62,20 @@ pub use ultrasonic::{Beam, Echo, Ultrasonic};
 
 use afp_core::Environment;
 
-/// Makes what follows from the list of devices; `$d` is a dollar sign, for the macro that it makes.
+/// Generates code from the list of devices. `$d` is a dollar sign for the generated macro.
 macro_rules! devices {
     ($d:tt $($device:ident),+) => {
-        /// A robot with every device that the templates of the toolbox use.
+        /// A robot with every device that the toolbox's templates use.
         pub trait Carbot: Environment $(+ $device)+ {}
 
         impl<E: Environment $(+ $device)+ + ?Sized> Carbot for E {}
 
-        /// Registers those templates of the toolbox for which a platform has the devices.
+        /// Registers the templates whose devices the platform has.
         ///
-        /// `afp_carbot::register!(registry, Vacuum)` takes a registry of that platform, whose type must be concrete. A plan
-        /// that uses another template is refused when it is loaded, with the traits of [`devices`](crate::devices) that the
-        /// platform does not implement. [`templates::register`](crate::templates::register) is for platforms that have them
-        /// all.
+        /// `afp_carbot::register!(registry, Vacuum)` takes a registry of that platform, whose type
+        /// must be concrete. Loading a plan that uses another template fails and names the missing
+        /// traits of [`devices`](crate::devices). For platforms that have every device, use
+        /// [`templates::register`](crate::templates::register).
         #[macro_export]
         macro_rules! register {
             ($d registry:expr, $d platform:ty) => {

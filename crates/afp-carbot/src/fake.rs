@@ -21,87 +21,88 @@ use std::vec::Vec;
 mod picture;
 mod place;
 
-/// A plane wall: the direction of its normal, away from the origin, and its distance from there.
+/// A plane wall: the direction of its normal, away from the origin, and its distance from the
+/// origin.
 #[derive(Clone, Copy)]
 pub(crate) struct Plane {
     pub(crate) normal: f64,
     pub(crate) distance: f64,
-    /// It ends where x gets greater than this.
+    /// The wall ends at this x.
     pub(crate) end: f64,
 }
 
-/// A wall without an end.
+/// An infinite wall.
 pub(crate) fn plane(normal_deg: f64, distance: f64) -> Plane {
     Plane { normal: normal_deg.to_radians(), distance, end: f64::INFINITY }
 }
 
-/// The robot. It starts at the origin and looks along the x axis.
+/// Starts at the origin and looks along the x axis.
 pub(crate) struct Fake {
     pub(crate) now: Instant,
     pub(crate) walls: Vec<Plane>,
     pub(crate) motion: Motion,
     pub(crate) rotator: f64,
     pub(crate) touched: bool,
-    /// What the bumper felt last.
+    /// The last bump.
     pub(crate) bump: Option<Bump>,
     trail: Trail,
     pub(crate) escape: bool,
     pub(crate) dead_odometry: bool,
-    /// From this many milliseconds on until that many the odometry says nothing.
+    /// The odometry is silent between these times, milliseconds.
     pub(crate) odometry_gap: (u64, u64),
-    /// By how much the commanded speed and turn rate grew at most from one tick to the next.
+    /// Largest increase of the commanded speed and turn rate per tick.
     pub(crate) gains: (f64, f64),
-    /// From this many milliseconds on the range sensor sends no ping.
+    /// The range sensor sends no ping from this time on, milliseconds.
     pub(crate) range_dies: u64,
     pub(crate) dead_switches: bool,
     pub(crate) stuck_rotator: bool,
-    /// A source of infrared light of strength 1, and where it is.
+    /// Position of an infrared source of strength 1.
     pub(crate) light: Option<(f64, f64)>,
-    /// From this many milliseconds on it is dark.
+    /// The light goes out at this time, milliseconds.
     pub(crate) light_goes_out: u64,
-    /// From this many milliseconds on the infrared sensor does not answer, or says what it said before.
+    /// The infrared sensor is silent or repeats itself from this time on, milliseconds.
     pub(crate) infrared_dies: u64,
     pub(crate) infrared_freezes: u64,
-    /// A red post of 30 cm by 30 cm on a grey floor, and where it is.
+    /// Position of a red post of 30 cm by 30 cm on a grey floor.
     pub(crate) post: Option<(f64, f64)>,
-    /// From this many milliseconds on the post is gone.
+    /// The post disappears at this time, milliseconds.
     pub(crate) post_goes: u64,
-    /// From this many milliseconds on the camera says the same picture.
+    /// The camera repeats its picture from this time on, milliseconds.
     pub(crate) camera_freezes: u64,
     pub(crate) dead_camera: bool,
     pub(crate) floor: Color,
     pub(crate) dead_color: bool,
-    /// The share of the charge that is left.
+    /// Remaining share of the charge.
     pub(crate) charge: f64,
     pub(crate) dead_battery: bool,
-    /// Pings sent from this many milliseconds on hear nothing, for so many pings.
+    /// Start in milliseconds and number of pings that hear nothing.
     pub(crate) lost_pings: (u64, u64),
-    /// From this many milliseconds on every ping says what the one before said.
+    /// Every ping repeats the one before from this time on, milliseconds.
     pub(crate) range_freezes: u64,
-    /// Echoes are told so many milliseconds after they were heard.
+    /// Delay of echoes, milliseconds.
     pub(crate) late_echoes: u64,
-    /// The shares of the commanded speed and turn rate that the wheels follow.
+    /// The shares of the commanded speed and turn rate that the wheels achieve.
     pub(crate) follows: (f64, f64),
-    /// How often it was told that its drive is blocked.
+    /// Number of reports that the drive is blocked.
     pub(crate) blocked: u32,
-    /// It turns by so much more than commanded, radians a second.
+    /// Error of the turn rate, radians a second.
     pub(crate) drifts: f64,
     pub(crate) top_speed: f64,
-    /// Where it began, on its map.
+    /// Start position on the map.
     pub(crate) map_offset: [f64; 2],
-    /// How far from where it takes itself to be it may be, metres.
+    /// Uncertainty of the position estimate, metres.
     pub(crate) spread: f64,
-    /// From this many milliseconds on it may be anywhere.
+    /// The robot is lost from this time on, milliseconds.
     pub(crate) lost_from: u64,
     pub(crate) dead_localisation: bool,
-    /// No way leads anywhere.
+    /// No search finds a path.
     pub(crate) no_way: bool,
-    /// The place that it would look from next, metres.
+    /// The next viewpoint, metres.
     pub(crate) view: [f64; 2],
-    /// The search that is under way, and how many have been begun.
+    /// The current search, and the number of searches.
     pub(crate) search: Option<(Instant, Option<Path>)>,
     pub(crate) searches: u16,
-    /// What it has shown and let sound, in turn.
+    /// Every signal sent, in order.
     pub(crate) signals: Vec<(bool, Option<Frequency>)>,
     target: f64,
     pub(crate) command: (f64, f64),
@@ -109,7 +110,7 @@ pub(crate) struct Fake {
     before: (f64, f64),
     glow: Option<Glow>,
     echo: Reading<Echo>,
-    /// Those that are not told yet.
+    /// Echoes not yet reported.
     heard: VecDeque<Reading<Echo>>,
     picture: Picture,
 }
@@ -173,7 +174,7 @@ impl Fake {
         }
     }
 
-    /// What it is commanded to do: speed and turn rate.
+    /// The commanded speed and turn rate.
     pub(crate) fn command(&self) -> (f64, f64) {
         self.command
     }
@@ -182,7 +183,7 @@ impl Fake {
         self.now.since(Instant::ZERO).as_millis()
     }
 
-    /// Lets ten milliseconds pass.
+    /// Advances by ten milliseconds.
     pub(crate) fn tick(&mut self) {
         self.now += Duration::from_millis(10);
         if self.now.since(self.commanded) > Duration::from_millis(200) {
@@ -246,7 +247,7 @@ impl Fake {
             let beyond = (slant - HALF_BEAM).max(0.0);
             (slant < 0.75 && square > 0.0).then(|| square / beyond.cos())
         });
-        // Even this robot hears with a little noise: two echoes are never quite the same.
+        // Noise: two echoes are never identical.
         let noise = if (self.millis() / 50).is_multiple_of(2) { 1e-6 } else { 0.0 };
         ranges
             .filter(|range| *range < 4.0)
@@ -254,7 +255,8 @@ impl Fake {
             .map(|range| Length::from_si(range + noise))
     }
 
-    /// Runs an actor until it is ready, at most `seconds`; checks that it then stands.
+    /// Runs an actor until it is ready, for at most `seconds`; checks that the robot has then
+    /// stopped.
     pub(crate) fn run<'a, T: ActorTemplate, A: Actor<T, Fake>>(
         &mut self,
         inputs: T::Inputs<'_>,
@@ -277,7 +279,7 @@ impl Fake {
         Ok(None)
     }
 
-    /// Polls a supervisor every ten milliseconds, for so many, or until it reports.
+    /// Polls a supervisor every ten milliseconds until it reports or the time is over.
     pub(crate) fn watch<'a, T: SupervisorTemplate, S: Supervisor<T, Fake>>(
         &mut self,
         inputs: T::Inputs<'_>,
@@ -298,8 +300,9 @@ impl Fake {
         Ok(None)
     }
 
-    /// Polls a supervisor once for each of `polls`, every ten milliseconds, each time after `set` has held or let go what
-    /// it watches; whether it reports then, where the second value is what is wanted.
+    /// Polls a supervisor every ten milliseconds, once for each of `polls`. Before each poll, `set`
+    /// presses or releases the switch; the second value has the wanted events. Returns which polls
+    /// reported.
     pub(crate) fn clicks<'a, T: SupervisorTemplate, S: Supervisor<T, Fake>>(
         &mut self,
         inputs: T::Inputs<'_>,

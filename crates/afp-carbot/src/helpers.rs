@@ -1,4 +1,4 @@
-//! Parts that several templates share: patience with sensors, ways, turns, what the robot remembers.
+//! Parts that templates share: sensor timeouts, paths, turns, memory of positions.
 
 pub(crate) mod approaching;
 pub(crate) mod eye;

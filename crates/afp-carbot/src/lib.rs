@@ -1,16 +1,19 @@
-//! The Carbot: its devices as traits, and the templates written against them.
+//! The Carbot: traits of its devices, and templates that use these traits.
 //!
-//! Templates see a robot through these traits only, so the simulator, the real robot and a
+//! Templates access a robot only through these traits, so the simulator, the real robot and a
 //! recorded run are interchangeable.
 //!
-//! Frames: x forward, y left, angles counter-clockwise, SI units. The body's frame has its origin
-//! at the turning centre.
+//! Frames: x forward, y left, angles counter-clockwise, SI units. The body frame has its origin at
+//! the turning centre.
 //!
-//! Two rules hold for every template here. A reading that is invalid or too old is never taken
-//! for free space: the template waits, and faults when nothing usable came for
-//! [`guard::PATIENCE`]. What a reading says holds for the instant at which it was measured: bearings and ways are
-//! carried on from there by the odometry. And an actor that is ready has brought the robot to a standstill, so a
-//! finished actor is as safe as an interrupted one.
+//! Three rules apply to every template:
+//!
+//! - An invalid or outdated reading never counts as free space. The template waits, and faults
+//!   after [`guard::PATIENCE`] without a usable reading.
+//! - A reading applies to the instant of its measurement. Odometry carries bearings and distances
+//!   on.
+//! - An actor that is ready has stopped the robot, so a finished actor is as safe as an interrupted
+//!   one.
 #![no_std]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -47,7 +50,7 @@ pub use supervisors::{
     CheckTouchSensorClick, MeasureDistance, MeasureLight, PlanPath,
 };
 
-/// What [`register!`] names in the crates of others.
+/// Names that [`register!`] uses in other crates.
 #[doc(hidden)]
 pub mod __private {
     pub use {afp_core, afp_macros::register};

@@ -1,4 +1,4 @@
-//! The objects of the toolbox: values that only its own templates can read.
+//! The toolbox's objects: values that only its own templates can read.
 
 mod appearance;
 mod distance_map;

@@ -1,4 +1,4 @@
-//! The devices of the Carbot, as its toolbox file declares them: controls, faults, signals.
+//! The Carbot's devices as declared in its toolbox file: controls, faults, signals.
 
 use afp_core::devices::{self, DeviceRow};
 
@@ -9,7 +9,7 @@ pub use afp_core::devices::Defect;
 /// The table.
 pub const TABLE: &[DeviceRow] = <Carbot as devices::Devices>::TABLE;
 
-/// A fault by its words, `wheels.slip`, without an amount or with one.
+/// Looks up a fault by its name, such as `wheels.slip`, with an optional amount.
 pub fn named(device: &str, fault: &str, amount: Option<f64>) -> Option<Fault> {
     <Carbot as devices::Devices>::fault(devices::find_fault(TABLE, device, fault)?, amount)
 }

@@ -1,4 +1,4 @@
-//! The plan of the paper compiles against the toolbox, and asks of a robot what its templates ask.
+//! The plan of the paper compiles against the toolbox and requires its templates' traits.
 
 mod plan {
     afp_macros::plan!("../../plans/wall_following.afp");

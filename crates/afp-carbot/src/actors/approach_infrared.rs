@@ -8,7 +8,7 @@ use crate::templates;
 use crate::templates::approach_infrared::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Steers by the light's direction and brightness, and stops where the light is as bright as wanted.
+/// Steers by the light's direction and brightness, and stops at the wanted brightness.
 #[derive(Clone, Debug)]
 pub struct ApproachInfrared {
     strength: f64,
@@ -46,7 +46,7 @@ where
 }
 
 impl ApproachInfrared {
-    /// The distance left, metres, were the source of strength 1: brightness falls with the square of the
+    /// Distance left, metres, for a source of strength 1: brightness falls with the square of the
     /// distance.
     fn distance(&self, strength: f64) -> f64 {
         let distance = |strength: f64| 1.0 / libm::sqrt(strength.max(1e-6));

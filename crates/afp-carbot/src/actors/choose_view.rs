@@ -8,7 +8,7 @@ use crate::templates::choose_view::{Inputs, Live, State};
 use afp_core::quantity::Length;
 use afp_core::{Actor, Fault, Instant, Poll, Ticket};
 
-/// Has the platform search for it from where the robot takes itself to be.
+/// Lets the platform search from the robot's estimated position.
 #[derive(Clone, Debug)]
 pub struct ChooseView {
     seen: Path,

@@ -7,13 +7,15 @@ use crate::templates;
 use crate::templates::curve::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// The arc counts as driven when less than this is left, metres, and no more than of a turn in place.
+/// An arc is complete when the distance left is below this, metres, and the angle below that of a
+/// turn in place.
 const CLOSE_WAY: f64 = 0.004;
-/// The way may be off the arc's length by this share of it, and by so many metres while the wheels are being steered.
+/// Tolerated difference from the arc's length: this share of it, plus this many metres while the
+/// wheels are being steered.
 const OFF_ARC: f64 = 0.25;
 const STEERED: f64 = 0.1;
 
-/// Drives an arc of a circle until the heading has turned by an angle, by odometry.
+/// Drives an arc until the heading has turned by an angle, by odometry.
 #[derive(Clone, Debug)]
 pub struct Curve {
     turning: Turning,
@@ -21,7 +23,7 @@ pub struct Curve {
     radius: f64,
     speed: f64,
     tracking: Tracking,
-    /// The distance driven so far, metres, and where that was.
+    /// Distance driven so far, metres, and the motion counted there.
     driven: f64,
     last: Option<Motion>,
 }
@@ -63,11 +65,12 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
 }
 
 impl Curve {
-    /// Compares the distance driven with the angle turned: a wheel that does not follow makes another arc, of which each part may be
-    /// near enough to what was commanded.
+    /// Compares the distance driven with the angle turned.
+    ///
+    /// A wheel that lags changes the arc, even if each part of the arc is close to the command.
     ///
     /// # Errors
-    /// [`DRIVE_STALLED`] when the arc is another one.
+    /// [`DRIVE_STALLED`] if the robot drives a different arc.
     fn check_arc(&mut self, turned: f64, motion: Motion) -> Result<(), Fault> {
         if let Some(last) = self.last.replace(motion) {
             self.driven += libm::hypot((motion.x - last.x).si(), (motion.y - last.y).si());
@@ -125,7 +128,7 @@ mod tests {
 
     #[test]
     fn another_arc_than_the_one_asked_for_is_a_fault() {
-        // Both are near enough to the command at every instant, and neither is a circle of 50 cm.
+        // Both commands are close enough at every instant, but neither gives a circle of 50 cm.
         for follows in [(0.6, 1.0), (1.0, 0.6)] {
             let mut robot = Fake::new(&[]);
             robot.follows = follows;

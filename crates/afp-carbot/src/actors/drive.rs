@@ -7,7 +7,7 @@ use crate::templates;
 use crate::templates::drive::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Commands the latest speed and turn. Both ramp up, so that the wheels hold.
+/// Commands the latest speed and turn. Both ramp up, so that the wheels do not slip.
 #[derive(Clone, Debug)]
 pub struct Drive {
     tracking: Tracking,

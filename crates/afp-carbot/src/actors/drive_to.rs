@@ -7,15 +7,15 @@ use crate::templates;
 use crate::templates::drive_to::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Drives a straight line from where the robot takes itself to be, then turns to the heading.
+/// Drives a straight line from the robot's estimated position, then turns to the heading.
 #[derive(Clone, Debug)]
 pub struct DriveTo {
     pursuit: Pursuit,
     place: [f64; 2],
     heading: f64,
-    /// The line; none until the robot knows where it is.
+    /// `None` until the robot knows its position.
     path: Option<Path>,
-    /// Whether the robot has been at the place: there it turns.
+    /// Whether the robot has reached the place; then it turns.
     arrived: bool,
 }
 
@@ -107,7 +107,7 @@ mod tests {
         robot.spread = 1.5;
         let state = drive(&mut robot, [5.0, 0.0, 0.0], 3);
         assert_eq!((state, robot.motion.x.si()), (Ok(Some(State::PathLost)), 0.0));
-        // The same where it only turns.
+        // Also while it turns.
         let mut robot = Fake::new(&[]);
         robot.lost_from = 1500;
         assert_eq!(drive(&mut robot, [0.0, 0.0, 180.0], 5), Ok(Some(State::PathLost)));

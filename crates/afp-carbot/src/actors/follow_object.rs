@@ -1,4 +1,4 @@
-//! Drive towards an object, wherever it goes.
+//! Drive towards a moving object.
 
 use crate::devices::{Camera, Navigator, Odometry, Reading};
 use crate::helpers::approaching::{Approached, Approaching, Sight};
@@ -9,10 +9,10 @@ use crate::templates;
 use crate::templates::follow_object::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// What is not seen to stand on the floor is taken to be so far away, metres.
+/// Assumed distance of an object whose foot is not on the floor, metres.
 const FAR: f64 = 10.0;
 
-/// Steers by where the camera shows the object and where its foot meets the floor, and stops in front of it.
+/// Steers by the object's bearing and by its foot on the floor, and stops in front of it.
 #[derive(Clone, Debug)]
 pub struct FollowObject {
     eye: Eye,
@@ -67,7 +67,7 @@ mod tests {
             robot.post = Some((x, y));
             assert_eq!(follow(&mut robot), Ok(Some(State::ObjectReached)), "{x} {y}");
             let far = f64::hypot(x - robot.motion.x.si(), y - robot.motion.y.si());
-            // The front is 20 cm before the turning centre, where this robot's camera is.
+            // The front and the camera are 20 cm before the turning centre.
             assert!((far - 0.7).abs() < 0.06, "{x} {y}: {far}");
         }
     }

@@ -6,7 +6,7 @@ use crate::templates;
 use crate::templates::follow_path::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Keeps to a path on the map, whichever it is at the moment: another one takes its place without a stop.
+/// Keeps to the latest path on the map. A new path takes effect without a stop.
 #[derive(Clone, Debug)]
 pub struct FollowPath {
     pursuit: Pursuit,
@@ -68,7 +68,7 @@ mod tests {
         let mut robot = Fake::new(&[]);
         assert_eq!(follow(&mut robot, &[[0.0, 0.0], [0.09, 0.0]], 1), Ok(Some(State::Arrived)));
         assert_eq!(robot.motion.x.si(), 0.0);
-        // Near the end, but a way round before it.
+        // Close to the end, but with a detour before it.
         let round = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6], [0.0, 0.05]];
         assert_eq!(follow(&mut robot, &round, 2), Ok(None));
         assert!(robot.motion.x.si() > 0.2);

@@ -8,19 +8,19 @@ use crate::templates::forward::{Inputs, Live, State};
 use afp_core::quantity::Length;
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// The way counts as driven when less than this is left.
+/// The drive is complete when less than this is left, metres.
 const CLOSE: f64 = 0.004;
-/// How sharply the heading is held: turn rate per radian off.
+/// Turn rate per radian of heading error.
 const HOLD: f64 = 2.5;
 
-/// Drives a distance on the heading it starts with, by odometry.
+/// Drives a distance and holds the initial heading, by odometry.
 #[derive(Clone, Debug)]
 pub struct Forward {
     distance: f64,
     speed: f64,
     tracking: Tracking,
     odometry: Guard,
-    /// Where the drive began; none until the first reading.
+    /// Motion at the start; `None` until the first reading.
     from: Option<Motion>,
 }
 

@@ -1,11 +1,11 @@
-//! Keep the robot standing until an event leads on.
+//! Keep the robot stationary until an event interrupts.
 
 use crate::devices::Navigator;
 use crate::templates;
 use crate::templates::hold::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Asks for a standstill again and again, so that nothing that pushes or lets go of the drive keeps it moving.
+/// Commands a standstill repeatedly, against pushes and drives that time out.
 #[derive(Clone, Copy, Debug)]
 pub struct Hold;
 

@@ -7,13 +7,14 @@ use crate::templates;
 use crate::templates::learn_object::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Stands, takes one picture, and keeps the colours that its middle alone shows.
+/// Stops, takes one picture, and keeps the colours that occur only in its middle.
 #[derive(Clone, Debug)]
 pub struct LearnObject {
     share: f64,
     odometry: Guard,
     pictures: Guard,
-    /// Since when the robot stands, and the number of the camera's picture then: only a newer one counts.
+    /// When the robot had stopped, and the camera's picture number then. Only a later picture
+    /// counts.
     stood: Option<(Instant, u64)>,
 }
 
@@ -59,7 +60,7 @@ mod tests {
     use super::*;
     use crate::fake::Fake;
 
-    /// What it learns before what is ahead; none where that is nothing special.
+    /// Returns what the actor learns; `None` if nothing in the picture stands out.
     fn learn(robot: &mut Fake) -> Result<Option<Appearance>, Fault> {
         let inputs = Inputs { share: 0.2 };
         let state = robot.run::<templates::LearnObject, LearnObject>(inputs, || Live {}, 5)?;

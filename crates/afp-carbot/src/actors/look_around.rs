@@ -1,4 +1,4 @@
-//! Look around, standing still, and keep how far it is in every direction.
+//! Look around and map the distance in every direction.
 
 use crate::devices::{Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
 use crate::helpers::line_fit::Return;
@@ -8,7 +8,7 @@ use crate::templates;
 use crate::templates::look_around::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Sweeps the range sensor from one side to the other and makes a map of the echoes.
+/// Sweeps the range sensor from side to side and makes a map of the echoes.
 #[derive(Clone, Debug)]
 pub struct LookAround {
     sweep: Sweep,

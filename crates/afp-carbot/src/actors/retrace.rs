@@ -1,4 +1,4 @@
-//! Go back by the path on which the robot came.
+//! Drive back along the robot's path.
 
 use crate::devices::{Motion, Navigator, Odometry};
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
@@ -10,31 +10,31 @@ use crate::templates::retrace::{Inputs, Live, State};
 use afp_core::quantity::Length;
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// A place counts as reached within this, metres.
+/// A place is reached within this distance, metres.
 const CLOSE: f64 = 0.004;
 
-/// Drives and turns back along the trail that the platform keeps; beyond its end straight back.
+/// Drives and turns back along the platform's trail, and straight back beyond its end.
 #[derive(Clone, Debug)]
 pub struct Retrace {
-    /// How far back, metres.
+    /// Distance to drive back, metres.
     distance: f64,
     speed: f64,
     tracking: Tracking,
     odometry: Guard,
-    /// The path; none until the first reading.
+    /// `None` until the first reading.
     path: Option<PathBack>,
 }
 
-/// What is left of the path back.
+/// The rest of the path back.
 #[derive(Clone, Debug)]
 struct PathBack {
     trail: Trail,
-    /// Where the robot came from to where it goes now.
+    /// Start and end of the current leg.
     from: Pose,
     to: Pose,
-    /// From there on, metres.
+    /// Distance left after this leg, metres.
     rest: f64,
-    /// What a turn counts.
+    /// Weight of a turn, per radian.
     lever: Length,
 }
 
@@ -46,7 +46,7 @@ impl PathBack {
         path
     }
 
-    /// Goes on to the place before, or as far towards it as is left.
+    /// Starts the leg to the previous place, or the part of it that is left.
     fn next(&mut self) {
         self.from = self.to;
         let before = self.trail.place(1);
@@ -63,7 +63,7 @@ impl PathBack {
         self.rest = (self.rest - leg.max(CLOSE)).max(0.0);
     }
 
-    /// How far the robot is from where it goes, along the leg; negative beyond it.
+    /// Distance to the end of the leg, along it; negative beyond the end.
     fn left(&self, here: &Pose) -> f64 {
         let lever = self.lever.si();
         let part = |from: &Pose, to: &Pose| {
@@ -74,8 +74,8 @@ impl PathBack {
         along / self.from.distance_to(&self.to, self.lever).max(CLOSE)
     }
 
-    /// Where to, once all that is reached already is behind: ahead in metres and to the left in radians, and how far it is
-    /// to the end. None at the end.
+    /// Skips the places that are reached. Returns the distance ahead in metres, the turn to the
+    /// left in radians, and the distance to the end; `None` at the end.
     fn ahead(&mut self, motion: &Motion) -> Option<(f64, f64, f64)> {
         let here = Pose::from(*motion);
         while self.left(&here) < CLOSE {
@@ -122,7 +122,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
 }
 
 impl Retrace {
-    /// What the odometry says; takes the path that it lies at the end of.
+    /// Reads the odometry; the first reading starts the path.
     fn look<E>(&mut self, env: &E, now: Instant) -> Result<Option<Motion>, Fault>
     where
         E: Navigator + Odometry + ?Sized,

@@ -1,10 +1,10 @@
-//! Look around, standing still, and find the wall.
+//! Look around and find the wall.
 //!
-//! A wide sweep shows, too, what stands where the robot would drive along that wall: then it turns on, into the corner or out of the
-//! nook, until nothing does.
+//! A wide sweep also shows obstacles along that wall. The robot then turns further, into the corner
+//! or out of the nook, until the lane is free.
 //!
-//! What stands lower than the range sensor is felt and not heard. So that the robot does not go along the wall that led it there
-//! again and again, what it has just felt counts as a wall where it would be met once more.
+//! The bumper feels obstacles below the range sensor's beam. A recent bump counts as a wall if the
+//! robot would hit it again; otherwise the wall would lead the robot there repeatedly.
 
 use crate::devices::{Bump, Motion, Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
 use crate::helpers::line_fit::{MOST, Return, fit};
@@ -16,25 +16,27 @@ use afp_core::quantity::Angle;
 use afp_core::{Actor, Duration, Fault, Instant, Poll};
 use heapless::Vec;
 
-/// A wall ahead is put on the right side by this much more than its bearing.
+/// The turn from a wall's bearing that puts it on the right side.
 const QUARTER: f64 = core::f64::consts::FRAC_PI_2;
 
-/// What was felt is put on the right side, and by this much behind: nothing is heard of it, so it is to be left.
+/// Extra turn away from a bump, radians: the sensor does not hear the obstacle, so the robot must
+/// leave it.
 const AWAY: f64 = 30.0 / 180.0 * core::f64::consts::PI;
-/// What is heard farther to either side than this is no wall that the robot faces, radians.
+/// Echoes farther aside than this are not from a wall that the robot faces, radians.
 const FACED: f64 = 62.0 / 180.0 * core::f64::consts::PI;
-/// Where something was heard in the lane along the wall, nearer than this to the robot's front and within this beside its body, the
-/// robot turns on, in such steps and so far at most: into a corner, and out of a nook. Metres and radians.
+/// The lane along the wall is blocked by an echo nearer than `AHEAD` to the robot's front and
+/// within `BESIDE` of its side, in metres. The robot then turns further by up to `STEPS` steps of
+/// `STEP` radians, into a corner or out of a nook.
 const AHEAD: f64 = 0.25;
 const BESIDE: f64 = 0.03;
 const STEP: f64 = 5.0 / 180.0 * core::f64::consts::PI;
 const STEPS: u32 = 24;
-/// What was felt longer ago than this may be gone, or the odometry be off.
+/// An older bump is ignored: the obstacle may be gone and the odometry may have drifted.
 const RECENT: Duration = Duration::from_secs(15);
-/// What was felt farther away than this is not met before the next look around, metres.
+/// The robot looks around again before it meets a bump farther away than this, metres.
 const NEAR: f64 = 1.0;
 
-/// Sweeps the range sensor from one side to the other and fits one wall to the echoes.
+/// Sweeps the range sensor from side to side and fits one wall to the echoes.
 #[derive(Clone, Debug)]
 pub struct SearchWall {
     sweep: Sweep,
@@ -55,7 +57,7 @@ where
         let Some(heard) = self.sweep.poll(env, now)? else { return Ok(Poll::Pending) };
         let heard_at = Return::of(&heard.echo);
         if heard_at.range <= self.range {
-            // A sweep has fewer steps than there is room for; what is too much does not count.
+            // A sweep has fewer steps than `MOST`.
             let _ = self.returns.push(heard_at);
         }
         if !heard.last {
@@ -81,7 +83,7 @@ impl SearchWall {
     fn result(&self, half_beam: f64, felt: Option<Felt>, lane: Lane) -> State {
         let mut ahead = Vec::<Return, MOST>::new();
         for faced in self.returns.iter().filter(|it| it.bearing.abs() <= FACED) {
-            // They are no more than there is room for.
+            // `ahead` holds as many as `returns`.
             let _ = ahead.push(*faced);
         }
         let Some(wall) = fit(&ahead, half_beam) else { return State::NoWallFound };
@@ -92,17 +94,18 @@ impl SearchWall {
     }
 }
 
-/// What the robot needs ahead of it once it has turned along the wall, metres from its turning centre.
+/// Space that the robot needs after it has turned along the wall, metres from its turning centre.
 #[derive(Clone, Copy, Debug)]
 struct Lane {
-    /// Where the range sensor is, ahead of the turning centre.
+    /// Distance of the range sensor ahead of the turning centre.
     sensor: f64,
     ahead: f64,
     aside: f64,
 }
 
 impl Lane {
-    /// The first bearing from this one on to the left in which nothing was heard in the lane; this one if there is none.
+    /// Returns the first bearing from `along` to the left with a free lane; `along` if there is
+    /// none.
     fn free_from(&self, along: f64, returns: &[Return]) -> f64 {
         let mut bearings = (0..=STEPS).map(|step| along + f64::from(step) * STEP);
         bearings.find(|bearing| !returns.iter().any(|it| self.holds(*bearing, it))).unwrap_or(along)
@@ -117,29 +120,29 @@ impl Lane {
     }
 }
 
-/// What the bumper felt, seen from where the robot stands.
+/// A bump, relative to the robot's current pose.
 #[derive(Clone, Copy, Debug)]
 struct Felt {
-    /// Ahead and to the left, metres.
+    /// Metres ahead and to the left.
     at: [f64; 2],
-    /// Where the bumper pointed, against the heading now.
+    /// The bumper's direction against the current heading.
     facing: f64,
-    /// Nothing is met that is farther to the side than this, metres.
+    /// The robot passes the bump at a greater lateral distance than this, metres.
     aside: f64,
 }
 
 impl Felt {
-    /// A bump of a robot that has moved since; its body reaches so far to the front and to either side.
+    /// `front` and `side` are the extent of the body.
     fn new(bump: &Bump, now: &Motion, [front, side]: [f64; 2]) -> Self {
         let facing = (bump.at.heading - now.heading).si();
         let (ahead, left) = bump.at.seen_from(now);
         let (sin, cos) = libm::sincos(facing);
-        // It may reach as far to either side as the bumper does.
+        // The obstacle may be as wide as the bumper.
         let at = [ahead.si() + front * cos, left.si() + front * sin];
         Felt { at, facing, aside: 2.0 * side }
     }
 
-    /// Whether the robot meets it when it turns to a bearing and drives on.
+    /// Whether the robot hits it again if it turns to a bearing and drives on.
     fn is_met(&self, bearing: f64) -> bool {
         let (sin, cos) = libm::sincos(bearing);
         let [ahead, left] = self.at;
@@ -196,7 +199,7 @@ mod tests {
         assert!((turn(60.0) - 90.0).abs() < 3.0, "{}: it has not looked there", turn(60.0));
     }
 
-    /// The turn after a bump at a place straight ahead, with a wall on the right; so long ago.
+    /// The turn for a wall on the right and a bump straight ahead, `seconds` after the bump.
     fn after_bump(x: f64, y: f64, seconds: u64) -> f64 {
         let mut robot = Fake::new(&[plane(-60.0, 0.7)]);
         robot.now = Instant::ZERO + Duration::from_secs(60);

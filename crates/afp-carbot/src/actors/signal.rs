@@ -1,4 +1,4 @@
-//! Show something by light and sound.
+//! Signal by light and sound.
 
 use crate::devices::{Navigator, Signals};
 use crate::templates;
@@ -6,13 +6,13 @@ use crate::templates::signal_::{Inputs, Live, State};
 use afp_core::quantity::Frequency;
 use afp_core::{Actor, Duration, Fault, Instant, Poll};
 
-/// Blinks and beeps a number of times, standing still.
+/// Blinks and beeps a number of times while the robot is stationary.
 #[derive(Clone, Debug)]
 pub struct Signal {
     light: bool,
     tone: Option<Frequency>,
     half: Duration,
-    /// Changes between on and off that are left, and when the next one is due.
+    /// Remaining changes between on and off, and the time of the next one.
     left: i64,
     next: Instant,
 }

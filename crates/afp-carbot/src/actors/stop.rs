@@ -6,7 +6,7 @@ use crate::templates;
 use crate::templates::stop::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Asks for a standstill until the odometry sees one.
+/// Commands a standstill until the odometry confirms it.
 #[derive(Clone, Debug)]
 pub struct Stop {
     odometry: Guard,

@@ -7,7 +7,7 @@ use crate::templates;
 use crate::templates::turn::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Turns by an angle against the heading it starts with, by odometry.
+/// Turns by an angle from the initial heading, by odometry.
 #[derive(Clone, Debug)]
 pub struct Turn {
     turning: Turning,

@@ -8,7 +8,7 @@ use crate::templates;
 use crate::templates::turn_to_infrared::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Turns left until it sees light, then towards it.
+/// Turns left until the sensor sees light, then towards it.
 #[derive(Clone, Debug)]
 pub struct TurnToInfrared {
     seeking: Seeking,

@@ -1,9 +1,9 @@
 //! Drive along a wall on the right side.
 //!
-//! The range sensor looks square at the wall most of the time and glances ahead in between, more
-//! often the nearer something is. Between glances the way driven is subtracted from what the last
-//! one saw. Steering follows a line through the latest echoes of the wall, so a glance or a
-//! dropout does not disturb it.
+//! The range sensor mostly points square at the wall. It glances ahead in between, more often if an
+//! obstacle is near. Between glances the distance driven is subtracted from the last glance.
+//! Steering follows a line through the latest echoes of the wall, so that a glance or a dropout
+//! does not disturb it.
 
 mod glance;
 mod track;
@@ -22,7 +22,7 @@ use afp_core::{Actor, Fault, Instant, Poll};
 use glance::Glance;
 use track::Track;
 
-/// Heading against the wall per metre of deviation, at gain 1, radians.
+/// Heading towards the wall per metre of deviation at gain 1, radians.
 const APPROACH: f64 = 4.0;
 /// The steepest heading against the wall, radians.
 const STEEPEST: f64 = 35.0 / 180.0 * core::f64::consts::PI;
@@ -32,13 +32,13 @@ const STEERING: f64 = 4.0;
 const FASTEST_TURN: f64 = 1.4;
 /// A heading error of this size halves the speed, radians.
 const SLOWING: f64 = 20.0 / 180.0 * core::f64::consts::PI;
-/// Driving on for so long without the wall means that it ended, metres.
+/// The wall has ended after this distance without an echo, metres.
 const LOST: f64 = 0.35;
-/// Looking so often for a wall that has not been heard yet means that there is none, once the robot has driven far enough.
+/// There is no wall after this many silent looks at its side, if the robot has driven far enough.
 const LOOKS: u8 = 3;
-/// The beam may look this far beside the wall's normal for an echo to count, radians.
+/// An echo counts up to this angle between the beam and the wall's normal, radians.
 const SQUARE: f64 = 25.0 / 180.0 * core::f64::consts::PI;
-/// The step counts as driven when less than this is left, metres.
+/// The step is complete when less than this is left, metres.
 const CLOSE: f64 = 0.004;
 
 /// Follows a wall on the right at a distance from the body's side.
@@ -51,19 +51,19 @@ pub struct WallForward {
     arrival: Arrival,
     last_ping: Instant,
     course: Option<Course>,
-    /// What the actor ends with as soon as the robot stands.
+    /// The final state, reported when the robot has stopped.
     ending: Option<State>,
 }
 
-/// What is known once the first odometry has come in.
+/// Progress since the first odometry.
 #[derive(Clone, Debug)]
 struct Course {
     last: Motion,
-    /// The way driven, metres.
+    /// Distance driven, metres.
     driven: f64,
-    /// `driven` when the wall was last heard near enough.
+    /// `driven` at the last echo of the wall that was near enough.
     heard: f64,
-    /// Pings that went square to where the wall should be, as far as they count.
+    /// Pings square to the expected wall, as far as they count.
     looks: u8,
     track: Track,
     glance: Glance,
@@ -130,13 +130,14 @@ impl WallForward {
         env.point(Angle::from_si(course.bearing()), now);
     }
 
-    /// Commands the speed and the turn rate that lead to the wall's distance.
+    /// Commands the speed and turn rate that lead to the wanted distance.
     ///
     /// # Errors
     /// As [`Tracking::drive`].
     fn steer<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
         let Some(course) = &self.course else { return Ok(()) };
-        // Nothing moves before the first glance ahead, nor blindly, long before the guard's patience ends.
+        // The robot waits for the first glance ahead, and stops without echoes long before the
+        // guard's timeout.
         if course.glance.free(course.driven).is_none() || now.since(self.last_ping) > LATE {
             self.tracking.halt(env, now);
             return Ok(());
@@ -156,7 +157,7 @@ impl WallForward {
 }
 
 impl Course {
-    /// `heard` is how far before the front the sensor hears something, metres.
+    /// `heard` is the sensor's range beyond the front, metres.
     fn new(motion: Motion, inputs: &Inputs, heard: f64) -> Self {
         Course {
             last: motion,
@@ -174,7 +175,7 @@ impl Course {
         self.last = motion;
     }
 
-    /// Where the sensor should point: square at the wall, or ahead for a glance.
+    /// The sensor's target bearing: square at the wall, or ahead for a glance.
     fn bearing(&self) -> f64 {
         self.glance.bearing().unwrap_or_else(|| self.square())
     }
@@ -185,7 +186,7 @@ impl Course {
         wrap(self.track.heading() - core::f64::consts::FRAC_PI_2 - heading)
     }
 
-    /// Takes an echo for the wall or for the lane ahead, by where the sensor pointed.
+    /// Uses an echo for the wall or for the lane ahead, by the sensor's bearing.
     fn on_echo<E: Navigator + Ultrasonic + ?Sized>(
         &mut self,
         echo: &Echo,
@@ -209,7 +210,7 @@ impl Course {
         }
     }
 
-    /// How the drive ends, if it does now.
+    /// The final state, if the drive ends now.
     fn ending(&self, inputs: &Inputs) -> Option<State> {
         if self.glance.blocked(self.driven, self.last.speed.si()) {
             return Some(State::LaneNotFree);

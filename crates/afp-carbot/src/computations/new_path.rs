@@ -1,4 +1,4 @@
-//! A path to begin with.
+//! An empty path to begin with.
 
 use crate::objects::Path;
 use crate::templates;

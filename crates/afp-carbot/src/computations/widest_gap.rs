@@ -7,20 +7,20 @@ use crate::templates::widest_gap::{Inputs, State};
 use afp_core::quantity::{Angle, Length};
 use afp_core::{Computation, Fault};
 
-/// Takes the widest run of neighbouring directions that are free far enough.
+/// Finds the widest run of neighbouring directions that are free far enough.
 ///
-/// A beam is wide: what stands beside a gap is heard half a beam before the sensor points at it. A gap is so never taken
-/// for wider than it is, and one that is narrower than the beam is not found. A surface that sends no sound
-/// back cannot be told from free space here; whoever drives into a gap watches the lane.
+/// A wide beam hears an obstacle next to a gap half a beam early. So a gap is never overestimated,
+/// and gaps narrower than the beam are not found. Surfaces that reflect no sound look like free
+/// space; watch the lane while driving into a gap.
 #[derive(Clone, Copy, Debug)]
 pub struct WidestGap;
 
-/// Neighbouring directions that are free: the first and the last, radians.
+/// A run of free neighbouring directions: the first and the last, radians.
 #[derive(Clone, Copy, Debug)]
 struct Gap(f64, f64);
 
 impl Gap {
-    /// Each direction stands for half a step to either side.
+    /// Each direction covers half a step to either side.
     fn angle(self) -> f64 {
         (self.1 - self.0).abs() + STEP
     }
@@ -29,7 +29,7 @@ impl Gap {
         (self.0 + self.1) / 2.0
     }
 
-    /// The wider one; of two that are alike the one that is nearer to the heading.
+    /// The wider gap; of equally wide gaps, the gap nearer to the heading.
     fn better(self, other: Gap) -> Gap {
         let wider = other.angle() - self.angle();
         let alike = wider.abs() < STEP / 2.0;
@@ -37,7 +37,7 @@ impl Gap {
         if (alike && ahead) || (!alike && wider > 0.0) { other } else { self }
     }
 
-    /// How wide it is at a distance: the chord, at most the whole circle's diameter.
+    /// Width at a distance: the chord, at most the diameter of the circle.
     fn width(self, distance: f64) -> f64 {
         2.0 * distance * libm::sin(self.angle().min(core::f64::consts::PI) / 2.0)
     }
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
     use crate::objects::DistanceMap;
 
-    /// The map of a sweep to 120 deg in which the given stretches, in degrees, are `near` metres away.
+    /// A sweep to 120 deg; the given stretches, in degrees, are `near` metres away.
     fn map(near: f64, stretches: &[(i32, i32)], leftward: bool) -> DistanceMap {
         let mut map = DistanceMap::default();
         for n in 0..49 {

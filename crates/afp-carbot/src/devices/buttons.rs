@@ -5,7 +5,7 @@ use super::Reading;
 /// A button that a plan may watch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Button {
-    /// The one that asks the plan to end.
+    /// Asks the plan to end.
     Escape,
 }
 

@@ -1,23 +1,23 @@
-//! The camera that looks ahead.
+//! The forward camera.
 
 use super::Reading;
 use afp_core::quantity::{Angle, Length};
 
-/// A picture, owned by the driver until the next one.
+/// A picture, owned by the driver until the next picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
     /// Red, green and blue of each pixel, row by row from the top left: `3 * width * height` bytes.
     pub rgb: &'a [u8],
-    /// The number of the picture, from 1; one that was not delivered leaves a gap.
+    /// Picture number from 1; a lost picture leaves a gap.
     pub number: u64,
 }
 
 impl Frame<'_> {
-    /// Red, green and blue of the pixel in column `x` of row `y`; none beyond the picture.
+    /// Red, green and blue of the pixel in column `x` of row `y`; `None` outside the picture.
     pub fn pixel(&self, x: usize, y: usize) -> Option<[u8; 3]> {
         if x >= self.width {
             return None;
@@ -27,16 +27,16 @@ impl Frame<'_> {
     }
 }
 
-/// How the camera is mounted and what it covers.
+/// Mounting and field of view of the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// The camera sits this far in front of the turning centre.
+    /// Distance of the camera in front of the turning centre.
     pub forward: Length,
-    /// And this far above the floor. It looks ahead, level.
+    /// Height of the camera above the floor. It looks ahead, level.
     pub height: Length,
-    /// The whole angle that a row covers; pixels are square.
+    /// Horizontal field of view, the whole angle; pixels are square.
     pub opening: Angle,
-    /// Pixels a row.
+    /// Pixels per row.
     pub columns: usize,
     /// Rows.
     pub rows: usize,
@@ -49,12 +49,12 @@ impl Lens {
     }
 }
 
-/// A camera that takes pictures by itself, some times a second.
+/// A camera that takes pictures at its own rate.
 pub trait Camera {
-    /// The latest picture; its time is when it was taken.
+    /// The latest picture; its time is the time of exposure.
     fn frame(&self) -> Reading<Frame<'_>>;
 
-    /// How the camera is mounted and what it covers.
+    /// Mounting and field of view.
     fn lens(&self) -> Lens;
 }
 

@@ -2,7 +2,7 @@
 
 use super::Reading;
 
-/// How much of each colour of its own white light comes back: 0 nothing, 1 all of it.
+/// The reflected share of each colour of the sensor's white light, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Color {
     /// Red.
@@ -14,7 +14,7 @@ pub struct Color {
 }
 
 impl Color {
-    /// How much of the light comes back in all, 0 to 1, as the eye weighs it.
+    /// Luminance: the reflected share of all light, 0 to 1, as the eye weighs it.
     pub fn reflectance(&self) -> f64 {
         0.2126 * self.red + 0.7152 * self.green + 0.0722 * self.blue
     }
@@ -22,7 +22,7 @@ impl Color {
 
 /// A colour sensor under the front of the robot.
 pub trait ColorSensor {
-    /// The colour of the floor below.
+    /// The colour of the floor.
     fn color(&self) -> Reading<Color>;
 }
 

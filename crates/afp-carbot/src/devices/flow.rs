@@ -1,27 +1,27 @@
-//! How the picture moves: the flow from one picture of the camera to the next.
+//! Optical flow between two pictures of the camera.
 
 use super::{Camera, Reading};
 use afp_core::{Duration, Fault, Instant};
 
-/// The places of a picture at which the flow is measured: columns and rows at equal distances.
+/// The places at which the flow is measured: equidistant columns and rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
-    /// The pixel of the first place: its column and row.
+    /// Column and row of the first place, in pixels.
     pub first: (usize, usize),
-    /// Pixels from one place to the next, to the right and down.
+    /// Distance between places to the right and down, in pixels.
     pub step: usize,
-    /// Places a row.
+    /// Places per row.
     pub columns: usize,
     /// Rows.
     pub rows: usize,
 }
 
 impl Grid {
-    /// A grid has at most so many places: templates have room for them.
+    /// Upper bound of the number of places; templates reserve memory for it.
     pub const MOST: usize = 512;
 
-    /// Places every `step` pixels, centred, none of them nearer than `margin` to the edge of a picture
-    /// of this size. A `step` of 0 counts as 1.
+    /// Places every `step` pixels, centred, with at least `margin` pixels to the picture's edges. A
+    /// `step` of 0 counts as 1.
     pub const fn new(width: usize, height: usize, step: usize, margin: usize) -> Self {
         let step = if step == 0 { 1 } else { step };
         let (first_x, columns) = spread(width, step, margin);
@@ -29,24 +29,24 @@ impl Grid {
         Grid { first: (first_x, first_y), step, columns, rows }
     }
 
-    /// How many places there are.
+    /// The number of places.
     pub const fn len(&self) -> usize {
         self.columns * self.rows
     }
 
-    /// Whether there is none.
+    /// Whether there are no places.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The pixel of the `n`-th place, row by row from the top left: its column and row.
+    /// Column and row of the `n`-th place, in pixels; places count row by row from the top left.
     pub const fn pixel(&self, n: usize) -> (usize, usize) {
         let columns = if self.columns == 0 { 1 } else { self.columns };
         (self.first.0 + n % columns * self.step, self.first.1 + n / columns * self.step)
     }
 }
 
-/// The first place and how many there are, along one side of a picture.
+/// The first place and the number of places along one side of a picture.
 const fn spread(size: usize, step: usize, margin: usize) -> (usize, usize) {
     match size.checked_sub(2 * margin + 1) {
         Some(room) => (margin + room % step / 2, room / step + 1),
@@ -54,7 +54,7 @@ const fn spread(size: usize, step: usize, margin: usize) -> (usize, usize) {
     }
 }
 
-/// How far what was at a place has moved, in pixels.
+/// Displacement of a place, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shift {
     /// To the right.
@@ -63,25 +63,25 @@ pub struct Shift {
     pub down: f32,
 }
 
-/// The flow from one picture to the next.
+/// The flow between two pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow<'a> {
-    /// Where it is measured, in the earlier picture.
+    /// The places, in the earlier picture.
     pub grid: Grid,
-    /// What has happened to each place; none where that cannot be told: too little to be seen there, gone
-    /// out of the picture, or hidden.
+    /// The displacement of each place; `None` if unknown: too little texture, out of the picture,
+    /// or hidden.
     pub shifts: &'a [Option<Shift>],
-    /// The time from the earlier picture to the later one.
+    /// Time between the pictures.
     pub span: Duration,
 }
 
-/// A camera that measures how its pictures move.
+/// A camera that measures optical flow.
 pub trait FlowCamera: Camera {
-    /// The flow to the latest picture of which it is known; its time is that of the picture. Asking
-    /// begins the computation for a newer picture, so who wants the flow asks at every poll.
+    /// The flow to the latest processed picture; the reading's time is that picture's time. The
+    /// call also starts the computation for a newer picture, so call it at every poll.
     ///
-    /// A camera that says the same picture over and over gives [`Invalid::Frozen`], never a flow
-    /// without motion.
+    /// A camera that repeats the same picture gives [`Invalid::Frozen`], never a flow without
+    /// motion.
     ///
     /// # Errors
     /// The computation failed.

@@ -1,10 +1,10 @@
-//! Where the robot is on its map, as far as it can tell.
+//! Position estimate of the robot on its map.
 
 use super::Reading;
 use afp_core::quantity::{Angle, Length};
 use afp_core::{Fault, Instant};
 
-/// Where the robot takes itself to be, in the frame of its map.
+/// The robot's estimated pose, in the map frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Belief {
     /// Position along the map's x axis.
@@ -13,15 +13,15 @@ pub struct Belief {
     pub y: Length,
     /// Heading against the x axis, within half a turn.
     pub heading: Angle,
-    /// How far from there it may be: root mean square of what is held possible.
+    /// Uncertainty of the position: root mean square.
     pub spread: Length,
-    /// The same of the heading.
+    /// Uncertainty of the heading: root mean square.
     pub heading_spread: Angle,
 }
 
-/// Finds the robot on a map that it was given, by its sensors. It errs, and it may be lost; nothing tells the true pose.
+/// Localises the robot on a given map by its sensors. The estimate errs, and the robot may be lost.
 pub trait Localisation {
-    /// The belief now. Who asks for it first makes the robot begin to look for itself, if it has not before.
+    /// The current estimate. The first call starts the localisation.
     ///
     /// # Errors
     /// The computation failed.

@@ -1,4 +1,4 @@
-//! The drive: speeds in, motion out.
+//! The drive.
 
 use afp_core::Instant;
 use afp_core::quantity::{AngularSpeed, Length, Speed};
@@ -15,13 +15,14 @@ pub struct Body {
 }
 
 impl Body {
-    /// How far its farthest corner is from the turning centre: it turns in place wherever nothing is nearer than this.
+    /// Distance of the farthest corner from the turning centre: the free radius for a turn in
+    /// place.
     pub fn radius(&self) -> Length {
         let length = self.front.si().max(self.rear.si());
         Length::from_si(libm::hypot(length, self.half_width.si()))
     }
 
-    /// What a turn by a radian counts as, beside what is driven: so far it carries the farthest of the body's sides.
+    /// Weight of a turn against a distance, per radian: the farthest extent of the body.
     pub fn lever(&self) -> Length {
         let length = self.front.si().max(self.rear.si());
         Length::from_si(length.max(self.half_width.si()))
@@ -30,28 +31,29 @@ impl Body {
 
 /// The drive controller.
 ///
-/// It keeps a commanded motion only for its dead-man time: a driver that stops sending commands
-/// stops the robot. Whether the robot really stands is [`super::Odometry`]'s to tell.
+/// It keeps a commanded motion only for its dead-man time, so a driver that stops sending commands
+/// stops the robot. [`super::Odometry`] reports whether the robot has stopped.
 pub trait Navigator {
-    /// Asks for a speed ahead (negative: backwards) and a turn rate, until further notice or the
-    /// end of the dead-man time. Values beyond what the robot can do are reduced, both by the same
-    /// factor, so that the robot keeps to the curve. The robot stops from any motion that is left within the
-    /// stop time that the templates declare.
+    /// Commands a forward speed (negative: backwards) and a turn rate until the next command or the
+    /// end of the dead-man time. Values beyond the robot's limits are reduced by one common factor,
+    /// so that the robot keeps to the curve. The robot stops from every motion within the stop time
+    /// that the templates declare.
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant);
 
-    /// What of a command the robot can do, by default all of it: what it will do when told so. Templates compare the
-    /// odometry with this, so a robot that reduces commands says how.
+    /// The motion with which the robot follows a command; by default the command itself. Templates
+    /// compare the odometry with this, so override it if your robot reduces commands.
     fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
         (speed, turn)
     }
 
-    /// Asks for a standstill.
+    /// Commands a standstill.
     fn halt(&mut self, now: Instant) {
         self.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0), now);
     }
 
-    /// The drive, told to go ahead, did not: something that no sensor may show stands right before the robot. A platform that
-    /// keeps what was met keeps this, too, and plans ways round it; by default nobody does.
+    /// Notes that the drive did not move forward as commanded: an obstacle that no sensor shows may
+    /// be right in front. A platform that remembers obstacles stores it and plans around it; by
+    /// default it is ignored.
     fn note_blocked(&mut self, now: Instant) {
         let _ = now;
     }

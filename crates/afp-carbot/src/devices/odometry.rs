@@ -4,27 +4,28 @@ use super::{Motion, Reading};
 use crate::helpers::trail::Trail;
 use afp_core::Instant;
 
-/// Where the robot was when its bumper was pressed.
+/// The robot's position when its bumper was pressed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bump {
-    /// By the odometry.
+    /// The position by odometry.
     pub at: Motion,
-    /// When it was last pressed there.
+    /// Last time at which the bumper was pressed there.
     pub time: Instant,
 }
 
-/// Dead reckoning. It drifts with time and way; nothing corrects it.
+/// Dead reckoning. It drifts with time and distance, uncorrected.
 pub trait Odometry {
-    /// The motion counted so far.
+    /// The motion since the start.
     fn motion(&self) -> Reading<Motion>;
 
-    /// Where the bumper was last pressed; none before, or where nobody keeps it. Templates last for an element of a plan,
-    /// what was met stays where it is: so the platform keeps it.
+    /// The place of the last bump; `None` before the first or if the platform does not keep it. The
+    /// platform keeps it because templates live only as long as their element, but the obstacle
+    /// stays.
     fn last_bump(&self) -> Option<Bump> {
         None
     }
 
-    /// The way by which the robot came; nothing is known where nobody keeps it, and then what goes back goes straight back.
+    /// The robot's recent path. By default it is empty, and templates then drive straight back.
     fn trail(&self) -> Trail {
         Trail::new()
     }

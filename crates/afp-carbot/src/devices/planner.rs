@@ -1,49 +1,49 @@
-//! Paths on the map, searched for by a job.
+//! Path search on the map, as a job.
 
 use crate::objects::Path;
 use afp_core::quantity::Length;
 use afp_core::{Fault, Instant, Poll, Ticket};
 
-/// What a way is looked for between, in the frame of the map.
+/// Start and goal of a path, in the map frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trip<'a> {
-    /// Where it begins: x and y.
+    /// Start: x and y.
     pub from: (Length, Length),
-    /// Where it leads.
+    /// The goal.
     pub to: Aim<'a>,
 }
 
-/// Where a way leads, in the frame of the map.
+/// The goal of a path, in the map frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Aim<'a> {
-    /// To a place.
+    /// A place.
     Place {
         /// Its x and y.
         at: (Length, Length),
-        /// A place so near to it will do where it is not free itself.
+        /// If the place is not free, another place within this distance is accepted.
         near: Length,
     },
-    /// To where much is in sight that has not been yet, and that is not far.
+    /// A near place with much unseen space in sight.
     View {
-        /// From these places one has looked around.
+        /// The robot has looked around at these places.
         seen: &'a Path,
-        /// So far one sees.
+        /// Range of sight.
         sight: Length,
     },
 }
 
-/// Searches for ways on the map that the platform was given, and on what its sensors have found since. The search is a job
-/// on a worker of the platform.
+/// Searches for paths on the platform's map and on its sensors' findings. The search is a job on a
+/// worker of the platform.
 pub trait PathPlanner {
-    /// Begins a search. None while all that can be searched for at a time is; ask again at the next poll.
+    /// Begins a search. `None` while the search queue is full; ask again at the next poll.
     ///
     /// # Errors
-    /// Searches have panicked.
+    /// A search has panicked.
     fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault>;
 
-    /// What a search has found, once; `None` inside where no way leads there.
+    /// Returns the result of a search, once; the inner `None` means that there is no path.
     ///
     /// # Errors
-    /// The search failed, or has been asked after before.
+    /// The search failed, or its result was fetched before.
     fn found(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<Option<Path>>, Fault>;
 }

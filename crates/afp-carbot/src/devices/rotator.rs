@@ -6,12 +6,12 @@ use afp_core::quantity::Angle;
 
 /// A servo that points the range sensor.
 pub trait Rotator {
-    /// Asks for a bearing against the heading. The servo takes its time; a bearing beyond its
-    /// reach is reduced to the last one within.
+    /// Commands a bearing against the heading. The servo takes time; a bearing beyond its reach is
+    /// clamped.
     fn point(&mut self, bearing: Angle, now: Instant);
 }
 
-/// Where the rotator really is.
+/// Position feedback of the rotator.
 pub trait RotatingTelemetry {
     /// The actual bearing against the heading.
     fn bearing(&self) -> Reading<Angle>;

@@ -5,6 +5,6 @@ use afp_core::quantity::Frequency;
 
 /// A lamp and a loudspeaker.
 pub trait Signals {
-    /// Switches the lamp, and lets a tone sound or none, until further notice.
+    /// Switches the lamp, and starts or stops a tone, until the next command.
     fn signal(&mut self, light: bool, tone: Option<Frequency>, now: Instant);
 }

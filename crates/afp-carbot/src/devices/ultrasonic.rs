@@ -3,36 +3,35 @@
 use super::{Invalid, Reading};
 use afp_core::quantity::{Angle, Length};
 
-/// One ping and what came back.
+/// One ping and its echo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Echo {
-    /// Distance from the sensor to the nearest thing that sent sound back, or none where the
-    /// sensor listened for its whole range and heard nothing. A smooth wall at a slant also
-    /// sends nothing back.
+    /// Distance from the sensor to the nearest reflecting object; `None` if the sensor heard
+    /// nothing within its range. A smooth wall at a slant reflects nothing, too.
     pub distance: Option<Length>,
-    /// Where the sensor pointed when it sent the ping, against the heading.
+    /// Bearing of the sensor at the ping, against the heading.
     pub bearing: Angle,
 }
 
-/// How the sensor is mounted and what it covers.
+/// Mounting and range of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beam {
-    /// The rotator's axis lies this far in front of the turning centre.
+    /// Distance of the rotator's axis in front of the turning centre.
     pub forward: Length,
     /// The beam's whole opening angle.
     pub opening: Angle,
-    /// The nearest distance that the sensor can measure.
+    /// The shortest measurable distance.
     pub min: Length,
-    /// The farthest distance that the sensor can measure.
+    /// The longest measurable distance.
     pub max: Length,
 }
 
 impl Beam {
-    /// An echo from a driver's raw number in metres.
+    /// Makes an echo from a driver's raw distance in metres.
     ///
     /// # Errors
-    /// [`Invalid::NotFinite`] for NaN and infinity, [`Invalid::OutOfRange`] outside of what the
-    /// sensor can measure.
+    /// [`Invalid::NotFinite`] for NaN and infinity, [`Invalid::OutOfRange`] outside the measurable
+    /// range.
     pub fn echo(&self, raw: f64, bearing: Angle) -> Result<Echo, Invalid> {
         if !raw.is_finite() || !bearing.si().is_finite() {
             return Err(Invalid::NotFinite);
@@ -44,13 +43,13 @@ impl Beam {
     }
 }
 
-/// A range sensor that pings by itself, many times a second.
+/// A range sensor that pings at its own rate, many times a second.
 pub trait Ultrasonic {
-    /// The latest completed ping; its time is when the sound was sent. Distances come as fine as they are measured: a sensor
-    /// that tells exactly the same one again and again while the robot moves is taken for a frozen one.
+    /// The latest completed ping; its time is when the sound was sent. Report full precision: a
+    /// sensor that repeats exactly the same distance while the robot moves counts as frozen.
     fn echo(&self) -> Reading<Echo>;
 
-    /// How the sensor is mounted and what it covers.
+    /// Mounting and range.
     fn beam(&self) -> Beam;
 }
 

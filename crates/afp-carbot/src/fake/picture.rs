@@ -1,4 +1,4 @@
-//! What the camera of the robot for tests shows: grey, and a red post.
+//! The test robot's camera: a grey picture with a red post.
 
 use crate::devices::{Frame, Lens, Motion};
 use afp_core::quantity::{Angle, Length};
@@ -8,7 +8,7 @@ const COLUMNS: usize = 80;
 const ROWS: usize = 60;
 const GREY: [u8; 3] = [120, 120, 120];
 const RED: [u8; 3] = [180, 40, 40];
-/// Half the width of the post and its height, metres.
+/// Half the width and the height of the post, metres.
 const POST: (f64, f64) = (0.15, 0.3);
 
 /// At the turning centre, 20 cm above the floor.
@@ -34,7 +34,7 @@ impl Picture {
         Frame { width: COLUMNS, height: ROWS, rgb: &self.rgb, number: self.number }
     }
 
-    /// Takes a picture of the post, from where the robot is.
+    /// Takes a picture of the post from the robot's position.
     pub(super) fn take(&mut self, post: Option<(f64, f64)>, motion: &Motion) {
         self.number += 1;
         if post.is_none() {

@@ -1,4 +1,4 @@
-//! What it knows of places, and what it shows.
+//! Positions, searches and signals of the test robot.
 
 use super::{Fake, reading};
 use crate::devices::{Aim, Belief, Localisation, Odometry, PathPlanner, Reading, Signals, Trip};
@@ -7,7 +7,7 @@ use crate::objects::Path;
 use afp_core::quantity::{Angle, Frequency, Length};
 use afp_core::{Duration, Fault, Instant, Poll, Ticket};
 
-/// A search takes so long.
+/// Duration of a search.
 const SEARCH: Duration = Duration::from_millis(50);
 
 impl Localisation for Fake {
@@ -26,7 +26,7 @@ impl Localisation for Fake {
     }
 }
 
-/// Straight on is its way.
+/// Every path is a straight line.
 impl PathPlanner for Fake {
     fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault> {
         let to = match trip.to {

@@ -1,4 +1,4 @@
-//! Driving towards what a sensor sees.
+//! Driving towards a target that a sensor sees.
 
 use crate::devices::{Navigator, Odometry, Reading};
 use crate::helpers::guard::{Guard, NO_ODOMETRY, PATIENCE};
@@ -8,16 +8,16 @@ use crate::helpers::tracking::Tracking;
 use afp_core::quantity::Speed;
 use afp_core::{Fault, Instant};
 
-/// It counts as reached when the distance left is less than this, metres.
+/// The target is reached when the distance left is below this, metres.
 const CLOSE: f64 = 0.005;
-/// How sharply to steer: turn rate per radian off.
+/// Turn rate per radian of error.
 const STEER: f64 = 1.5;
-/// The share of a new reading in what is steered by.
+/// Weight of a new reading in the smoothed target.
 const NEWS: f64 = 0.4;
 
-/// Steers by direction and distance left, smoothed, and stops where no distance is left.
+/// Steers by smoothed direction and distance, and stops when no distance is left.
 ///
-/// What a reading says holds for where the robot was when it was measured; from there the odometry goes on.
+/// A reading applies to the position at which it was measured; the odometry carries it on.
 #[derive(Clone, Debug)]
 pub(crate) struct Approaching {
     speed: f64,
@@ -25,33 +25,33 @@ pub(crate) struct Approaching {
     sensor: Guard,
     odometry: Guard,
     history: History,
-    /// When the latest reading was measured.
+    /// Time of the latest reading.
     last_look: Instant,
-    /// When it was seen last; the beginning counts as seen.
+    /// Time of the last sight; initially the start.
     seen: Instant,
-    /// Smoothed; none before the first sight of it.
+    /// Smoothed; `None` before the first sight.
     target: Option<Target>,
-    /// What the robot comes to a standstill for.
+    /// The outcome, reported when the robot has stopped.
     ending: Option<Approached>,
 }
 
-/// What a sensor sees: where, radians against the heading, and the distance left to it, metres.
+/// A sensor's view of the target: bearing in radians against the heading, distance left in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sight {
     pub(crate) bearing: f64,
     pub(crate) distance: f64,
 }
 
-/// How it ended; the robot stands.
+/// The outcome; the robot has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Approached {
     /// No distance is left.
     Reached,
-    /// It has not been seen for [`PATIENCE`].
+    /// Out of sight for [`PATIENCE`].
     Lost,
 }
 
-/// What is steered by: the heading towards it, radians, and the distance left from a place, metres.
+/// The smoothed target: heading towards it in radians, distance left from a place in metres.
 #[derive(Clone, Copy, Debug)]
 struct Target {
     heading: f64,
@@ -60,7 +60,7 @@ struct Target {
 }
 
 impl Approaching {
-    /// `silent` is the fault of a sensor that says nothing usable.
+    /// `silent` is the fault of a sensor without usable readings.
     pub(crate) fn new<E>(speed: Speed, silent: Fault, env: &mut E, now: Instant) -> Self
     where
         E: Navigator + Odometry + ?Sized,
@@ -81,10 +81,11 @@ impl Approaching {
         }
     }
 
-    /// Goes on with what the sensor says now; none where it sees nothing.
+    /// Steers by the sensor's current reading; `None` in a reading means that nothing is in sight.
     ///
     /// # Errors
-    /// The sensor or the odometry is silent for too long, or the drive does not do what it is told.
+    /// The sensor or the odometry is silent for too long, or the drive does not follow its
+    /// commands.
     pub(crate) fn poll<E>(
         &mut self,
         sight: Reading<Option<Sight>>,
@@ -104,7 +105,7 @@ impl Approaching {
             self.tracking.halt(env, now);
             return Ok(self.ending.filter(|_| motion.is_some_and(|motion| motion.stands())));
         }
-        // Out of sight of it the robot waits: what was ahead may have gone anywhere.
+        // The robot waits while the target is out of sight.
         let in_sight = self.seen == self.last_look && !self.sensor.is_late(now);
         let sighted = target.filter(|_| in_sight).zip(motion);
         let Some(((target, here), motion)) = sighted else {
@@ -118,7 +119,7 @@ impl Approaching {
         Ok(None)
     }
 
-    /// Takes in a new reading of the sensor, if it is one.
+    /// Uses a reading of the sensor if it is new.
     fn look(&mut self, sight: Reading<Option<Sight>>, now: Instant) -> Result<(), Fault> {
         let reading = self.history.placed(sight);
         let Some((sight, then)) = self.sensor.next(reading, self.last_look, now)? else {
@@ -132,7 +133,7 @@ impl Approaching {
         Ok(())
     }
 
-    /// What ends the approach, if something does.
+    /// The outcome, if the approach ends now.
     fn end(&self, target: Option<(Target, Pose)>) -> Option<Approached> {
         if target.is_some_and(|(target, here)| target.distance_from(here) < CLOSE) {
             return Some(Approached::Reached);
@@ -142,13 +143,13 @@ impl Approaching {
 }
 
 impl Target {
-    /// The distance left from another place.
+    /// The distance left from `place`.
     fn distance_from(&self, place: Pose) -> f64 {
         let (sin, cos) = libm::sincos(self.heading);
         self.distance - (place.x - self.from.x) * cos - (place.y - self.from.y) * sin
     }
 
-    /// With a share of something newer.
+    /// Mixes in a new target by its weight.
     fn mixed(&self, new: Target) -> Target {
         let distance = self.distance_from(new.from);
         Target {

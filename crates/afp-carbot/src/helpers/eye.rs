@@ -4,25 +4,26 @@ use crate::devices::{Camera, Invalid, Reading};
 use crate::helpers::sighting::Sighting;
 use crate::objects::Appearance;
 
-/// Knows an object and what the latest picture shows of it.
+/// An object's appearance and its latest sighting.
 #[derive(Clone, Debug)]
 pub(crate) struct Eye {
     look: Appearance,
-    /// The number of the latest picture.
+    /// Number of the latest picture.
     number: u64,
     latest: Reading<Option<Sighting>>,
 }
 
 impl Eye {
-    /// For an object of this appearance. No picture has been looked at yet.
+    /// Ignores the current picture.
     pub(crate) fn new(look: Appearance, env: &(impl Camera + ?Sized)) -> Self {
         let before = env.frame();
-        // What the camera shows now was taken before somebody asked.
+        // The current picture is older than this call.
         let number = before.value.map_or(0, |frame| frame.number);
         Eye { look, number, latest: Reading::invalid(Invalid::NotYet, before.time) }
     }
 
-    /// What the latest picture shows; of the same picture the same reading, whenever the camera says it was taken.
+    /// The sighting in the latest picture. The reading stays the same for the same picture, even if
+    /// the camera changes its time.
     pub(crate) fn look(&mut self, env: &(impl Camera + ?Sized)) -> Reading<Option<Sighting>> {
         let Reading { time, value } = env.frame();
         match value {

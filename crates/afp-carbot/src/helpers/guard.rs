@@ -1,4 +1,4 @@
-//! Time-outs of sensors: a template faults when one has given no valid reading for too long.
+//! Sensor timeouts: a template faults after too long without a valid reading.
 
 use crate::devices::{Echo, Reading};
 use afp_core::{Duration, Fault, Instant, faults};
@@ -7,67 +7,67 @@ use afp_core::{Duration, Fault, Instant, faults};
 pub const PATIENCE: Duration = Duration::from_millis(500);
 
 faults! {
-    /// The wheels' counters say nothing usable.
+    /// The wheel counters give no usable reading.
     pub NO_ODOMETRY = "no-odometry",
         "the odometry gave no valid reading for 500 ms: the counters of the wheels are silent, or the drive's controller, which reads them";
-    /// The range sensor says nothing usable.
+    /// The range sensor gives no usable reading.
     pub NO_RANGE = "no-range", "the range sensor gave no valid reading for 500 ms";
-    /// The bumper says nothing usable.
+    /// The bumper gives no usable reading.
     pub NO_TOUCH = "no-touch", "the touch sensor gave no valid reading for 500 ms";
-    /// A button says nothing usable.
+    /// A button gives no usable reading.
     pub NO_BUTTON = "no-button", "the button gave no valid reading for 500 ms";
-    /// The infrared sensor says nothing usable; darkness is something usable.
+    /// The infrared sensor gives no usable reading; darkness is usable.
     pub NO_INFRARED = "no-infrared", "the infrared sensor gave no valid reading for 500 ms";
-    /// The colour sensor says nothing usable.
+    /// The colour sensor gives no usable reading.
     pub NO_COLOR = "no-color", "the colour sensor gave no valid reading for 500 ms";
-    /// The battery's gauge says nothing usable.
+    /// The battery gauge gives no usable reading.
     pub NO_BATTERY = "no-battery", "the battery's gauge gave no valid reading for 500 ms";
-    /// The camera shows nothing usable.
+    /// The camera gives no usable flow.
     pub NO_FLOW = "no-flow",
         "the camera gave no new picture in which motion could be seen for 500 ms";
-    /// The camera delivers nothing usable, or the same picture again and again.
+    /// The camera gives no usable picture, or repeats the same picture.
     pub NO_PICTURE = "no-picture", "the camera gave no new picture for 500 ms";
-    /// Nothing tells where the robot is.
+    /// The localisation gives no usable position.
     pub NO_POSITION = "no-position", "the localisation gave no valid position for 500 ms";
-    /// The range sensor repeats itself.
+    /// The range sensor repeats its distance while the robot moves.
     pub FROZEN_RANGE = "frozen-range",
         "the range sensor gave exactly the same echo for 1 s while it was to be turned, or while the robot moved by 20 cm";
-    /// The infrared sensor repeats itself.
+    /// The infrared sensor repeats its reading while the robot moves.
     pub FROZEN_INFRARED = "frozen-infrared",
         "the infrared sensor gave exactly the same reading while the robot moved by 20 cm";
-    /// The rotator does not get where it should.
+    /// The rotator does not reach its target.
     pub STUCK_ROTATOR = "stuck-rotator",
         "pings did not come from where the rotator was sent within 1 s: it is stuck, or the range sensor repeats itself";
 }
 
-/// A robot that drives waits when it has heard nothing new of what is ahead for so long: 6 cm at full speed. An echo that
-/// is older when it comes tells it nothing.
+/// A driving robot waits after this long without a new echo: 6 cm at full speed. Older echoes are
+/// ignored.
 pub const LATE: Duration = Duration::from_millis(200);
 
-/// The age up to which the continuous sensors (odometry, bumper, buttons, rotator) are current.
+/// Maximum age of a current reading of the continuous sensors (odometry, bumper, buttons, rotator).
 const CURRENT: Duration = Duration::from_millis(100);
 
-/// Patience with one sensor: counts the time since its last usable reading.
+/// The timeout of one sensor, counted from its last usable reading.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Guard {
     usable: Instant,
-    /// What is older when it comes is not usable.
+    /// Maximum age of a usable reading.
     oldest: Duration,
     fault: Fault,
 }
 
 impl Guard {
-    /// Begins at `now`, with full patience; `fault` is what its end is called.
+    /// Starts the timeout at `now`; `fault` is its fault.
     pub(crate) fn new(fault: Fault, now: Instant) -> Self {
         Guard { usable: now, oldest: PATIENCE, fault }
     }
 
-    /// Patience with the range sensor of a robot that drives.
+    /// For the range sensor of a driving robot.
     pub(crate) fn of_echoes(now: Instant) -> Self {
         Guard { oldest: LATE, ..Guard::new(NO_RANGE, now) }
     }
 
-    /// The current value, none while the sensor is silent but not yet for too long.
+    /// The current value; `None` during a silence within the timeout.
     ///
     /// # Errors
     /// This guard's fault after [`PATIENCE`] without a usable reading.
@@ -84,7 +84,7 @@ impl Guard {
         Ok(value)
     }
 
-    /// The value of a reading that was measured after `last` and does not come too late; the caller keeps `last`.
+    /// The value of a reading measured after `last`, unless it is too old. The caller keeps `last`.
     ///
     /// # Errors
     /// This guard's fault after [`PATIENCE`] without a new valid reading.
@@ -102,8 +102,8 @@ impl Guard {
         Ok(value)
     }
 
-    /// Whether nothing usable has come for so long that a robot that drives waits. What comes again and again, if late, is enough: it
-    /// is put where the robot was then, and how old it may be says the guard.
+    /// Whether a driving robot must wait for a usable reading. Repeated late readings suffice: each
+    /// is used at the robot's position of its time, and the guard limits its age.
     pub(crate) fn is_late(&self, now: Instant) -> bool {
         now.since(self.usable) > LATE
     }
@@ -113,26 +113,26 @@ impl Guard {
     }
 }
 
-/// Patience with the rotator: it must get near its target within a second of being sent there.
+/// Timeout of the rotator: it must get near its target within a second.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
     since: Instant,
-    /// The last echo from elsewhere, and whether all since the rotator was sent away were the same.
+    /// The last echo from elsewhere, and whether all such echoes of this move were identical.
     echo: Option<Echo>,
     same: bool,
 }
 
 impl Arrival {
-    /// The rotator has just been sent somewhere.
+    /// Starts when the rotator gets a new target.
     pub(crate) fn new(now: Instant) -> Self {
         Arrival { since: now, echo: None, same: true }
     }
 
-    /// Takes an echo that comes from elsewhere than it should.
+    /// Takes an echo whose bearing is not the target.
     ///
     /// # Errors
-    /// When this has been going on for more than a second: [`FROZEN_RANGE`] if every echo was the same, which
-    /// noise does not let happen, else [`STUCK_ROTATOR`].
+    /// After more than a second: [`FROZEN_RANGE`] if every echo was identical, which noise excludes
+    /// for a working sensor, otherwise [`STUCK_ROTATOR`].
     pub(crate) fn elsewhere(&mut self, echo: &Echo, now: Instant) -> Result<(), Fault> {
         let before = self.echo.replace(*echo);
         self.same &= before.is_none_or(|before| before == *echo) && echo.distance.is_some();

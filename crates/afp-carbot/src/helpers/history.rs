@@ -1,24 +1,24 @@
-//! Where the robot was a moment ago.
+//! The robot's recent poses.
 //!
-//! A reading is about the instant at which it was measured, and it may come late. What it says against the
-//! robot's heading or place is so against those of that instant, which the odometry remembers here.
+//! A reading may arrive late, but it applies to the pose at its measurement. The odometry provides
+//! that pose here.
 
 use crate::devices::{Invalid, Motion, Reading};
 use afp_core::{Duration, Instant};
 
-/// So many places are remembered, no closer in time than this but for the last two: 620 ms and more,
-/// longer than a template waits for a reading.
+/// Number of poses. They are at least `APART` apart except for the last two, so they cover 620 ms
+/// and more, longer than a template waits for a reading.
 const KEPT: usize = 32;
 const APART: Duration = Duration::from_millis(20);
-/// So far beyond what is known motion goes on as it was: as far as the odometry counts as current.
+/// Motion is extrapolated for at most this long, the maximum age of current odometry.
 const GUESSED: Duration = Duration::from_millis(100);
 
-/// A place and a heading in the frame of the odometry, metres and radians.
+/// Position and heading in the odometry frame, metres and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Metres, along the heading at the start.
+    /// Metres along the initial heading.
     pub x: f64,
-    /// Metres, to the left of it.
+    /// Metres to the left of the initial heading.
     pub y: f64,
     /// Radians.
     pub heading: f64,
@@ -30,10 +30,10 @@ impl From<Motion> for Pose {
     }
 }
 
-/// The latest of what the odometry said.
+/// The latest poses of the odometry.
 #[derive(Clone, Copy, Debug)]
 pub struct History {
-    /// The oldest is at `next`.
+    /// The oldest pose is at `next`.
     poses: [Option<(Instant, Pose)>; KEPT],
     next: usize,
 }
@@ -45,19 +45,19 @@ impl Default for History {
 }
 
 impl History {
-    /// Nothing is known yet.
+    /// An empty history.
     pub const fn new() -> Self {
         History { poses: [None; KEPT], next: 0 }
     }
 
-    /// Remembers what the odometry says, if it is valid and new. To be called at every poll.
+    /// Stores a reading of the odometry if it is valid and new. Call this at every poll.
     pub fn note(&mut self, reading: Reading<Motion>) {
         let Ok(motion) = reading.value else { return };
         let last = self.latest(1).map(|(time, _)| time);
         if last.is_some_and(|last| last >= reading.time) {
             return;
         }
-        // What lies close behind its predecessor makes room for what is newer.
+        // A pose soon after its predecessor is replaced.
         let before = self.latest(2).map(|(time, _)| time);
         if last.zip(before).is_some_and(|(last, before)| last.since(before) < APART) {
             self.next = self.slot(1);
@@ -66,7 +66,7 @@ impl History {
         self.next = (self.next + 1) % KEPT;
     }
 
-    /// Where the robot was, between what is known before and after an instant.
+    /// The pose at an instant, interpolated between known poses.
     pub fn at(&self, when: Instant) -> Option<Pose> {
         let (mut before, mut after) = (None, None);
         for ago in 1..=KEPT {
@@ -89,7 +89,7 @@ impl History {
         })
     }
 
-    /// Where the robot is so long after the latest that is known.
+    /// The extrapolated pose at this time after the latest known pose.
     fn guessed(&self, since: Duration) -> Option<Pose> {
         let (time, to) = self.latest(1).filter(|_| since <= GUESSED)?;
         let Some((before, from)) = self.latest(2) else { return Some(to) };
@@ -102,14 +102,14 @@ impl History {
         })
     }
 
-    /// A reading with where the robot was when it was measured; there is no answer if that is unknown.
+    /// Adds the pose at the time of measurement to a reading; invalid if the pose is unknown.
     pub fn placed<T: Copy>(&self, reading: Reading<T>) -> Reading<(T, Pose)> {
         let pose = self.at(reading.time).ok_or(Invalid::NoAnswer);
         let value = reading.value.and_then(|value| pose.map(|pose| (value, pose)));
         Reading { time: reading.time, value }
     }
 
-    /// The latest, the one before it, and so on, counted from 1.
+    /// The `ago`-th latest pose, counted from 1.
     fn latest(&self, ago: usize) -> Option<(Instant, Pose)> {
         self.poses.get(self.slot(ago)).copied().flatten()
     }
@@ -128,7 +128,7 @@ mod tests {
         Instant::ZERO + Duration::from_millis(millis)
     }
 
-    /// A robot that turns by a radian a second, noted every so many milliseconds until two seconds are over.
+    /// A robot that turns at a radian a second, noted every `every` milliseconds for two seconds.
     fn turning(every: u64) -> History {
         let mut history = History::new();
         for millis in (0..=2000).step_by(every as usize) {

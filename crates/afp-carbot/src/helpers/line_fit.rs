@@ -1,13 +1,12 @@
 //! Fits one wall to the echoes of a sweep.
 //!
-//! An ultrasonic beam is wide: pointed beside a wall's normal it still hears the perpendicular
-//! echo, as long as the normal lies within the beam. So a plane wall whose normal stands at
-//! bearing `a` and distance `d` is heard from bearing `b` at `d / cos(max(0, |b - a| - beam/2))`.
-//! Fitting that model, not a straight line through points on the beam's axis, keeps the flat
-//! middle of the curve from bending the result.
+//! An ultrasonic beam is wide: it hears the perpendicular echo while the wall's normal is within
+//! the beam. So a plane wall with its normal at bearing `a` and distance `d` is heard from bearing
+//! `b` at `d / cos(max(0, |b - a| - beam/2))`. Fitting this model prevents the bend that a straight
+//! line through points on the beam's axis would have.
 //!
-//! The search is exhaustive over the bearing and so has no bad start; echoes that belong to
-//! something else are outliers and do not pull.
+//! The search over the bearing is exhaustive, so it needs no initial guess. Echoes of other objects
+//! are outliers and have no weight.
 
 use crate::devices::Echo;
 use crate::helpers::motion::wrap;
@@ -16,52 +15,52 @@ use heapless::Vec;
 /// An echo of a sweep.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Return {
-    /// Where the sensor pointed, radians.
+    /// Bearing of the sensor, radians.
     pub(crate) bearing: f64,
-    /// How far away the echo was, metres.
+    /// Distance of the echo, metres.
     pub(crate) range: f64,
 }
 
 impl Return {
-    /// Of a ping; infinitely far away where nothing was heard.
+    /// Infinitely far away if nothing was heard.
     pub(crate) fn of(echo: &Echo) -> Self {
         let range = echo.distance.map_or(f64::INFINITY, |distance| distance.si());
         Return { bearing: echo.bearing.si(), range }
     }
 }
 
-/// A wall as the sensor's place sees it.
+/// A wall, seen from the sensor's position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Wall {
-    /// The bearing of its normal, radians.
+    /// Bearing of its normal, radians.
     pub(crate) bearing: f64,
     /// Perpendicular distance, metres.
     pub(crate) distance: f64,
-    /// Root mean square of the inliers' deviations, metres.
+    /// Root mean square deviation of the inliers, metres.
     pub(crate) residual: f64,
-    /// How many echoes belong to it.
+    /// Number of echoes that belong to the wall.
     pub(crate) inliers: usize,
 }
 
-/// An echo belongs to the wall when it deviates by less than this, metres.
+/// An echo belongs to the wall if it deviates by less than this, metres.
 const TOLERANCE: f64 = 0.03;
-/// No echo comes back from a wall at a greater slant than this to the beam's axis.
+/// Largest angle between the beam's axis and the wall's normal for an echo.
 const SLANT: f64 = 65.0 / 180.0 * core::f64::consts::PI;
-/// Fewer echoes do not make a wall.
+/// Fewest echoes that make a wall.
 const FEWEST: usize = 6;
-/// Echoes within a smaller angle do not tell a wall's direction.
+/// Smallest angle of echoes that determines a wall's direction.
 const SPREAD: f64 = 20.0 / 180.0 * core::f64::consts::PI;
-/// A worse fit is not a wall: the stated bound of the residual, metres.
+/// Largest residual of a wall, metres.
 const RESIDUAL: f64 = 0.02;
-/// The standard deviation of one echo, for weighing directions that fit nearly alike, metres.
+/// Standard deviation of one echo, metres, to weigh directions that fit almost equally.
 const SIGMA: f64 = 0.006;
 /// Steps of the coarse and of the fine search, radians.
 const COARSE: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 const FINE: f64 = 0.5 / 180.0 * core::f64::consts::PI;
 
-/// The wall that most returns agree on; none when too few do or they do not fit well.
+/// The wall with the most returns; `None` if there are too few or the fit is poor.
 ///
-/// At most [`MOST`] returns count. Time grows with their square.
+/// Uses at most [`MOST`] returns. Time grows with their square.
 pub(crate) fn fit(returns: &[Return], half_beam: f64) -> Option<Wall> {
     let (low, high) = bearings(returns)?;
     let mut best: Option<(f64, f64, f64)> = None;
@@ -78,9 +77,9 @@ pub(crate) fn fit(returns: &[Return], half_beam: f64) -> Option<Wall> {
     (wall.inliers >= FEWEST && wall.residual <= RESIDUAL).then_some(wall)
 }
 
-/// A full turn in coarse steps: nothing is looked for beyond.
+/// A full turn in coarse steps, the bound of the search.
 const MOST_STEPS: u32 = 120;
-/// More returns than this do not count.
+/// More returns are ignored.
 pub(crate) const MOST: usize = 64;
 
 fn bearings(returns: &[Return]) -> Option<(f64, f64)> {
@@ -92,14 +91,14 @@ fn bearings(returns: &[Return]) -> Option<(f64, f64)> {
     )
 }
 
-/// The perpendicular distance that a return means, were it from a wall with its normal there.
+/// The perpendicular distance of a return from a wall with its normal at `bearing`.
 fn perpendicular(r: &Return, bearing: f64, half_beam: f64) -> Option<f64> {
     let slant = wrap(r.bearing - bearing).abs();
     (slant < SLANT).then(|| r.range * libm::cos((slant - half_beam).max(0.0)))
 }
 
-/// How many returns agree on one distance to a wall at `bearing` (each counts less the more it
-/// deviates), and that distance.
+/// The distance to a wall at `bearing` with the most agreement, and that agreement (the weight of a
+/// return falls with its deviation).
 fn vote(returns: &[Return], bearing: f64, half_beam: f64) -> (f64, f64) {
     let mut distances = Vec::<f64, MOST>::new();
     for distance in returns.iter().filter_map(|r| perpendicular(r, bearing, half_beam)) {
@@ -115,13 +114,13 @@ fn vote(returns: &[Return], bearing: f64, half_beam: f64) -> (f64, f64) {
     best
 }
 
-/// 1 for no deviation, 0 from the tolerance on.
+/// 1 for no deviation, 0 beyond the tolerance.
 fn agreement(deviation: f64) -> f64 {
     let share = deviation / TOLERANCE;
     (1.0 - share * share).max(0.0)
 }
 
-/// The mean of the bearings around `bearing`, each weighed by how well it explains the inliers.
+/// The mean of the bearings around `bearing`, weighted by how well they explain the inliers.
 fn refine(returns: &[Return], bearing: f64, distance: f64, half_beam: f64) -> Option<Wall> {
     let mut inliers = Vec::<Return, MOST>::new();
     for r in returns {
@@ -149,11 +148,11 @@ fn refine(returns: &[Return], bearing: f64, distance: f64, half_beam: f64) -> Op
     Some(Wall { bearing, distance, residual, inliers: inliers.len() })
 }
 
-/// The sum of squared deviations from the best wall at `bearing`, and that wall's distance.
+/// The sum of squared deviations from the best wall at `bearing`, and the wall's distance.
 fn misfit(inliers: &[Return], bearing: f64, half_beam: f64) -> (f64, f64) {
     let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0);
     for r in inliers {
-        // Beyond the slant limit the return cannot be explained: it counts as an outlier would.
+        // Beyond the slant limit a return cannot be explained and counts as an outlier.
         let Some(distance) = perpendicular(r, bearing, half_beam) else {
             squares += TOLERANCE * TOLERANCE;
             continue;
@@ -173,7 +172,7 @@ mod tests {
 
     const HALF_BEAM: f64 = 0.26;
 
-    /// What a sweep over +-60 degrees hears of a wall, with a deterministic ripple of 4 mm.
+    /// A sweep of +-60 degrees over a wall, with a deterministic ripple of 4 mm.
     fn sweep(normal_deg: f64, distance: f64) -> Vec<Return> {
         let returns = (-12..=12).map(|step| {
             let bearing = f64::from(step * 5).to_radians();

@@ -1,15 +1,15 @@
-//! Speed profiles that start and end gently.
+//! Speed profiles with gentle start and end.
 
 use afp_core::{Duration, Instant};
 
-/// Speed is gained and lost at this many metres a second squared.
+/// Metres a second squared.
 pub(crate) const ACCELERATION: f64 = 0.5;
-/// Turn rate is gained and lost at this many radians a second squared.
+/// Radians a second squared.
 pub(crate) const TURN_ACCELERATION: f64 = 3.0;
 
 /// A speed that ramps up, holds, and ramps down before the end of a known distance.
 ///
-/// Works alike for lengths and angles: the unit is that of the distance.
+/// Works for lengths and angles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ramp {
     rate: f64,
@@ -17,20 +17,20 @@ pub(crate) struct Ramp {
     last: Instant,
 }
 
-/// The end is approached no faster than this share of the rest a second, so that the
-/// motors' lag does not carry the robot past it.
+/// Maximum rate near the end, as a share of the rest per second; prevents overshoot from the
+/// motors' lag.
 const APPROACH: f64 = 5.0;
 
-/// A gap between polls counts for no more than this, so that a late poll does not jerk.
+/// Longest time that a gap between polls counts, so that a late poll does not jerk.
 const LONGEST_GAP: Duration = Duration::from_millis(50);
 
 impl Ramp {
-    /// From standstill at `now`.
+    /// Starts from standstill.
     pub(crate) fn new(acceleration: f64, now: Instant) -> Self {
         Ramp { rate: 0.0, acceleration, last: now }
     }
 
-    /// The rate to command now with `rest` to go; never negative.
+    /// The rate for now with `rest` to go; never negative.
     pub(crate) fn rate(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
         let gap = now.since(self.last).min(LONGEST_GAP).as_secs_f64();
         self.last = now;
@@ -42,7 +42,7 @@ impl Ramp {
     }
 }
 
-/// `angle` as the same direction within half a turn of zero.
+/// Wraps `angle` to within half a turn of zero.
 pub(crate) fn wrap(angle: f64) -> f64 {
     let turns = libm::round(angle / core::f64::consts::TAU);
     angle - turns * core::f64::consts::TAU

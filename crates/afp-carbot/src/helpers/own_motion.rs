@@ -1,20 +1,19 @@
-//! What of the picture's flow the robot's own motion explains.
+//! Compares optical flow with the robot's own motion.
 //!
-//! A place of the picture shows something between the nearest that there can be and, below the
-//! horizon, the floor. What stands still there moves in the picture along a straight stretch: from how
-//! the farthest would move to how the nearest would. Flow that ends off this stretch is of something
-//! that moves by itself.
+//! A place shows an object between the nearest possible depth and, below the horizon, the floor. A
+//! stationary object there moves in the picture along a straight stretch, between the displacements
+//! at both depths. Flow off this stretch is of an object that moves.
 
 use crate::devices::Lens;
 use crate::helpers::history::History;
 use afp_core::Instant;
 
-/// Nothing is nearer to the lens than this, metres: the bumper would know.
+/// Smallest depth, metres: the bumper would touch a nearer object.
 const NEAREST: f64 = 0.25;
-/// The floor is not known better than this: the robot pitches a little.
+/// Uncertainty of the floor's depth: the robot pitches a little.
 const FLOOR: f64 = 1.15;
 
-/// How the camera has moved from one picture to the next, in the frame of the earlier one.
+/// The camera's motion between two pictures, in the earlier picture's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Step {
     /// Metres.
@@ -24,11 +23,11 @@ pub(crate) struct Step {
     turn: (f64, f64),
 }
 
-/// A place in the picture against its middle, pixels to the right and down.
+/// A place relative to the picture's centre, pixels to the right and down.
 pub(crate) type Place = [f64; 2];
 
 impl Step {
-    /// The move of the camera from one instant to another, if both are known.
+    /// The camera's motion between two instants, if both poses are known.
     pub(crate) fn between(
         history: &History,
         lens: &Lens,
@@ -47,9 +46,8 @@ impl Step {
         })
     }
 
-    /// How far, in pixels, something that stood still and was seen at `place` is at least from where
-    /// `found` is, and how far it can have moved in the picture at most. `focus` is the lens's focal
-    /// length in pixels.
+    /// Compares a stationary object seen at `place` with the flow's end at `found`. `focus` is the
+    /// lens's focal length in pixels.
     pub(crate) fn unexplained(
         &self,
         lens: &Lens,
@@ -76,9 +74,9 @@ impl Step {
         })
     }
 
-    /// Where something at `place`, so far ahead, is seen after the step.
+    /// Where an object at `place` and `depth` appears after the step.
     fn seen(&self, focus: f64, [right, down]: Place, depth: f64) -> Option<Place> {
-        // All divided by the depth, so that it may be infinite.
+        // Divided by the depth, which may be infinite.
         let ahead = 1.0 - self.ahead / depth;
         let left = -right / focus - self.left / depth;
         let (sin, cos) = self.turn;
@@ -87,12 +85,12 @@ impl Step {
     }
 }
 
-/// Flow against what the robot's own motion explains.
+/// Flow relative to the robot's own motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Unexplained {
-    /// How much it is off, pixels.
+    /// Smallest distance from the explained stretch, pixels.
     pub(crate) pixels: f64,
-    /// How much of it is explained, pixels.
+    /// Largest displacement that the motion explains, pixels.
     pub(crate) explained: f64,
 }
 
@@ -119,7 +117,7 @@ mod tests {
         Instant::ZERO + Duration::from_millis(millis)
     }
 
-    /// The step of a robot that drove and turned evenly for 50 ms.
+    /// The step of 50 ms of steady driving and turning.
     fn step(ahead: f64, turned: f64) -> Step {
         let mut history = History::new();
         for tick in 0..=10 {
@@ -164,7 +162,7 @@ mod tests {
 
     #[test]
     fn the_floor_is_no_farther_than_it_is() {
-        // The floor under this row is 0.2 m * 114 / 50 ahead of the lens.
+        // The floor in this row is 0.2 m * 114 / 50 ahead of the lens.
         let (depth, step) = (0.456, step(0.02, 0.0));
         let scale = depth / (depth - 0.02);
         assert!(off(step, [30.0, 50.0], [30.0 * scale, 50.0 * scale]) < 1e-9);

@@ -9,25 +9,27 @@ use afp_core::quantity::{Length, Speed};
 use afp_core::{Duration, Fault, Instant};
 use core::mem;
 
-/// How far ahead on the path the robot looks, metres.
+/// Look-ahead distance along the path, metres.
 const LOOK_AHEAD: f64 = 0.35;
-/// Turned farther away from there than this the robot turns in place, until it is within the other one, radians.
+/// The robot turns in place above the angle `ASIDE` to its target, until it is below `ALONG`,
+/// radians.
 const ASIDE: f64 = 0.9;
 const ALONG: f64 = 0.15;
-/// How fast it turns in place, radians a second.
+/// Turn rate in place, radians a second.
 const TURN: f64 = 0.8;
-/// The heading at the end is right within this, radians.
+/// Tolerance of the final heading, radians.
 const STRAIGHT: f64 = 0.03;
-/// The end is reached when less of the way is left than this, metres.
+/// The end is reached when less than this is left, metres.
 const CLOSE: f64 = 0.01;
-/// Farther from the path than this, or less certain of its place, the robot is not on it, metres.
+/// The robot is off the path at a greater distance or position uncertainty than this, metres.
 const OFF: f64 = 0.6;
 const UNCERTAIN: f64 = 1.0;
-/// For so long it waits to know better.
+/// How long the robot waits before it is lost.
 const DOUBT: Duration = Duration::from_secs(1);
 
-/// Keeps a robot on a path, by localisation (pure pursuit: Coulter, *Implementation of the pure pursuit path tracking
-/// algorithm*, CMU-RI-TR-92-01, 1992). Where the path leads aside it stops and turns in place.
+/// Keeps a robot on a path by localisation: pure pursuit (Coulter, *Implementation of the pure
+/// pursuit path tracking algorithm*, CMU-RI-TR-92-01, 1992). At sharp bends it stops and turns in
+/// place.
 #[derive(Clone, Debug)]
 pub(crate) struct Pursuit {
     speed: f64,
@@ -36,20 +38,20 @@ pub(crate) struct Pursuit {
     tracking: Tracking,
     odometry: Guard,
     position: Guard,
-    /// Since when the robot has not been on its path.
+    /// Time at which the robot left its path.
     doubt: Option<Instant>,
-    /// Whether the robot has been told to drive.
+    /// Whether a drive was commanded.
     underway: bool,
-    /// What the robot comes to a standstill for.
+    /// The outcome, reported when the robot has stopped.
     ending: Option<Pursued>,
 }
 
-/// How it ended; the robot stands.
+/// The outcome; the robot has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pursued {
     /// At the end of the path.
     Arrived,
-    /// The robot is not on the path, or does not know where it is.
+    /// The robot is off the path or does not know its position.
     Lost,
 }
 
@@ -57,12 +59,12 @@ pub(crate) enum Pursued {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Turning {
     No,
-    /// It comes to a standstill first.
+    /// Stops before the turn.
     Braking,
     Yes,
 }
 
-/// Where the robot is, by all that tells.
+/// The robot's pose by odometry and by localisation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Here {
     pub(crate) motion: Motion,
@@ -70,7 +72,7 @@ pub(crate) struct Here {
 }
 
 impl Pursuit {
-    /// `tolerance` is how far from the end still counts as there.
+    /// `tolerance` is the accepted distance from the end.
     pub(crate) fn new(speed: Speed, tolerance: Length, now: Instant) -> Self {
         Pursuit {
             speed: speed.si(),
@@ -85,7 +87,7 @@ impl Pursuit {
         }
     }
 
-    /// Where the robot is; none while that is unknown, and then it is told to stand.
+    /// The robot's pose. While it is unknown, returns `None` and stops the drive.
     ///
     /// # Errors
     /// Odometry or localisation is silent for too long.
@@ -105,7 +107,7 @@ impl Pursuit {
     /// Drives on along the path.
     ///
     /// # Errors
-    /// The drive does not do what it is told.
+    /// The drive does not follow its commands.
     pub(crate) fn poll<E>(
         &mut self,
         path: &Path,
@@ -140,7 +142,7 @@ impl Pursuit {
     /// Turns in place at the end of the path to a heading on the map, radians.
     ///
     /// # Errors
-    /// The drive does not do what it is told.
+    /// The drive does not follow its commands.
     pub(crate) fn face<E>(
         &mut self,
         heading: f64,
@@ -163,18 +165,20 @@ impl Pursuit {
         Ok(self.ending.filter(|_| (is_on || is_lost) && here.motion.stands()))
     }
 
-    /// Where to steer, radians against the heading, and the way left; none where the robot has to stand.
+    /// The direction to steer, radians against the heading, and the distance left; `None` if the
+    /// robot must stop.
     fn steer(&mut self, path: &Path, here: &Here, now: Instant) -> Option<(f64, f64)> {
         let at = here.place();
         let near = self.on_path(path, here, now)?;
         let end = path.end().map(|end| libm::hypot(end[0] - at[0], end[1] - at[1]))?;
-        // Who begins so near to the end is there; who comes from farther away drives on to the end itself.
+        // A robot that starts within the tolerance has arrived; otherwise it drives to the end
+        // itself.
         let begun = mem::replace(&mut self.underway, true);
         if !begun && near.rest.max(end) <= self.tolerance {
             self.ending = Some(Pursued::Arrived);
             return None;
         }
-        // Beside the end of the path the way to it is no longer along the path.
+        // Next to the path's end, the robot drives straight to the end.
         let (aim, rest) = if near.rest > CLOSE {
             (path.place(near.rest - LOOK_AHEAD)?, near.rest)
         } else if end > self.tolerance {
@@ -187,8 +191,8 @@ impl Pursuit {
         Some((wrap(towards - here.belief.heading.si()), rest))
     }
 
-    /// Where on the path the robot is; none where it is not on it, or does not know its place. After [`DOUBT`] of that it
-    /// is lost.
+    /// The nearest point of the path; `None` if the robot is off the path or its position is
+    /// unknown. After [`DOUBT`] it is lost.
     fn on_path(&mut self, path: &Path, here: &Here, now: Instant) -> Option<Nearest> {
         let known = here.belief.spread.si() <= UNCERTAIN;
         let near = path.nearest(here.place()).filter(|near| known && near.off <= OFF);

@@ -1,6 +1,6 @@
-//! Sensors that repeat themselves: a frozen one claims to measure, and says the same for ever.
+//! Detects frozen sensors, which repeat a reading while the robot moves.
 //!
-//! Noise does not let a sound one do that while what it measures changes, which it does where the robot moves.
+//! Noise prevents exact repetition in a working sensor.
 
 use crate::devices::{Echo, Motion, Reading};
 use crate::helpers::guard::FROZEN_RANGE;
@@ -8,38 +8,38 @@ use crate::helpers::history::Pose;
 use afp_core::quantity::Length;
 use afp_core::{Fault, Instant};
 
-/// The same while the robot moved by so much, metres.
+/// Distance driven with identical readings, metres.
 const WAY: f64 = 0.2;
-/// A turn by a radian counts as so much way, metres: what a sensor looks at changes with either.
+/// Weight of a turn by a radian, metres: the sensor's view also changes with the heading.
 const TURN: f64 = 0.2;
-/// And in so many readings at least: a fast robot gets far from one to the next.
+/// Fewest identical readings: a fast robot drives far between two readings.
 const READINGS: u32 = 10;
 
-/// Compares each new reading of a sensor with the one before.
+/// Compares each new reading of a sensor with its predecessor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeats<T> {
     fault: Fault,
     time: Instant,
-    /// What the sensor says again and again; none where it has measured nothing.
+    /// The repeated value; `None` without a measurement.
     same: Option<T>,
-    /// How often it has said so, and the way since then, metres.
+    /// Number of repetitions, and the distance driven meanwhile, metres.
     times: u32,
     way: f64,
-    /// Where the robot was at the last reading.
+    /// Pose at the last reading.
     last: Option<Pose>,
 }
 
 impl<T: Copy + PartialEq> Repeats<T> {
-    /// Begins at `now`; `fault` is that of a sensor that is frozen.
+    /// `fault` is the fault of a frozen sensor.
     pub(crate) fn new(fault: Fault, now: Instant) -> Self {
         Repeats { fault, time: now, same: None, times: 0, way: 0.0, last: None }
     }
 
-    /// Takes in what the sensor and the odometry say. Silence and darkness, none, may repeat, and what was driven while the odometry
-    /// said nothing does not count.
+    /// Checks a sensor's reading against the odometry. `None`, silence or darkness, may repeat.
+    /// Distance without odometry is not counted.
     ///
     /// # Errors
-    /// The sensor has said exactly the same while the robot moved.
+    /// The reading stayed identical while the robot moved.
     pub(crate) fn check(
         &mut self,
         reading: Reading<Option<T>>,
@@ -67,12 +67,12 @@ impl<T: Copy + PartialEq> Repeats<T> {
 }
 
 impl Repeats<Length> {
-    /// Of the range sensor.
+    /// For the range sensor.
     pub(crate) fn of_echoes(now: Instant) -> Self {
         Repeats::new(FROZEN_RANGE, now)
     }
 
-    /// As [`Repeats::check`], of the distance that an echo tells.
+    /// [`Repeats::check`] for an echo's distance.
     ///
     /// # Errors
     /// [`FROZEN_RANGE`].
@@ -91,7 +91,7 @@ mod tests {
     use crate::devices::Invalid;
     use afp_core::Duration;
 
-    /// Checks so many readings of a robot that goes `step` metres from one to the next; which of them is the fault.
+    /// Checks `readings` readings, `step` metres apart; returns the index of the faulty reading.
     fn checked(readings: u32, step: f64, value: impl Fn(u32) -> Option<f64>) -> Option<u32> {
         let mut repeats = Repeats::new(FROZEN_RANGE, Instant::ZERO);
         (1..=readings).find(|n| {
@@ -100,7 +100,7 @@ mod tests {
             let counted = Reading::valid(Motion { x, ..Motion::default() }, at);
             let reading = Reading::valid(value(*n), at);
             let once = repeats.check(reading, counted);
-            // The same reading again is no repetition.
+            // Reading the same measurement twice is not a repetition.
             assert!(once.is_err() || repeats.check(reading, counted).is_ok());
             once.is_err()
         })

@@ -1,4 +1,4 @@
-//! Turning in place towards what a sensor sees.
+//! Turning in place towards a target that a sensor sees.
 
 use crate::devices::{Navigator, Odometry, Reading};
 use crate::helpers::guard::{Guard, NO_ODOMETRY, PATIENCE};
@@ -7,17 +7,17 @@ use crate::helpers::tracking::Tracking;
 use afp_core::quantity::{Angle, AngularSpeed};
 use afp_core::{Fault, Instant};
 
-/// So many readings in a row must say that it is ahead.
+/// Readings in a row that must show it ahead.
 const SURE: u8 = 3;
-/// Without a sight of it the robot turns a little more than once around, radians.
+/// Angle of the search, radians: a little more than a full turn.
 const ALL_AROUND: f64 = core::f64::consts::TAU + 0.2;
-/// The whole way counts as turned when less than this is left, radians.
+/// The turn is complete when less than this is left, radians.
 const CLOSE: f64 = 0.005;
 
-/// Turns left until the sensor sees it, then towards it.
+/// Turns left until the sensor sees the target, then towards it.
 ///
-/// Each reading gives the rest of the way anew, so the sensor's noise does not add up. A reading that comes late is
-/// about the heading that the robot had when it was measured.
+/// Each reading gives the remaining angle, so the sensor's noise does not add up. A late reading
+/// applies to the heading at its measurement.
 #[derive(Clone, Debug)]
 pub(crate) struct Seeking {
     tolerance: f64,
@@ -26,27 +26,27 @@ pub(crate) struct Seeking {
     sensor: Guard,
     odometry: Guard,
     history: History,
-    /// When the latest reading was measured.
+    /// Time of the latest reading.
     last_look: Instant,
-    /// The heading at the beginning; none until the first reading.
+    /// The initial heading; `None` until the first reading.
     from: Option<f64>,
-    /// The heading towards it, by the last reading that saw it, and when that was; radians.
+    /// The heading towards the target in radians, and the time of that reading.
     towards: Option<(f64, Instant)>,
-    /// Readings in a row with it ahead.
+    /// Readings in a row with the target ahead.
     ahead: u8,
 }
 
-/// How it ended; the robot stands.
+/// The outcome; the robot has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sought {
-    /// The robot looks at it.
+    /// The robot faces the target.
     Facing,
-    /// It is nowhere around, or has gone out of sight.
+    /// The target is nowhere around or has gone out of sight.
     Missing,
 }
 
 impl Seeking {
-    /// `silent` is the fault of a sensor that says nothing usable.
+    /// `silent` is the fault of a sensor without usable readings.
     pub(crate) fn new<E>(
         (tolerance, speed): (Angle, AngularSpeed),
         silent: Fault,
@@ -73,10 +73,11 @@ impl Seeking {
         }
     }
 
-    /// Goes on with what the sensor says now: the bearing of what it sees, or none where it sees nothing.
+    /// Turns by the sensor's current reading: the target's bearing, or `None` if out of sight.
     ///
     /// # Errors
-    /// The sensor or the odometry is silent for too long, or the drive does not do what it is told.
+    /// The sensor or the odometry is silent for too long, or the drive does not follow its
+    /// commands.
     pub(crate) fn poll<E>(
         &mut self,
         seen: Reading<Option<Angle>>,
@@ -108,7 +109,7 @@ impl Seeking {
         Ok(None)
     }
 
-    /// The angle left to turn, radians, and how it ends if it does.
+    /// The angle left, radians, and the outcome if the turn ends.
     fn rest(&mut self, heading: f64) -> (f64, Option<Sought>) {
         let from = *self.from.get_or_insert(heading);
         let Some((towards, seen)) = self.towards else {
@@ -121,7 +122,7 @@ impl Seeking {
         (towards - heading, (lost || facing).then_some(ending))
     }
 
-    /// Takes in a new reading of the sensor, if it is one.
+    /// Uses a reading of the sensor if it is new.
     fn look(
         &mut self,
         seen: Reading<Option<Angle>>,

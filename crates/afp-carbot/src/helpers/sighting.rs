@@ -4,22 +4,22 @@ use crate::devices::{Frame, Lens};
 use crate::objects::Appearance;
 use afp_core::quantity::{Angle, Length};
 
-/// Fewer pixels of an object's colours are a mistake.
+/// Fewest pixels of an object; fewer are noise.
 const FEWEST: usize = 24;
-/// So many pixels of a column at least belong to the object.
+/// Fewest pixels of a column that belong to the object.
 const COLUMN: usize = 2;
-/// A gap of so many columns does not divide an object.
+/// A gap of this many columns does not divide an object.
 const GAP: usize = 2;
 
 /// An object in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sighting {
-    /// Where it is, to the left of where the camera looks.
+    /// Bearing to the left of the camera's axis.
     pub bearing: Angle,
-    /// How far its foot is ahead of the camera, along the floor; infinite where its foot is not below
-    /// the horizon.
+    /// Distance of the foot from the camera along the floor; infinite if the foot is not below the
+    /// horizon.
     pub distance: Length,
-    /// How many pixels show it.
+    /// Number of pixels of the object.
     pub pixels: usize,
 }
 
@@ -27,17 +27,17 @@ pub struct Sighting {
 #[derive(Clone, Copy, Debug, Default)]
 struct Blob {
     pixels: usize,
-    /// Of all its pixels, the sum of their columns.
+    /// Sum of the columns of all pixels.
     columns: usize,
-    /// Of all its columns, how many they are and the sum of their lowest rows.
+    /// Number of columns, and the sum of their lowest rows.
     wide: usize,
     feet: usize,
 }
 
 impl Appearance {
-    /// The largest thing of its colours that a picture shows, if that shows one.
+    /// The largest object of these colours in a picture.
     ///
-    /// Looks at every pixel once and allocates nothing.
+    /// Reads every pixel once and allocates nothing.
     pub fn find(&self, frame: &Frame<'_>, lens: &Lens) -> Option<Sighting> {
         let (mut best, mut open, mut gap) = (Blob::default(), Blob::default(), 0);
         for x in 0..frame.width {

@@ -1,26 +1,26 @@
-//! A sweep of the range sensor over both sides of the heading, by a robot that stands.
+//! A sweep of the range sensor over both sides of a stationary robot.
 
 use crate::devices::{Echo, Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
 use crate::helpers::guard::{Arrival, Guard, NO_ODOMETRY, NO_RANGE};
 use afp_core::quantity::Angle;
 use afp_core::{Fault, Instant};
 
-/// The sensor pings once at every so many radians.
+/// Angle between two pings, radians.
 pub(crate) const STEP: f64 = 5.0 / 180.0 * core::f64::consts::PI;
-/// The rotator has arrived when it is nearer than this to where it should be, radians.
+/// The rotator has arrived within this distance of its target, radians.
 const ARRIVED: f64 = 2.0 / 180.0 * core::f64::consts::PI;
 
-/// Takes the range sensor from one side to the other and asks for one ping at every step.
+/// Moves the range sensor from one side to the other, one ping per step.
 ///
-/// Moves on to the next bearing when a ping has been completed there, so a slow sensor makes it
-/// slower but not worse. The robot is told to stand all the time.
+/// Waits at each bearing for a completed ping, so a slow sensor only takes longer. Keeps the robot
+/// stationary.
 #[derive(Clone, Debug)]
 pub(crate) struct Sweep {
-    /// How far to either side, radians.
+    /// Angle to either side, radians.
     sweep: f64,
-    /// Where the rotator should be, radians.
+    /// Target of the rotator, radians.
     target: f64,
-    /// Towards which side the sweep goes: 1 left, -1 right.
+    /// Direction of the sweep: 1 left, -1 right.
     direction: f64,
     sweeping: bool,
     last_ping: Instant,
@@ -33,12 +33,12 @@ pub(crate) struct Sweep {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Heard {
     pub(crate) echo: Echo,
-    /// It is the last one; the rotator goes back to look ahead.
+    /// The last ping; the rotator returns to look ahead.
     pub(crate) last: bool,
 }
 
 impl Sweep {
-    /// Begins at the side that the rotator is nearer to.
+    /// Begins at the side nearer to the rotator.
     pub(crate) fn new<E>(sweep: Angle, env: &mut E, now: Instant) -> Self
     where
         E: Navigator + Rotator + RotatingTelemetry + ?Sized,
@@ -60,10 +60,11 @@ impl Sweep {
         }
     }
 
-    /// The ping that has been completed at the bearing in turn, if one has.
+    /// The completed ping at the current bearing, if any.
     ///
     /// # Errors
-    /// [`NO_ODOMETRY`] or [`NO_RANGE`] after half a second without a usable reading; those of [`Arrival`].
+    /// [`NO_ODOMETRY`] or [`NO_RANGE`] after half a second without a usable reading; those of
+    /// [`Arrival`].
     pub(crate) fn poll<E>(&mut self, env: &mut E, now: Instant) -> Result<Option<Heard>, Fault>
     where
         E: Navigator + Odometry + Ultrasonic + Rotator + ?Sized,
@@ -89,12 +90,12 @@ impl Sweep {
         Ok(Some(Heard { echo, last }))
     }
 
-    /// Whether the robot stands, so that the sweep can begin.
+    /// Starts the sweep if the robot has stopped.
     fn begin<E: Odometry + ?Sized>(&mut self, env: &mut E, now: Instant) -> Result<bool, Fault> {
         let motion = self.odometry.current(env.motion(), now)?;
         if motion.is_some_and(|motion| motion.stands()) {
             self.sweeping = true;
-            // Only what is sent from now on counts.
+            // Only pings sent from now on count.
             self.last_ping = now;
             self.range_guard = Guard::new(NO_RANGE, now);
             self.arrival = Arrival::new(now);

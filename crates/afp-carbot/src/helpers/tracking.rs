@@ -1,4 +1,4 @@
-//! What the drive is told, and whether the robot does that: the tracking error of its drive.
+//! Commands the drive and detects that the robot does not follow.
 
 use crate::devices::{Motion, Navigator};
 use crate::helpers::motion::{ACCELERATION, Ramp, TURN_ACCELERATION};
@@ -6,10 +6,10 @@ use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Duration, Fault, Instant, faults};
 
 faults! {
-    /// The wheels stand though they should turn.
+    /// The wheels are stationary despite a command.
     pub DRIVE_BLOCKED = "drive-blocked",
         "the wheels did not turn for 300 ms although commanded; check for an obstacle or an empty battery";
-    /// The robot moves otherwise than it should.
+    /// The robot's motion differs from the command.
     pub DRIVE_STALLED = "drive-stalled",
         "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low";
     /// The odometry counts no distance.
@@ -17,43 +17,44 @@ faults! {
         "the robot was told to go 10 cm, and the odometry counted less than a quarter of it";
 }
 
-/// For so long the robot may move otherwise than told: motors lag and wheels have to be steered.
+/// How long the motion may differ from the command: motors lag and wheels need steering.
 pub const TOLERATED: Duration = Duration::from_millis(300);
 
-/// The drive follows its commands with about this time constant, seconds.
+/// Assumed time constant of the drive, seconds.
 const LAG: f64 = 0.15;
-/// Commands below this are not judged: metres a second at the body's side.
+/// Slower commands are not judged: metres a second at the body's side.
 const SLOWEST: f64 = 0.008;
-/// An error of this share of what is expected is one, as is none below the other; what lies between counts in part.
+/// Relative errors above `ERROR` count fully and below `SLACK` reduce the count; values between
+/// count in part.
 const ERROR: f64 = 0.4;
 const SLACK: f64 = 0.2;
-/// Less than this share of what is expected is a standstill.
+/// The robot is stationary below this share of the expected speed.
 const STANDSTILL: f64 = 0.25;
-/// After so much was commanded, metres at the body's side, the odometry must have counted some.
+/// Commanded distance after which the odometry must have counted, metres at the body's side.
 const JUDGED: f64 = 0.1;
-/// After a longer gap between polls nothing is known of what the drive did.
+/// A longer gap between polls resets the comparison.
 const LONGEST_GAP: Duration = Duration::from_millis(100);
 
-/// Commands a drive and compares what the odometry says with what was commanded.
+/// Commands a drive and compares the odometry with the commands.
 ///
-/// The speed profiles are here, too, so that whoever drives on after a halt begins from a standstill.
+/// The speed profiles are included, so that driving after a halt starts from standstill.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracking {
     speed: Ramp,
     turn: Ramp,
     last: Option<(Instant, Motion)>,
     command: (f64, f64),
-    /// What the command lets expect by now: metres and radians a second.
+    /// Expected motion by now: metres and radians a second.
     expected: (f64, f64),
-    /// For how long the robot has moved otherwise than expected, seconds; what it moved as expected since is taken off, so
-    /// that wheels which slip through now and then do not hide what holds the robot.
+    /// Time of unexpected motion, seconds. Expected motion reduces it gradually, so that wheels
+    /// that slip through now and then do not hide a blockage.
     astray: f64,
-    /// The distances expected and counted since the last comparison, metres at the body's side.
+    /// Expected and counted distance since the last comparison, metres at the body's side.
     distances: (f64, f64),
 }
 
 impl Tracking {
-    /// Of a drive that stands at `now`.
+    /// Starts from standstill.
     pub(crate) fn new(now: Instant) -> Self {
         Tracking {
             speed: Ramp::new(ACCELERATION, now),
@@ -66,21 +67,24 @@ impl Tracking {
         }
     }
 
-    /// The speed to command now with `rest` metres to go, at most `cruise`.
+    /// The speed for now with `rest` metres to go, at most `cruise`.
     pub(crate) fn speed(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
         self.speed.rate(rest, cruise, now)
     }
 
-    /// The turn rate to command now with `rest` radians to go, negative to the right, at most `cruise` to either side.
+    /// The turn rate for now with `rest` radians to go (negative: right), at most `cruise` to
+    /// either side.
     pub(crate) fn turn(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
         self.turn.rate(rest.abs(), cruise, now).copysign(rest)
     }
 
-    /// Commands a motion: metres a second ahead, radians a second to the left; `motion` is the odometry's latest.
+    /// Commands a motion: metres a second ahead, radians a second to the left; `motion` is the
+    /// latest odometry.
     ///
     /// # Errors
-    /// [`DRIVE_BLOCKED`], [`DRIVE_STALLED`] or [`NO_PROGRESS`] when the robot has not done what it was told before;
-    /// then nothing is commanded, and the platform is told if it was to go ahead.
+    /// [`DRIVE_BLOCKED`], [`DRIVE_STALLED`] or [`NO_PROGRESS`] if the robot did not follow earlier
+    /// commands. The motion is then not commanded, and the platform learns of a blocked forward
+    /// drive.
     pub(crate) fn drive<E: Navigator + ?Sized>(
         &mut self,
         env: &mut E,
@@ -101,7 +105,7 @@ impl Tracking {
         Ok(())
     }
 
-    /// Commands a standstill, which is not judged: only what stops is safe to wait for.
+    /// Commands a standstill, which is not judged.
     pub(crate) fn halt<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
         *self = Tracking::new(now);
         env.halt(now);
@@ -136,8 +140,8 @@ impl Tracking {
         Err(if stands { DRIVE_BLOCKED } else { DRIVE_STALLED })
     }
 
-    /// How far a motion is off everything between what a slow drive does by now and what it was told, metres a
-    /// second at the body's side: a drive without any lag errs as little.
+    /// Distance of a motion from the range between a slow drive's response and the command, metres
+    /// a second at the body's side. A drive without lag is not an error.
     fn error(&self, (speed, turn): (f64, f64), lever: f64) -> f64 {
         let (slow, command) = (self.expected, self.command);
         let (along, across) = (command.0 - slow.0, (command.1 - slow.1) * lever);
@@ -167,7 +171,7 @@ impl Tracking {
     }
 }
 
-/// How fast, or how far, a motion carries a side of a body, by its [`Body::lever`](crate::devices::Body::lever).
+/// Speed, or distance, of a body's side, by its [`Body::lever`](crate::devices::Body::lever).
 fn rim((ahead, turn): (f64, f64), lever: f64) -> f64 {
     libm::hypot(ahead, turn * lever)
 }

@@ -1,17 +1,18 @@
-//! The path on which the robot came: where nothing stood a moment ago.
+//! The robot's recent path, which was free of obstacles.
 
 use crate::devices::{Body, Motion};
 use crate::helpers::history::Pose;
 use afp_core::quantity::{Angle, Length};
 
-/// So many places are remembered, no closer than this, metres: 60 cm driven, or half a turn in place.
+/// Number of places and their least distance, metres. They cover 60 cm driven, or half a turn in
+/// place.
 const KEPT: usize = 40;
 const APART: f64 = 0.015;
-/// Wheels do not carry a robot this far between two readings: it has begun to count anew.
+/// A larger jump between two readings means that the odometry has restarted, metres.
 const JUMP: f64 = 0.3;
 
-/// The latest places of a robot by its odometry. What it goes back is taken off again, so that the trail leads on to
-/// where it was before.
+/// The latest poses by odometry. Driving back removes the last poses, so that the trail leads
+/// farther back.
 #[derive(Clone, Copy, Debug)]
 pub struct Trail {
     /// The newest is before `next`.
@@ -27,12 +28,12 @@ impl Default for Trail {
 }
 
 impl Trail {
-    /// Nothing is known yet.
+    /// An empty trail.
     pub const fn new() -> Self {
         Trail { places: [Pose { x: 0.0, y: 0.0, heading: 0.0 }; KEPT], next: 0, known: 0 }
     }
 
-    /// Remembers where a robot with this body is, if that is far enough from where it was. To be called for every reading.
+    /// Stores the robot's pose if it is far enough from the last. Call this for every reading.
     pub fn note(&mut self, motion: Motion, body: &Body) {
         let here = motion.into();
         let lever = body.lever();
@@ -44,7 +45,7 @@ impl Trail {
             if !far(newest, APART) {
                 return;
             }
-            // Nearer to the place before the newest than that one is, it went back.
+            // The robot went back if it is nearer to the place before the newest.
             let went_back = |before: Pose| {
                 before.distance_to(&here, lever) < before.distance_to(&newest, lever)
             };
@@ -58,7 +59,7 @@ impl Trail {
         self.known = (self.known + 1).min(KEPT);
     }
 
-    /// Where it leads back to from a place: the newest that is not about there.
+    /// The trail back from `here`, without places that are close to it.
     pub(crate) fn back_from(mut self, here: &Pose, lever: Length) -> Self {
         if self.place(1).is_some_and(|newest| newest.distance_to(here, lever) <= APART) {
             self.drop_newest();
@@ -66,12 +67,11 @@ impl Trail {
         self
     }
 
-    /// The place that the robot came by last, the one before it, and so on, counted from 1; none where nothing is known.
+    /// The `ago`-th latest place, counted from 1.
     pub(crate) fn place(&self, ago: usize) -> Option<Pose> {
         (ago <= self.known).then(|| self.places[(self.next + KEPT - ago) % KEPT])
     }
 
-    /// Takes off the place that it came by last.
     pub(crate) fn drop_newest(&mut self) {
         self.next = (self.next + KEPT - 1) % KEPT;
         self.known = self.known.saturating_sub(1);
@@ -79,20 +79,20 @@ impl Trail {
 }
 
 impl Pose {
-    /// How far it is to another place, metres; a turn counts by a body's lever.
+    /// Distance to another place, metres; a turn counts by the body's lever.
     pub(crate) fn distance_to(&self, other: &Pose, lever: Length) -> f64 {
         let turn = lever.si() * (other.heading - self.heading);
         let (x, y) = (other.x - self.x, other.y - self.y);
         libm::sqrt(x * x + y * y + turn * turn)
     }
 
-    /// The place so far straight behind.
+    /// The place at this distance straight behind.
     pub(crate) fn behind(&self, distance: f64) -> Pose {
         let (sin, cos) = libm::sincos(self.heading);
         Pose { x: self.x - distance * cos, y: self.y - distance * sin, heading: self.heading }
     }
 
-    /// As a motion of a robot that stands there.
+    /// The motion of a robot that is stationary there.
     pub(crate) fn standing(&self) -> Motion {
         Motion {
             x: Length::from_si(self.x),
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
-    /// Of a robot whose farthest side is so far from its turning centre, metres.
+    /// The trail of a robot whose farthest side is `side` metres from its turning centre.
     fn noted_by(side: f64, places: &[(f64, f64)]) -> Trail {
         let [front, rear, half_width] = [0.1, side, 0.1].map(Length::from_si);
         let mut trail = Trail::new();

@@ -1,36 +1,36 @@
-//! Turning by an angle: how much of it is left, whether the robot turns in place or drives an arc.
+//! Turning by an angle, in place or along an arc.
 
 use crate::devices::{Motion, Odometry};
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
 use afp_core::quantity::Angle;
 use afp_core::{Fault, Instant};
 
-/// A turn in place counts as done when less than this is left, radians.
+/// A turn in place is complete when less than this is left, radians.
 pub(crate) const CLOSE: f64 = 0.005;
 
-/// An angle to be turned against the heading at the beginning, by odometry.
+/// An angle to turn from the initial heading, by odometry.
 #[derive(Clone, Debug)]
 pub(crate) struct Turning {
     angle: f64,
     close: f64,
     odometry: Guard,
-    /// The heading at the beginning; none until the first reading.
+    /// The initial heading; `None` until the first reading.
     from: Option<Angle>,
 }
 
-/// How far a turn has got.
+/// Progress of a turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Progress {
-    /// The odometry says nothing: the robot has to wait.
+    /// No odometry: the robot must wait.
     Unknown,
-    /// Radians left, negative to the right, and how the robot moves.
+    /// Radians left (negative: right), and the current motion.
     Left(f64, Motion),
-    /// The angle has been turned; whether the robot stands already.
+    /// The angle has been turned; `stands` if the robot has stopped.
     Turned { by: Angle, stands: bool },
 }
 
 impl Turning {
-    /// Begins at `now`; the angle counts as turned when less than `close` is left, radians.
+    /// Begins at `now`; the turn is complete when less than `close` is left, radians.
     ///
     /// # Errors
     /// As [`Turning::progress`].
@@ -43,7 +43,7 @@ impl Turning {
         Ok(Turning { angle: angle.si(), close, odometry, from })
     }
 
-    /// How far the turn has got.
+    /// The current progress.
     ///
     /// # Errors
     /// [`NO_ODOMETRY`] after half a second without a usable reading.

@@ -1,33 +1,33 @@
-//! What an object looks like: the colours that are its own.
+//! Appearance of an object: the colours that distinguish it.
 //!
-//! A colour is looked at by its shares of red and green alone, which light and shade leave as they are. What a picture
-//! shows of an object is found by these colours, as in Swain and Ballard's "Color indexing" (1991), with a yes or no
-//! in place of a likelihood.
+//! A colour is reduced to its shares of red and green, which hardly depend on light and shade.
+//! Objects are found by these colours, as in Swain and Ballard's "Color indexing" (1991), with a
+//! yes or no instead of a likelihood.
 
 use crate::devices::Frame;
 use core::array;
 
-/// Shares are told apart in so many steps.
+/// Number of steps of a share.
 const STEPS: usize = 32;
-/// A darker pixel, by the sum of its three parts, has no colour that could be relied on.
+/// A darker pixel, by the sum of its three parts, has no reliable colour.
 const DARKEST: u32 = 48;
-/// A colour is an object's own when it is so much more frequent in it than around it.
+/// A colour belongs to an object if it is this many times as frequent in it as around it.
 const OWN: u32 = 3;
-/// And when at least one of so many of its pixels has it.
+/// And if at least one of this many pixels has it.
 const RARE: u32 = 64;
 
 /// The colours of an object.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Appearance {
-    /// A bit for each share of green, in a row for each share of red.
+    /// A row for each share of red, a bit for each share of green.
     own: [u32; STEPS],
 }
 
-/// Where the share of red and that of green of a colour are, in steps.
+/// Shares of red and green, in steps.
 type Chroma = (usize, usize);
 
 impl Appearance {
-    /// Of an object of one colour, whose shares of red and green may each be off by so much.
+    /// An object of one colour, with a tolerance for its shares of red and green.
     pub fn of_color([red, green, blue]: [f64; 3], tolerance: f64) -> Self {
         let sum = (red + green + blue).max(f64::MIN_POSITIVE);
         let near = |step: usize, part: f64| {
@@ -41,8 +41,8 @@ impl Appearance {
         Appearance { own: array::from_fn(row) }
     }
 
-    /// Of what a picture shows in its middle, over a `share` of its width and of its height; none if nothing
-    /// tells that from what is around it.
+    /// The object in the picture's middle, over a `share` of its width and height; `None` if its
+    /// colours also occur around it.
     pub fn learnt(frame: &Frame<'_>, share: f64) -> Option<Self> {
         let (mut inside, mut around) = ([[0_u32; STEPS]; STEPS], [[0_u32; STEPS]; STEPS]);
         let (mut ins, mut outs) = (0_u32, 0_u32);
@@ -59,7 +59,7 @@ impl Appearance {
         let is_own = |r: usize, g: usize| {
             let (seen, beside) = (u64::from(inside[r][g]), u64::from(around[r][g]));
             let often = seen * u64::from(RARE) >= u64::from(ins).max(1);
-            // Frequencies compared without a division.
+            // Compares frequencies without a division.
             often && seen * u64::from(outs) >= u64::from(OWN) * beside * u64::from(ins)
         };
         let row =
@@ -68,23 +68,23 @@ impl Appearance {
         own.iter().any(|row| *row != 0).then_some(Appearance { own })
     }
 
-    /// Whether a pixel has one of its colours.
+    /// Whether a pixel has a colour of the object.
     pub fn has(&self, pixel: [u8; 3]) -> bool {
         chroma(pixel).is_some_and(|(r, g)| self.own[r] >> g & 1 == 1)
     }
 }
 
-/// Whether a column or row lies in the middle share of them all.
+/// Whether a column or row is in the middle share.
 fn middle(at: usize, of: usize, share: f64) -> bool {
     let (at, half) = (at as f64 + 0.5, of as f64 / 2.0);
     (at - half).abs() <= share * half
 }
 
-/// The shares of a pixel's colour; none where it is too dark.
+/// The shares of a pixel's colour; `None` if it is too dark.
 fn chroma(pixel: [u8; 3]) -> Option<Chroma> {
     let [red, green, blue] = pixel.map(u32::from);
     let sum = red + green + blue;
-    // The largest share, of a pure colour, belongs to the last step.
+    // A pure colour, the largest share, belongs to the last step.
     let step = |part: u32| (part as usize * STEPS / sum as usize).min(STEPS - 1);
     (sum >= DARKEST).then(|| (step(red), step(green)))
 }

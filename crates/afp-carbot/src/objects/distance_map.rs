@@ -1,21 +1,22 @@
-//! How far it is in every direction, as a sweep of the range sensor has heard it.
+//! Distance in every direction, from a sweep of the range sensor.
 
 use crate::helpers::line_fit::{MOST, Return};
 use heapless::Vec;
 
-/// One echo for each bearing of a sweep, in the order of the bearings; against the heading at which it was made.
+/// One echo for each bearing of a sweep, in order, against the heading of the sweep.
 #[derive(Clone, Debug, Default)]
 pub struct DistanceMap {
     returns: Vec<Return, MOST>,
 }
 
 impl DistanceMap {
-    /// Adds the next bearing. A sweep has fewer steps than there is room for; what is too much does not count.
+    /// Adds the next bearing. A sweep has fewer steps than the capacity; further bearings are
+    /// dropped.
     pub(crate) fn add(&mut self, heard: Return) {
         let _ = self.returns.push(heard);
     }
 
-    /// What was heard at each bearing, from one side to the other; infinitely far away where nothing was.
+    /// The echoes from one side to the other; infinitely far away if nothing was heard.
     pub(crate) fn returns(&self) -> &[Return] {
         &self.returns
     }

@@ -3,36 +3,36 @@
 use afp_core::{Fault, Reason};
 use heapless::Vec;
 
-/// The way has too many corners.
+/// The path has too many corners.
 pub const LONG_PATH: Fault = Fault::new(&Reason {
     code: "long-path",
     text: "the way has more than 128 corners: choose a goal on the way to it first",
 });
 
-/// A line of straight pieces in the frame of the map, from where the robot was when it was planned to the goal.
+/// A polyline in the map frame, from the robot's position at planning to the goal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    /// Millimetres are exact enough within some kilometres.
+    /// Precise to a millimetre within some kilometres.
     corners: Vec<[f32; 2], { Path::MOST }>,
 }
 
-/// The place of a path that is nearest to some place.
+/// The nearest point of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearest {
-    /// How far away it is, metres.
+    /// Distance to it, metres.
     pub(crate) off: f64,
-    /// The way left from there to the end, metres.
+    /// Distance from there to the end, metres.
     pub(crate) rest: f64,
 }
 
 impl Path {
-    /// So many places a path has at most.
+    /// Maximum number of places.
     pub const MOST: usize = 128;
 
-    /// Through these places, metres.
+    /// Makes a path through these places, metres.
     ///
     /// # Errors
-    /// The fault `long-path`: there are more than 128.
+    /// The fault `long-path`: there are more than 128 places.
     pub fn new(places: impl IntoIterator<Item = [f64; 2]>) -> Result<Path, Fault> {
         let mut corners = Vec::new();
         for [x, y] in places {
@@ -41,7 +41,7 @@ impl Path {
         Ok(Path { corners })
     }
 
-    /// Goes on to a place, metres; the first one makes room where there are 128.
+    /// Appends a place, metres; a full path drops its first place.
     pub(crate) fn note(&mut self, [x, y]: [f64; 2]) {
         if self.corners.is_full() {
             self.corners.remove(0);
@@ -49,17 +49,17 @@ impl Path {
         let _full = self.corners.push([x as f32, y as f32]);
     }
 
-    /// Its places from the first to the last, metres.
+    /// The places from the first to the last, metres.
     pub fn places(&self) -> impl DoubleEndedIterator<Item = [f64; 2]> + ExactSizeIterator + Clone {
         self.corners.iter().map(|[x, y]| [f64::from(*x), f64::from(*y)])
     }
 
-    /// Where it ends; none for a path without places.
+    /// The last place; `None` for an empty path.
     pub(crate) fn end(&self) -> Option<[f64; 2]> {
         self.places().next_back()
     }
 
-    /// What of it is nearest to a place; none for a path without places.
+    /// The point of the path nearest to a place; `None` for an empty path.
     pub(crate) fn nearest(&self, [x, y]: [f64; 2]) -> Option<Nearest> {
         let mut last = self.end()?;
         let mut best = Nearest { off: libm::hypot(last[0] - x, last[1] - y), rest: 0.0 };
@@ -82,8 +82,8 @@ impl Path {
         Some(best)
     }
 
-    /// What is left of it for whoever is at a place within so many metres of it: from there to its end. None for who is farther
-    /// away.
+    /// The rest of the path from the point nearest to `place`; `None` if that is farther than
+    /// `within`, metres.
     pub fn rest_from(&self, place: [f64; 2], within: f64) -> Option<Path> {
         let near = self.nearest(place).filter(|near| near.off <= within)?;
         let (mut beyond, mut last, mut passed) = (0.0, self.end()?, self.corners.len());
@@ -98,8 +98,8 @@ impl Path {
         Path::new([place].into_iter().chain(ahead)).ok()
     }
 
-    /// The place from which so much of the way is left; before its first place it is that one, and beyond the end the last
-    /// piece goes straight on.
+    /// The place with this distance left. Clamped to the first place; beyond the end the last piece
+    /// continues straight.
     pub(crate) fn place(&self, rest: f64) -> Option<[f64; 2]> {
         let mut last = self.end()?;
         let mut beyond = 0.0;
@@ -115,7 +115,7 @@ impl Path {
     }
 }
 
-/// From one place to another, and how far that is.
+/// The vector between two places and its length.
 fn difference(from: [f64; 2], to: [f64; 2]) -> ([f64; 2], f64) {
     let along = [to[0] - from[0], to[1] - from[1]];
     (along, libm::hypot(along[0], along[1]))

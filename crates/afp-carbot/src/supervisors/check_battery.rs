@@ -6,9 +6,9 @@ use crate::templates;
 use crate::templates::check_battery::{Event, Inputs, Live};
 use afp_core::{Events, Fault, Instant, Supervisor};
 
-/// Reports while less is left than there should be.
+/// Reports while the charge is below a limit.
 ///
-/// The gauge counts the charge, so a dip of the voltage under load is no reason for a report.
+/// The gauge counts the charge, so a dip of the voltage under load does not cause a report.
 #[derive(Clone, Debug)]
 pub struct CheckBattery {
     guard: Guard,

@@ -1,4 +1,4 @@
-//! Watch how far it is in one direction.
+//! Watch the distance in one direction.
 
 use crate::devices::{Body, Echo, Navigator, Odometry, Rotator, Ultrasonic};
 use crate::helpers::guard::{Arrival, Guard};
@@ -8,9 +8,9 @@ use crate::templates::check_distance::{Event, Inputs, Live};
 use afp_core::quantity::{Angle, Length};
 use afp_core::{Events, Fault, Instant, Supervisor};
 
-/// The rotator has arrived when it is nearer than this to where it should be, radians.
+/// The rotator has arrived within this distance of its target, radians.
 const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
-/// So many pings in a row say that it is farther: one alone may have been lost.
+/// Pings in a row that confirm a greater distance: one may be lost.
 const FARTHER: u32 = 4;
 
 /// The range sensor, pointed in one direction.
@@ -35,7 +35,7 @@ impl Pointed {
         }
     }
 
-    /// The distance of a new echo from the robot's outside; infinite if nothing reflected the ping.
+    /// The distance of a new echo from the robot's outline; infinite without a reflection.
     pub(super) fn echo<E>(&mut self, env: &mut E, now: Instant) -> Result<Option<Length>, Fault>
     where
         E: Navigator + Odometry + Ultrasonic + ?Sized,
@@ -54,11 +54,11 @@ impl Pointed {
     }
 }
 
-/// Compares what the range sensor hears in one direction with a distance.
+/// Compares the distance in one direction with a limit.
 #[derive(Clone, Debug)]
 pub struct CheckDistance {
     sensor: Pointed,
-    /// Pings in a row that heard nothing nearer.
+    /// Pings in a row without a nearer echo.
     farther: u32,
 }
 
@@ -88,11 +88,11 @@ where
     }
 }
 
-/// From the robot's outside to what sent the echo, along the bearing; none where nothing did.
+/// Distance from the robot's outline along the bearing; `None` without a reflection.
 fn clear(echo: &Echo, body: Body, forward: Length) -> Option<Length> {
     let (sin, cos) = libm::sincos(echo.bearing.si());
     let ahead = (if cos > 0.0 { body.front - forward } else { body.rear + forward }).si();
-    // In line with a side of the body the way to the other one is infinitely long.
+    // Parallel to a side, the distance to the other side is infinite.
     let inside = (ahead / cos.abs()).min(body.half_width.si() / sin.abs());
     Some(Length::from_si((echo.distance?.si() - inside).max(0.0)))
 }
@@ -109,7 +109,7 @@ mod tests {
         robot.watch::<templates::CheckDistance, CheckDistance>(inputs, live, wanted, 2000)
     }
 
-    /// What it reports of both events, centimetres of `Nearer`.
+    /// Watches both events; returns the distance of `Nearer` in centimetres.
     fn reports(walls: &[Plane], bearing: f64) -> Option<i64> {
         match watch(&mut Fake::new(walls), bearing, 0b11) {
             Ok(Some(Event::Nearer { seen })) => Some((seen.si() * 100.0).round() as i64),

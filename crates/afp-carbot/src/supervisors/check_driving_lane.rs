@@ -8,21 +8,21 @@ use crate::templates::check_driving_lane::{Event, Inputs, Live};
 use afp_core::quantity::{Angle, Length};
 use afp_core::{Events, Fault, Instant, Supervisor};
 
-/// The rotator has arrived when it is nearer than this to where it should be, radians.
+/// The rotator has arrived within this distance of its target, radians.
 const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 
-/// Swings the range sensor over the lane and reports an echo from inside of it.
+/// Swings the range sensor over the lane and reports an echo from inside.
 ///
-/// An echo is taken to come from the beam's axis; `margin` covers the rest of the beam. A wall
-/// square ahead is so reported up to 7 cm early, when the sensor looks aside. The
-/// sensor looks ahead, left, right and so on, one ping at least at each, and hears what it passes on the way from side
-/// to side. Aside it looks at the far corners of the lane: from there on the beam also hears what the lane leads along at
-/// a small angle, and which sends no sound back farther ahead.
+/// An echo counts as on the beam's axis; `margin` covers the rest of the beam. So a wall square
+/// ahead is reported up to 7 cm early if the sensor looks aside. The sensor looks ahead, left,
+/// right and so on, with at least one ping at each, and listens while it moves. Aside it looks at
+/// the lane's far corners. There the beam also hears walls at a small angle, which reflect nothing
+/// farther ahead.
 #[derive(Clone, Debug)]
 pub struct CheckDrivingLane {
     clearance: f64,
     halfwidth: f64,
-    /// Which of [`SWING`] the rotator goes to.
+    /// Index in [`SWING`] of the rotator's target.
     step: usize,
     target: f64,
     last_ping: Instant,
@@ -31,7 +31,7 @@ pub struct CheckDrivingLane {
     repeats: Repeats<Length>,
 }
 
-/// The places that are looked at in turn, as shares of the largest bearing.
+/// The bearings in turn, as shares of the largest bearing.
 const SWING: [f64; 3] = [0.0, 1.0, -1.0];
 
 impl<E> Supervisor<templates::CheckDrivingLane, E> for CheckDrivingLane
@@ -71,7 +71,7 @@ where
         };
         self.last_ping = reading.time;
         let beam = env.beam();
-        // From the sensor to the end of the stretch that must be free.
+        // From the sensor to the end of the lane.
         let front = env.body().front.si() - beam.forward.si();
         let reach = front + live.distance.si() + self.clearance;
         if (echo.bearing.si() - self.target).abs() < ARRIVED {
@@ -86,7 +86,7 @@ where
     }
 }
 
-/// The side that the sensor is not turned to: nobody has looked there for longest, and all else lies on the way to it.
+/// The side opposite to the sensor: the least recent, with the rest of the lane on the path to it.
 fn first(echo: Option<Echo>) -> usize {
     let bearing = echo.map_or(0.0, |echo| echo.bearing.si());
     if bearing.abs() < ARRIVED {
@@ -115,12 +115,12 @@ mod tests {
 
     type Template = templates::CheckDrivingLane;
 
-    /// Watches for two seconds a lane that must be free for 30 + 10 cm, 35 cm to either side.
+    /// Watches a lane of 30 + 10 cm length and 35 cm to either side for two seconds.
     fn watch(robot: &mut Fake, wanted: u64) -> Result<Option<Event>, Fault> {
         watch_width(robot, wanted, [0.1, 0.25])
     }
 
-    /// The same of a lane of another width: a margin and half of it.
+    /// As [`watch`] with another width: a margin and half the width.
     fn watch_width(robot: &mut Fake, wanted: u64, width: [f64; 2]) -> Result<Option<Event>, Fault> {
         let [margin, halfwidth] = width.map(Length::from_si);
         let inputs = Inputs { clearance: Length::from_si(0.1), margin, halfwidth };
@@ -179,7 +179,8 @@ mod tests {
         let mut robot = Fake::new(&[plane(0.0, 2.0)]);
         robot.range_freezes = 0;
         assert_eq!(watch(&mut robot, 1), Err(FROZEN_RANGE));
-        // In a lane so narrow the rotator hardly turns: what the robot's own motion changes tells.
+        // In such a narrow lane the rotator hardly turns, so only the robot's motion changes the
+        // readings.
         let mut robot = Fake::new(&[plane(0.0, 2.0)]);
         (robot.range_freezes, robot.drifts) = (500, 1.0);
         assert_eq!(watch_width(&mut robot, 1, [0.0, 0.01]), Err(FROZEN_RANGE));

@@ -10,9 +10,9 @@ use crate::templates::check_infrared::{Event, Inputs, Live};
 use afp_core::quantity::Angle;
 use afp_core::{Events, Fault, Instant, Supervisor};
 
-/// Reports while there is light, or when there has been none for half a second.
+/// Reports while there is light, or after half a second of darkness.
 ///
-/// The bearing is against the heading at the time of the report, however late the reading comes.
+/// The bearing is relative to the heading at the report, even for a late reading.
 #[derive(Clone, Debug)]
 pub struct CheckInfrared {
     guard: Guard,
@@ -20,7 +20,7 @@ pub struct CheckInfrared {
     repeats: Repeats<Glow>,
     history: History,
     last_look: Instant,
-    /// When there was light last; the beginning counts.
+    /// Time of the last light; initially the start.
     seen: Instant,
 }
 
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
     use crate::fake::Fake;
 
-    /// Watches for so many milliseconds, or until something is reported.
+    /// Watches for `millis` milliseconds or until a report.
     fn watch(robot: &mut Fake, wanted: u64, millis: u64) -> Result<Option<Event>, Fault> {
         let live = || Live { strength: 0.5 };
         robot.watch::<templates::CheckInfrared, CheckInfrared>(Inputs {}, live, wanted, millis)

@@ -1,4 +1,4 @@
-//! Watch for the robot's return to the line on which it was.
+//! Watch for the robot's return to its initial line.
 
 use crate::devices::{Motion, Odometry};
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
@@ -8,16 +8,16 @@ use crate::templates::check_line::{Event, Inputs, Live};
 use afp_core::quantity::Angle;
 use afp_core::{Events, Fault, Instant, Supervisor};
 
-/// Remembers where the robot was and where it looked when the watch began, by odometry, and reports when it is on that
-/// line again, farther on.
+/// Stores the initial position and heading by odometry, and reports when the robot is on that line
+/// again, farther ahead.
 ///
-/// This is where the algorithm Bug2 leaves the boundary of an obstacle (Lumelsky and Stepanov, 1987).
+/// At this point the algorithm Bug2 leaves an obstacle's boundary (Lumelsky and Stepanov, 1987).
 #[derive(Clone, Debug)]
 pub struct CheckLine {
     guard: Guard,
     ahead: f64,
     tolerance: f64,
-    /// Where the line begins; none until the first reading.
+    /// Start of the line; `None` until the first reading.
     from: Option<Motion>,
 }
 
@@ -39,7 +39,7 @@ impl<E: Odometry + ?Sized> Supervisor<templates::CheckLine, E> for CheckLine {
         let from = *self.from.get_or_insert(motion);
         let (ahead, aside) = motion.seen_from(&from);
         let reached = ahead.si() >= self.ahead && aside.si().abs() <= self.tolerance;
-        // The short way round: how often the robot has turned on its way does not matter.
+        // The shorter turn; full turns do not matter.
         let turn = Angle::from_si(wrap((from.heading - motion.heading).si()));
         Ok((reached && wanted.contains(0)).then_some(Event::LineReached { turn }))
     }
@@ -52,8 +52,8 @@ mod tests {
     use crate::fake::Fake;
     use afp_core::quantity::{AngularSpeed, Length, Speed};
 
-    /// When it reports, milliseconds, and the turn in degrees, while the robot drives a circle of 1 m to the
-    /// left, once it has been turned by `first` radians.
+    /// Drives a circle of 1 m to the left after a turn by `first` radians. Returns the report's
+    /// time in milliseconds and its turn in degrees.
     fn circle(ahead: f64, first: f64, wanted: u64) -> Option<(u64, i64)> {
         let mut robot = Fake::new(&[]);
         let inputs = Inputs { ahead: Length::from_si(ahead), tolerance: Length::from_si(0.05) };
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn the_line_is_reached_again_ahead_and_not_behind() {
-        // A circle that begins at -90 deg meets the line again 2 m ahead, looking to 90 deg.
+        // A circle from -90 deg meets the line again 2 m ahead, at 90 deg.
         let right = -core::f64::consts::FRAC_PI_2;
         let Some((millis, turn)) = circle(0.5, right, 1) else { panic!("it does not report") };
         assert!((6100..6300).contains(&millis), "{millis}");

@@ -12,17 +12,17 @@ use moving::View;
 
 mod moving;
 
-/// A picture in which fewer places can be followed shows nothing: a covered lens, the dark.
+/// With fewer trackable places a picture counts as blind: a covered lens, darkness.
 const SEEN: usize = 4;
-/// Seen in so many pictures in a row, about in the same direction, it is no mistake.
+/// Pictures in a row that must show the motion, about in the same direction.
 const IN_A_ROW: u32 = 2;
-/// What has gone farther than this from one picture to the next is something else, radians.
+/// A larger change of direction between pictures means a different object, radians.
 const SAME: f64 = 0.2;
 
-/// Sees what moves by itself: more than the robot's own motion explains, by odometry.
+/// Detects objects that move: flow beyond the robot's own motion, by odometry.
 ///
-/// What moves exactly along a line of sight is not seen, nor what comes straight towards a robot that
-/// drives towards it.
+/// Motion exactly along a line of sight is not detected, nor an object that comes straight towards
+/// a robot that drives towards it.
 #[derive(Clone, Debug)]
 pub struct CheckMotion {
     /// Radians a second.
@@ -31,7 +31,7 @@ pub struct CheckMotion {
     odometry: Guard,
     guard: Guard,
     last: Instant,
-    /// What moved in the last picture, and in how many before without a break.
+    /// The bearing in the last picture, and the number of pictures in a row.
     before: Option<(f64, u32)>,
 }
 
@@ -68,7 +68,7 @@ impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> fo
         }
         let Some(flow) = self.guard.next(reading, self.last, now)? else { return Ok(None) };
         self.last = reading.time;
-        // Of a picture in which the robot moved nobody knows how, nothing is said.
+        // A picture without odometry is skipped.
         let before = reading.time - flow.span;
         let step = Step::between(&self.history, &lens, before, reading.time);
         let view = step.map(|step| View { lens, step, flow, speed: self.speed });

@@ -1,4 +1,4 @@
-//! Watch whether the robot gets anywhere.
+//! Watch whether the robot makes progress.
 
 use crate::devices::{Motion, Odometry};
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
@@ -6,14 +6,14 @@ use crate::templates;
 use crate::templates::check_progress::{Event, Inputs, Live};
 use afp_core::{Duration, Events, Fault, Instant, Supervisor};
 
-/// Reports when the robot has neither gone far nor turned much for a while, by odometry.
+/// Reports if the robot has neither moved far nor turned much for a while, by odometry.
 #[derive(Clone, Debug)]
 pub struct CheckProgress {
     guard: Guard,
     distance: f64,
     angle: f64,
     within: Duration,
-    /// The last progress: when it was made, and where the robot was.
+    /// Time and place of the last progress.
     last: Option<(Instant, Motion)>,
 }
 
@@ -55,7 +55,7 @@ mod tests {
     use crate::fake::Fake;
     use afp_core::quantity::{Angle, AngularSpeed, Length, Speed, Time};
 
-    /// When it reports, milliseconds, with a command given all the time.
+    /// The report's time in milliseconds under a constant command.
     fn watch(speed: f64, turn: f64, wanted: u64) -> Option<u64> {
         let mut robot = Fake::new(&[]);
         let inputs = Inputs {

@@ -1,4 +1,4 @@
-//! Report how far it is in one direction.
+//! Report the distance in one direction.
 
 use super::check_distance::Pointed;
 use crate::devices::{Navigator, Odometry, Rotator, Ultrasonic};
@@ -7,7 +7,7 @@ use crate::templates::measure_distance::{Event, Inputs, Live};
 use afp_core::quantity::Length;
 use afp_core::{Events, Fault, Instant, Supervisor};
 
-/// The distance without an echo, metres.
+/// The reported distance without an echo, metres.
 const NOTHING: f64 = 4.0;
 
 /// Reports every echo.

@@ -1,4 +1,4 @@
-//! Plan the path to a place, again and again.
+//! Plan the path to a place repeatedly.
 
 use crate::devices::{Aim, Localisation, Odometry, PathPlanner, Trip};
 use crate::helpers::guard::{Guard, NO_ODOMETRY, NO_POSITION};
@@ -7,14 +7,14 @@ use crate::templates::plan_path::{Event, Inputs, Live};
 use afp_core::quantity::Length;
 use afp_core::{Duration, Events, Fault, Instant, Poll, Supervisor, Ticket};
 
-/// Has the platform search for the way from where the robot takes itself to be, and tells what came of it.
+/// Lets the platform search from the robot's estimated position, and reports the result.
 #[derive(Clone, Debug)]
 pub struct PlanPath {
     near: Length,
     period: Duration,
     odometry: Guard,
     position: Guard,
-    /// When the next search is to begin.
+    /// Time of the next search.
     next: Instant,
     under_way: Option<Ticket>,
 }

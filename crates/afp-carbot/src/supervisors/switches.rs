@@ -1,4 +1,4 @@
-//! Watch the bumper and the escape button: while they are held down, and for presses.
+//! Watch the bumper and the escape button: their state and their presses.
 
 use core::marker::PhantomData;
 
@@ -19,7 +19,7 @@ pub type CheckEscapeButton = Watch<templates::CheckEscapeButton, Held>;
 /// Reports each press of the escape button once.
 pub type CheckEscapeButtonClick = Watch<templates::CheckEscapeButtonClick, Press>;
 
-/// Watches the switch of a template; `R` decides by what the switch says whether there is something to report.
+/// Watches the switch of a template; `R` decides when to report.
 #[derive(Clone, Debug)]
 pub struct Watch<T, R> {
     guard: Guard,
@@ -27,9 +27,9 @@ pub struct Watch<T, R> {
     template: PhantomData<T>,
 }
 
-/// A template with one event, which is about a switch.
+/// A template with one event for one switch.
 pub trait Switch<E: ?Sized>: SupervisorTemplate {
-    /// The switch says nothing usable.
+    /// The fault of a switch without usable readings.
     const SILENT: Fault;
     /// The reported event.
     const EVENT: Self::Event;
@@ -108,14 +108,14 @@ impl Report for Held {
     }
 }
 
-/// Reports the beginning of a press; remembers whether the switch was held at the last reading.
+/// Reports the beginning of a press; stores whether the switch was held at the last reading.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Press {
     held: Option<bool>,
 }
 
 impl Report for Press {
-    /// A switch that is held at the first reading was pressed before. A failed reading changes nothing.
+    /// A switch held at the first reading was pressed before. A failed reading changes nothing.
     fn is_due(&mut self, held: Option<bool>) -> bool {
         let begins = self.held == Some(false) && held == Some(true);
         self.held = held.or(self.held);
@@ -137,7 +137,7 @@ mod tests {
     };
     use afp_core::Duration;
 
-    /// Polls a new supervisor after some milliseconds.
+    /// Polls a new supervisor at some time, milliseconds.
     fn poll<'a, T: Switch<Fake>>(
         robot: &mut Fake,
         (inputs, live): (T::Inputs<'a>, T::Live<'a>),
@@ -193,7 +193,7 @@ mod tests {
         assert_eq!(button(&mut robot, 501), Err(NO_BUTTON));
     }
 
-    /// Whether each of these polls of the bumper and of the button reports, as `[held, wanted]`.
+    /// Whether each `[held, wanted]` poll of the bumper and of the button reports.
     fn clicks(polls: &[(bool, u64)]) -> [Result<Vec<bool>, Fault>; 2] {
         let bumper = Fake::new(&[])
             .clicks::<templates::CheckTouchSensorClick, CheckTouchSensorClick>(
@@ -217,7 +217,7 @@ mod tests {
         let polls = [false, true, true, false, true].map(|held| (held, 1));
         let both = |reports: &[bool]| [Ok(reports.to_vec()), Ok(reports.to_vec())];
         assert_eq!(clicks(&polls), both(&[false, true, false, false, true]));
-        // A switch that is held from the start, or that nobody wanted, counts as not pressed.
+        // A switch counts as not pressed if held from the start or not wanted.
         assert_eq!(clicks(&[(true, 1), (true, 1)]), both(&[false, false]));
         let unwanted = [(false, 1), (true, 0), (true, 1)];
         assert_eq!(clicks(&unwanted), both(&[false, false, false]));

@@ -1,65 +1,67 @@
-//! Glances ahead while the sensor's main work is at the side.
+//! Glances ahead while the sensor mainly points to the side.
 
-/// Looks ahead at least once in so many metres.
+/// Longest distance between two glances, metres.
 const OFTEN: f64 = 0.25;
-/// From this far before the lane's end the sensor keeps looking ahead, metres.
+/// The sensor keeps looking ahead within this distance of the lane's end, metres.
 const STARE: f64 = 0.08;
-/// A turn of the rotator there and back takes about this long, seconds.
+/// Time for the rotator to turn there and back, seconds.
 const TURN: f64 = 0.5;
-/// Glances go to either side of the heading in turn, so far that the beam reaches the corners of the body 20 cm before it; radians.
+/// Glances alternate between the sides at this bearing, radians. The beam then covers the body's
+/// corners 20 cm ahead.
 const ASIDE: f64 = 20.0 / 180.0 * core::f64::consts::PI;
-/// The rotator has arrived when it is nearer than this to where it should be, radians.
+/// The rotator has arrived within this distance of its target, radians.
 const ARRIVED: f64 = 4.0 / 180.0 * core::f64::consts::PI;
-/// Nothing farther than this is remembered, metres, if that is far enough for the lane to be free until the next look.
+/// Free space beyond this is not remembered, metres, unless the lane needs more until the next
+/// look.
 const FAR: f64 = 1.0;
-/// So many pings in a row must find silence before it is believed: one may just be lost.
+/// This many silent pings in a row are believed: one may be lost.
 const SILENCES: u8 = 3;
-/// Speed lost in a second while braking, and how long the brakes take to bite.
+/// Deceleration, metres a second squared, and delay of the brakes, seconds.
 const BRAKING: f64 = 1.5;
 const LAG: f64 = 0.08;
 
-/// When to look ahead, and what is known of the lane there.
+/// Schedules glances and remembers the free space in the lane.
 #[derive(Clone, Debug)]
 pub(super) struct Glance {
-    /// What must be free before the front, metres.
+    /// Free space needed before the front, metres.
     lanedist: f64,
-    /// Where less is free the sensor keeps looking ahead; what is free beyond `far` is not remembered, and silence counts
-    /// as `far`; metres.
+    /// The sensor keeps looking ahead if less than `near` is free. Space beyond `far` is not
+    /// remembered, and silence counts as `far`. Metres.
     near: f64,
     far: f64,
     looking: bool,
-    /// What is known of the right and of the left half of the lane.
+    /// The right and the left half of the lane.
     halves: [Half; 2],
-    /// Which of them is looked at, or was last.
+    /// Index of the half of the current or the last glance.
     side: usize,
-    /// Pings of this glance that found silence.
+    /// Silent pings of this glance.
     silences: u8,
 }
 
-/// What is known of one half of the lane.
+/// One half of the lane.
 #[derive(Clone, Copy, Debug)]
 struct Half {
-    /// Where the sensor looks for it, against the heading.
+    /// The sensor's bearing for this half.
     bearing: f64,
-    /// Free space before the front when it was seen last, and the way driven by then.
+    /// Free space before the front when last seen, and the distance driven by then.
     seen: Option<(f64, f64)>,
 }
 
 impl Half {
-    /// Free space before the front after `driven`, if it has ever been seen.
+    /// Free space before the front after `driven`; `None` if never seen.
     fn free(&self, driven: f64) -> Option<f64> {
         self.seen.map(|(free, at)| free - (driven - at))
     }
 
-    /// The way driven without a look at it.
+    /// Distance driven since the last glance at it.
     fn unseen(&self, driven: f64) -> f64 {
         self.seen.map_or(f64::INFINITY, |(_, at)| driven - at)
     }
 }
 
 impl Glance {
-    /// Begins with a look to the left, then one to the right. A robot of this speed needs `lanedist` free; its sensor
-    /// hears no farther than `heard` before the front.
+    /// Begins with a glance to the left, then to the right. `lanedist` must be free at this speed;
+    /// the sensor's range beyond the front is `heard`.
     pub(super) fn new(lanedist: f64, speed: f64, heard: f64) -> Self {
         let near = lanedist + STARE + speed * TURN;
         Glance {
@@ -77,18 +79,18 @@ impl Glance {
         self.looking
     }
 
-    /// Where to point for the glance that is under way.
+    /// Bearing of the current glance.
     pub(super) fn bearing(&self) -> Option<f64> {
         self.halves.get(self.side).filter(|_| self.looking).map(|half| half.bearing)
     }
 
-    /// Free space before the front, in the half that has less; none before both were seen.
+    /// Free space before the front in the half with less; `None` before both were seen.
     pub(super) fn free(&self, driven: f64) -> Option<f64> {
         let [right, left] = &self.halves;
         Some(right.free(driven)?.min(left.free(driven)?))
     }
 
-    /// Begins a glance if it is time; says whether it began now.
+    /// Begins a glance if due; returns whether it began.
     pub(super) fn turns(&mut self, driven: f64) -> bool {
         if self.looking {
             return false;
@@ -96,7 +98,7 @@ impl Glance {
         let due = |half: &Half| {
             half.unseen(driven) > OFTEN || half.free(driven).is_none_or(|free| free < self.near)
         };
-        // The half that was looked at last has its turn after the other one.
+        // The other half has priority.
         let next = 1 - self.side;
         let sides = [next, self.side];
         let side = sides.into_iter().find(|side| self.halves.get(*side).is_some_and(due));
@@ -105,7 +107,7 @@ impl Glance {
         self.looking
     }
 
-    /// Takes an echo that came from `bearing`, `free` metres before the front; none is silence.
+    /// Takes an echo from `bearing`, `free` metres before the front; `None` is silence.
     pub(super) fn on_echo(&mut self, bearing: f64, free: Option<f64>, driven: f64) {
         let Some(half) = self.halves.get_mut(self.side).filter(|_| self.looking) else { return };
         if (bearing - half.bearing).abs() >= ARRIVED {
@@ -120,7 +122,7 @@ impl Glance {
         self.looking = false;
     }
 
-    /// Whether braking must begin now for the lane's length to stay free.
+    /// Whether braking must begin now to keep the lane free.
     pub(super) fn blocked(&self, driven: f64, speed: f64) -> bool {
         let braking = speed * LAG + speed * speed / (2.0 * BRAKING);
         let near =
@@ -133,7 +135,7 @@ impl Glance {
 mod tests {
     use super::*;
 
-    /// Looks to where it points and finds so much free.
+    /// Looks at the target bearing and finds `free`.
     fn look(glance: &mut Glance, free: f64, driven: f64) {
         let bearing = glance.bearing().expect("it looks");
         glance.on_echo(bearing, Some(free), driven);
@@ -155,7 +157,7 @@ mod tests {
         look(&mut glance, 1.0, 0.0);
         assert!(glance.turns(0.0));
         look(&mut glance, 0.7, 0.0);
-        // The left half is looked at again, and is free; the right one is as near as it was.
+        // The left half is free again; the right half is as near as before.
         assert!(glance.turns(0.26));
         assert_eq!(glance.bearing(), Some(ASIDE));
         look(&mut glance, 1.0, 0.26);

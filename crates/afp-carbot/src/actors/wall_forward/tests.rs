@@ -1,4 +1,4 @@
-//! Wall following among plane walls, with a robot that moves exactly as commanded.
+//! Wall following along plane walls, with a robot that moves exactly as commanded.
 
 use super::*;
 use crate::fake::{Fake, Plane, plane};
@@ -67,7 +67,7 @@ fn a_wall_that_is_not_there_is_waited_for_as_long_as_wanted() {
 
 #[test]
 fn lost_pings_do_not_open_the_lane() {
-    // Whichever two pings in a row are lost, the wall ahead is still seen in time.
+    // The robot sees the wall ahead in time, even if any two consecutive pings are lost.
     for from in (0..9000).step_by(50) {
         let mut robot = Fake::new(&[beside(0.475), plane(0.0, 1.5)]);
         robot.lost_pings = (from, 2);

@@ -1,21 +1,20 @@
-//! The wall on the right as a line through the latest echoes, in the frame of the odometry.
+//! The wall on the right as a line through the latest echoes, in the odometry frame.
 //!
-//! The odometry drifts, but little over the stretch that is remembered.
+//! The odometry drifts little over the remembered stretch.
 
 use crate::devices::Motion;
 use heapless::Vec;
 
-/// So many echoes are remembered.
 const MEMORY: usize = 32;
-/// An echo this far off the line is something else, metres.
+/// An echo farther off the line is not from this wall, metres.
 const OUTLIER: f64 = 0.05;
-/// So many of them in a row are a new wall.
+/// This many outliers in a row are a new wall.
 const NEW_WALL: u8 = 3;
-/// How firmly the line keeps its direction, square metres: the square of an echo's deviation
-/// over that of the direction's change from one echo to the next.
+/// How firmly the line keeps its direction, square metres: the variance of an echo over that of the
+/// direction's change between echoes.
 const FIRMNESS: f64 = 0.02;
 
-/// One echo that came square from the wall: where the sensor was, and how far the wall.
+/// An echo square from the wall: the sensor's position and the wall's distance.
 #[derive(Clone, Copy, Debug)]
 struct Sounding {
     x: f64,
@@ -25,41 +24,40 @@ struct Sounding {
 
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// Direction of the wall, in the robot's way of driving.
+    /// Direction of the wall, in driving direction.
     heading: f64,
-    /// A point of the wall; none before the first echo.
+    /// A point of the wall; `None` before the first echo.
     anchor: Option<(f64, f64)>,
     soundings: Vec<Sounding, MEMORY>,
-    /// Which of them is replaced next, once there is no more room.
+    /// Index of the sounding to replace when the memory is full.
     oldest: usize,
     outliers: u8,
 }
 
 impl Track {
-    /// A wall whose direction is known and whose distance is not.
+    /// A wall of known direction and unknown distance.
     pub(super) fn new(heading: f64) -> Self {
         Track { heading, anchor: None, soundings: Vec::new(), oldest: 0, outliers: 0 }
     }
 
-    /// The wall's direction.
     pub(super) fn heading(&self) -> f64 {
         self.heading
     }
 
-    /// Perpendicular distance from the turning centre to the wall; none before the first echo.
+    /// Perpendicular distance from the turning centre to the wall; `None` before the first echo.
     pub(super) fn distance(&self, motion: &Motion) -> Option<f64> {
         let (x, y) = self.anchor?;
         let (sin, cos) = libm::sincos(self.heading);
         Some((x - motion.x.si()) * sin - (y - motion.y.si()) * cos)
     }
 
-    /// What `distance` from a sensor that is mounted `forward` of the turning centre means for
-    /// the centre.
+    /// Converts a `distance` from a sensor mounted `forward` of the turning centre to a distance
+    /// from the centre.
     pub(super) fn of_centre(&self, motion: &Motion, forward: f64, distance: f64) -> f64 {
         distance + forward * libm::sin(self.heading - motion.heading.si())
     }
 
-    /// Takes an echo from perpendicular distance `distance` into the line.
+    /// Adds an echo at a perpendicular `distance`.
     pub(super) fn add(&mut self, motion: &Motion, forward: f64, distance: f64) {
         let expected = self.distance(motion);
         let found = self.of_centre(motion, forward, distance);
@@ -80,7 +78,6 @@ impl Track {
         self.fit();
     }
 
-    /// Keeps the latest soundings.
     fn remember(&mut self, sounding: Sounding) {
         if let Err(sounding) = self.soundings.push(sounding)
             && let Some(oldest) = self.soundings.get_mut(self.oldest)
@@ -90,7 +87,7 @@ impl Track {
         }
     }
 
-    /// Lays the line through the soundings, least squares with the direction held back.
+    /// Fits the line to the soundings: least squares with a damped direction.
     fn fit(&mut self) {
         let (sin, cos) = libm::sincos(self.heading);
         let soundings = self.soundings.as_slice();
@@ -127,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_slanted_wall_is_found_from_its_distances() {
-        // A wall through (0, -0.5) that rises by 4 degrees; the robot drives along the x axis.
+        // A wall through (0, -0.5) with a slope of 4 degrees; the robot drives along the x axis.
         let slope = 4.0_f64.to_radians();
         let mut track = Track::new(0.0);
         for step in 0..40 {

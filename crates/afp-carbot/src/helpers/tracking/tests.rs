@@ -1,4 +1,4 @@
-//! A robot that obeys and ones that do not, and what is commanded after a halt.
+//! Robots that follow commands or not, and commands after a halt.
 
 use super::*;
 use crate::devices::Odometry;
@@ -8,7 +8,7 @@ use crate::objects::Path;
 use afp_core::quantity::{Angle, Length};
 use afp_core::{Actor, ActorTemplate};
 
-/// Commands the same for some seconds; the time in milliseconds of the fault that ends it.
+/// Repeats a command for some seconds; the fault's time is in milliseconds.
 fn drive(robot: &mut Fake, command: (f64, f64), seconds: u64) -> Result<(), (u64, Fault)> {
     let mut tracking = Tracking::new(robot.now);
     for _ in 0..seconds * 100 {
@@ -63,7 +63,7 @@ fn wheels_that_slip_through_now_and_then_are_noticed_and_a_weak_drive_is_let_go_
     let mut robot = Fake::new(&[]);
     let mut tracking = Tracking::new(robot.now);
     let fault = (0..200).find_map(|tick| {
-        // 200 ms held, 60 ms free: never held for as long as is tolerated.
+        // 200 ms held, 60 ms free: shorter than the tolerated time.
         robot.follows = if tick % 26 < 20 { (0.0, 0.0) } else { (1.0, 1.0) };
         robot.tick();
         let (now, motion) = (robot.now, robot.motion().value.expect("it is alive"));
@@ -93,7 +93,8 @@ fn an_odometry_that_repeats_itself_is_noticed_after_ten_centimetres() {
     assert!(driven < 0.12, "{driven}");
 }
 
-/// Runs an actor through a gap in the odometry; by how much its commanded speed and turn rate grow at most in a tick.
+/// Runs an actor through a gap in the odometry; returns the largest increase of its commanded speed
+/// and turn rate per tick.
 fn gains<'a, T: ActorTemplate, A: Actor<T, Fake>>(
     inputs: T::Inputs<'_>,
     live: impl Fn() -> T::Live<'a>,

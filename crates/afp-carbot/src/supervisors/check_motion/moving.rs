@@ -1,41 +1,41 @@
-//! What moves by itself in one flow.
+//! Moving objects in one flow.
 
 use crate::devices::{Flow, Grid, Lens};
 use crate::helpers::own_motion::Step;
 use afp_core::{Fault, Reason};
 
-/// This many places that move side by side are something.
+/// Fewest adjacent moving places that make an object.
 const SOMETHING: usize = 4;
-/// The robot's own motion is known to this share.
+/// Relative uncertainty of the robot's own motion.
 const DOUBT: f64 = 0.1;
-/// What the flow may be wrong by at any place, pixels.
+/// Uncertainty of the flow at any place, pixels.
 const BLUR: f64 = 0.25;
-/// The grid has more places than there is room for.
+/// The grid has more than [`Grid::MOST`] places.
 pub(super) const TOO_MANY_PLACES: Fault = Fault::new(&Reason {
     code: "too-many-places",
     text: "the flow has more than 512 places: the camera's driver measures it at fewer",
 });
 
-/// A flow and what the robot did meanwhile.
+/// A flow and the robot's motion meanwhile.
 pub(super) struct View<'a> {
     pub(super) lens: Lens,
     pub(super) step: Step,
     pub(super) flow: Flow<'a>,
-    /// What is slower than this across the line of sight does not count, radians a second.
+    /// Slower motion across the line of sight is ignored, radians a second.
     pub(super) speed: f64,
 }
 
-/// Something that moves.
+/// A moving object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Something {
     /// Radians to the left of the robot's heading.
     pub(super) bearing: f64,
-    /// The share of the picture's places that it covers.
+    /// Share of the picture's places that it covers.
     pub(super) strength: f64,
 }
 
 impl View<'_> {
-    /// The largest of the things that move, none if there is none.
+    /// The largest moving object.
     ///
     /// # Errors
     /// [`TOO_MANY_PLACES`] if the grid has more than [`Grid::MOST`].
@@ -63,14 +63,14 @@ impl View<'_> {
         }))
     }
 
-    /// Where the `n`-th place is against the middle of the picture, pixels to the right and down.
+    /// Position of the `n`-th place from the picture's centre, pixels to the right and down.
     fn middle(&self, n: usize) -> [f64; 2] {
         let (x, y) = self.flow.grid.pixel(n);
         let off = |at: usize, size: usize| at as f64 + 0.5 - size as f64 / 2.0;
         [off(x, self.lens.columns), off(y, self.lens.rows)]
     }
 
-    /// Whether the `n`-th place moves by itself.
+    /// Whether the `n`-th place moves independently of the robot.
     fn moves(&self, n: usize) -> bool {
         let Some(Some(shift)) = self.flow.shifts.get(n) else { return false };
         let place = self.middle(n);
@@ -82,8 +82,8 @@ impl View<'_> {
             .is_some_and(|it| it.pixels > BLUR + least + DOUBT * it.explained)
     }
 
-    /// Takes the open places that hang together with `first`: how many, and the sum of their columns
-    /// against the middle.
+    /// Removes the open places connected with `first`. Returns their number and the sum of their
+    /// columns from the centre.
     fn gather(&self, first: usize, open: &mut [bool; Grid::MOST]) -> (usize, f64) {
         let columns = self.flow.grid.columns.max(1);
         let (mut todo, mut left) = ([0_u16; Grid::MOST], 1);

@@ -1,4 +1,4 @@
-//! Motion before a still room, from a robot that drives; cameras that fail.
+//! Motion in a still room, seen from a driving robot, and failing cameras.
 
 use super::*;
 use crate::devices::{Camera, Flow, Frame, Grid, Lens, Motion, Reading, Shift};
@@ -10,20 +10,20 @@ type Template = templates::CheckMotion;
 
 const GRID: Grid = Grid::new(160, 120, 8, 9);
 
-/// A robot that stands, with a camera that gives a flow every 50 ms.
+/// A stationary robot whose camera gives a flow every 50 ms.
 struct Eyes {
     now: Instant,
     shifts: Vec<Option<Shift>>,
-    /// When the latest picture was taken.
+    /// Time of the latest picture.
     taken: Instant,
     frozen: bool,
     heading: f64,
-    /// From this many milliseconds on the odometry says nothing.
+    /// The odometry is silent from this time on, milliseconds.
     odometry_dies: u64,
 }
 
 impl Eyes {
-    /// Everything is seen to stand still.
+    /// Everything is stationary.
     fn new() -> Self {
         let shifts = std::vec![Some(Shift::default()); GRID.len()];
         Eyes {
@@ -36,7 +36,7 @@ impl Eyes {
         }
     }
 
-    /// Everything in these columns and rows of places moves.
+    /// Moves the places in these columns and rows.
     fn move_places(&mut self, columns: &[usize], rows: &[usize], right: f32) {
         for place in rows.iter().flat_map(|row| columns.iter().map(move |c| row * GRID.columns + c))
         {
@@ -44,7 +44,7 @@ impl Eyes {
         }
     }
 
-    /// Watches for a while: how often something was seen, and what at last.
+    /// Watches for `millis`; returns the number of reports and the last one.
     fn watch(&mut self, millis: u64) -> Result<(u32, Option<Event>), Fault> {
         let inputs = Inputs { speed: AngularSpeed::from_si(0.1) };
         let wanted = Events::from_bits(1);
@@ -109,7 +109,7 @@ fn what_moves_is_reported_with_its_bearing_and_its_share_from_the_second_picture
     let (seen, last) = eyes.watch(200).unwrap();
     assert_eq!(seen, 3, "of the pictures at 50, 100, 150 and 200 ms all but the first");
     let Some(Event::MotionSeen { bearing, strength }) = last else { panic!("{last:?}") };
-    // The middle column is 44.5 pixels left of the middle of the picture.
+    // The middle column is 44.5 pixels left of the picture's centre.
     assert!((bearing.si().to_degrees() - 21.2).abs() < 1.5, "{bearing:?}");
     assert!((strength - 9.0 / GRID.len() as f64).abs() < 1e-9, "{strength}");
 }
