@@ -1,11 +1,11 @@
 //! Clocks that time polls.
 //!
-//! The time of a step comes from whoever drives the scheduler and stands still within the step.
-//! A clock only tells how long polls took.
+//! The driver gives each step its time, which is constant within the step. A clock only measures
+//! polls.
 
 use afp_types::Instant;
 
-/// Tells the time within a step.
+/// Measures time within a step.
 ///
 /// ```
 /// use afp_core::{Clock, Instant};
@@ -26,11 +26,11 @@ use afp_types::Instant;
 /// # assert_eq!(Timer.now(Instant::MAX), Instant::MAX);
 /// ```
 pub trait Clock {
-    /// The time now, in a step that was called at `step`; never before it.
+    /// The current time, in a step called at `step`; never earlier than that.
     fn now(&self, step: Instant) -> Instant;
 }
 
-/// A clock that stands still within a step: every poll takes no time.
+/// A clock that is constant within a step: polls take no time.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StillClock;
 

@@ -1,8 +1,8 @@
-//! What a template's author writes: actors, supervisors, computations.
+//! Actors, supervisors and computations: the traits for authors of templates.
 //!
-//! The template traits (`ActorTemplate` and its siblings) are implemented by marker types that
-//! `toolbox!` makes from a toolbox file; the component traits by the author. States and events
-//! carry their outputs as payload, so "written only on that state" follows from the types.
+//! `toolbox!` generates marker types that implement the template traits (`ActorTemplate` and its
+//! siblings). The author implements the component traits. Outputs are payloads of states and
+//! events, so the types guarantee that each output is written only on its state.
 
 use core::task::Poll;
 
@@ -10,7 +10,7 @@ use afp_types::Instant;
 
 use crate::fault::Fault;
 
-/// What every platform offers, whatever devices it has.
+/// Operations of every platform, independent of its devices.
 ///
 /// ```
 /// use afp_core::{Environment, Instant};
@@ -37,19 +37,20 @@ use crate::fault::Fault;
 /// # assert!(!wheels.powered);
 /// ```
 pub trait Environment {
-    /// Gives the stop command to every motor and returns at once: called where an actor cannot start, and at the end of a plan
-    /// that [`Scheduler::run`](crate::Scheduler::run) drives. What is asked for afterwards is obeyed.
+    /// Sends the stop command to every motor and returns at once. Called if an actor cannot start,
+    /// and at the end of a plan that [`Scheduler::run`](crate::Scheduler::run) drives. Later
+    /// commands are obeyed.
     fn stop(&mut self, now: Instant);
 
-    /// Stops by the strongest means there is that the robot can be used after, once it is opened, reset or made anew: called when the run
-    /// cannot be trusted any more, and before the robot is left alone, by whoever drives a scheduler. May be called several
-    /// times and without a clock.
+    /// Stops by the strongest means after which the robot is usable again once it is opened or
+    /// reset. Called if the run can no longer be trusted, and by the driver before it leaves the
+    /// robot unattended. May be called several times and without a clock.
     fn emergency_stop(&mut self);
 }
 
 pub use afp_types::Events;
 
-/// The ports and states of an actor, as its toolbox file declares them.
+/// Ports and states of an actor, as declared in its toolbox file.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is declared in the toolbox, but not as an actor",
     note = "an actor implements `afp::Actor`, a supervisor `afp::Supervisor`, a computation `afp::Computation`"
@@ -59,11 +60,11 @@ pub trait ActorTemplate {
     type Inputs<'a>;
     /// Inputs read again before every poll.
     type Live<'a>;
-    /// The states with the outputs that each carries.
+    /// The states with their outputs.
     type State;
 }
 
-/// The ports and events of a supervisor, as its toolbox file declares them.
+/// Ports and events of a supervisor, as declared in its toolbox file.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is declared in the toolbox, but not as a supervisor",
     note = "an actor implements `afp::Actor`, a supervisor `afp::Supervisor`, a computation `afp::Computation`"
@@ -73,19 +74,19 @@ pub trait SupervisorTemplate {
     type Inputs<'a>;
     /// Inputs read again before every poll.
     type Live<'a>;
-    /// The events with the outputs that each carries.
+    /// The events with their outputs.
     type Event;
 }
 
-/// The ports and states of a computation, as its toolbox file declares them.
+/// Ports and states of a computation, as declared in its toolbox file.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is declared in the toolbox, but not as a computation",
     note = "an actor implements `afp::Actor`, a supervisor `afp::Supervisor`, a computation `afp::Computation`"
 )]
 pub trait ComputationTemplate {
-    /// Its inputs.
+    /// The inputs.
     type Inputs<'a>;
-    /// The states with the outputs that each carries.
+    /// The states with their outputs.
     type State;
 }
 
@@ -97,23 +98,24 @@ pub trait ComputationTemplate {
 ///    Err: gone       \------interrupted--> interrupt, then gone
 /// ```
 ///
-/// The actor `Light` of a toolbox lights a lamp for a while. `toolbox!` makes `templates` from the toolbox file:
+/// The actor `Light` lights a lamp for a while. `toolbox!` generates `templates` from the toolbox
+/// file:
 ///
 /// ```
 /// use afp_core::{Actor, Fault, Instant, Poll};
 /// # mod templates {
-/// #     use afp_core::{ActorTemplate, quantity::Time};
-/// #     pub struct Light;
-/// #     impl ActorTemplate for Light {
-/// #         type Inputs<'a> = light::Inputs;
-/// #         type Live<'a> = light::Live;
-/// #         type State = light::State;
-/// #     }
-/// #     pub mod light {
-/// #         pub struct Inputs { pub lasting: super::Time }
-/// #         pub struct Live {}
-/// #         pub enum State { Lit }
-/// #     }
+/// # use afp_core::{ActorTemplate, quantity::Time};
+/// # pub struct Light;
+/// # impl ActorTemplate for Light {
+/// # type Inputs<'a> = light::Inputs;
+/// # type Live<'a> = light::Live;
+/// # type State = light::State;
+/// # }
+/// # pub mod light {
+/// # pub struct Inputs { pub lasting: super::Time }
+/// # pub struct Live {}
+/// # pub enum State { Lit }
+/// # }
 /// # }
 /// # struct Lamp { on: bool }
 /// use templates::light;
@@ -157,18 +159,17 @@ pub trait ComputationTemplate {
     note = "either the platform lacks what the implementation asks for, or there is no `impl Actor<{T}, _> for {Self}`"
 )]
 pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
-    /// Begins to act. The first poll comes one period later.
+    /// Starts the actor. The first poll follows one period later.
     ///
     /// # Errors
-    /// A fault means that nothing runs; the scheduler calls [`Environment::stop`], not
-    /// `interrupt`.
+    /// On a fault nothing runs; the scheduler calls [`Environment::stop`] instead of `interrupt`.
     fn start(inputs: T::Inputs<'_>, env: &mut E, now: Instant) -> Result<Self, Fault>;
 
-    /// Goes on without blocking. An actor that is ready leaves the robot as safe as an
+    /// Continues without blocking. An actor that is ready leaves the robot as safe as an
     /// interrupted one.
     ///
     /// # Errors
-    /// A fault means that the actor cannot go on; `interrupt` follows.
+    /// On a fault the actor cannot continue; `interrupt` follows.
     fn poll(
         &mut self,
         live: T::Live<'_>,
@@ -176,33 +177,33 @@ pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
         now: Instant,
     ) -> Result<Poll<T::State>, Fault>;
 
-    /// Gives the stop command and returns. Called exactly once for an actor that was started and
-    /// did not finish, before anything else starts.
+    /// Sends the stop command and returns. Called exactly once for an actor that started and did
+    /// not finish, before anything else starts.
     ///
     /// # Errors
-    /// A fault ends the whole run: what cannot be stopped must not be followed.
+    /// A fault ends the whole run, since nothing may follow an actor that does not stop.
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
 }
 
 /// A watching supervisor of template `T` on platform `E`.
 ///
-/// The supervisor `CheckDark` of a toolbox reads a light sensor; a sensor that does not answer is a fault:
+/// The supervisor `CheckDark` reads a light sensor and faults if the sensor does not answer:
 ///
 /// ```
 /// use afp_core::{Events, Fault, Instant, Reason, Supervisor};
 /// # mod templates {
-/// #     pub struct CheckDark;
-/// #     impl afp_core::SupervisorTemplate for CheckDark {
-/// #         type Inputs<'a> = check_dark::Inputs;
-/// #         type Live<'a> = check_dark::Live;
-/// #         type Event = check_dark::Event;
-/// #     }
-/// #     pub mod check_dark {
-/// #         pub struct Inputs {}
-/// #         pub struct Live { pub limit: f64 }
-/// #         #[derive(Debug, PartialEq)]
-/// #         pub enum Event { Dark }
-/// #     }
+/// # pub struct CheckDark;
+/// # impl afp_core::SupervisorTemplate for CheckDark {
+/// # type Inputs<'a> = check_dark::Inputs;
+/// # type Live<'a> = check_dark::Live;
+/// # type Event = check_dark::Event;
+/// # }
+/// # pub mod check_dark {
+/// # pub struct Inputs {}
+/// # pub struct Live { pub limit: f64 }
+/// # #[derive(Debug, PartialEq)]
+/// # pub enum Event { Dark }
+/// # }
 /// # }
 /// # struct Sensor { brightness: Option<f64> }
 /// use templates::check_dark;
@@ -242,15 +243,15 @@ pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
     note = "either the platform lacks what the implementation asks for, or there is no `impl Supervisor<{T}, _> for {Self}`"
 )]
 pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
-    /// Begins to watch.
+    /// Starts watching.
     ///
     /// # Errors
-    /// A supervisor that cannot see is not "all clear": its actor goes to `Error`.
+    /// A supervisor that cannot watch is not "all clear": its actor takes the `Error` edge.
     fn start(inputs: T::Inputs<'_>, env: &mut E, now: Instant) -> Result<Self, Fault>;
 
-    /// Looks without blocking; reports an event of the `wanted` ones or none, the first declared one
-    /// where several hold. Wanted is what would be taken: neither ignored, nor leading to where the
-    /// plan is already. That may be another set at each poll, and none.
+    /// Polls without blocking and reports at most one of the `wanted` events, the first declared if
+    /// several hold. An event is wanted if it would be taken: it is not ignored and does not lead
+    /// to the active element. The set may change at each poll and may be empty.
     ///
     /// # Errors
     /// As for [`Supervisor::start`].
@@ -263,20 +264,20 @@ pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
     ) -> Result<Option<T::Event>, Fault>;
 }
 
-/// A computation of template `T`: no environment, so no side effect.
+/// A computation of template `T`: without an environment, so without side effects.
 ///
 /// ```
 /// use afp_core::{Computation, Fault};
 /// # mod templates {
-/// #     pub struct Longer;
-/// #     impl afp_core::ComputationTemplate for Longer {
-/// #         type Inputs<'a> = longer::Inputs;
-/// #         type State = longer::State;
-/// #     }
-/// #     pub mod longer {
-/// #         pub struct Inputs { pub left: f64, pub right: f64 }
-/// #         pub enum State { Done { result: f64 } }
-/// #     }
+/// # pub struct Longer;
+/// # impl afp_core::ComputationTemplate for Longer {
+/// # type Inputs<'a> = longer::Inputs;
+/// # type State = longer::State;
+/// # }
+/// # pub mod longer {
+/// # pub struct Inputs { pub left: f64, pub right: f64 }
+/// # pub enum State { Done { result: f64 } }
+/// # }
 /// # }
 /// use templates::longer;
 ///
@@ -293,9 +294,9 @@ pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
 /// ```
 #[diagnostic::on_unimplemented(message = "`{Self}` does not implement the computation `{T}`")]
 pub trait Computation<T: ComputationTemplate> {
-    /// Computes at once.
+    /// Computes the result in one call.
     ///
     /// # Errors
-    /// A fault takes the computation's `Error` edge.
+    /// On a fault the plan takes the computation's `Error` edge.
     fn compute(inputs: T::Inputs<'_>) -> Result<T::State, Fault>;
 }

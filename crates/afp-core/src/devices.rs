@@ -1,4 +1,5 @@
-//! The devices of a robot: their rows, what can be wrong between a sensor and the plan, and a robot's own types for both.
+//! A robot's devices: their rows, the faults of every sensor, and the robot's own types for
+//! controls and faults.
 
 use afp_types::Duration;
 
@@ -8,24 +9,24 @@ pub use afp_types::devices::{
     signals,
 };
 
-/// What can be wrong between a sensor and the plan: the faults that every sensor has.
+/// Faults of every sensor, injected between the sensor and the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Defect {
-    /// It repeats its last value as if it had just measured it.
+    /// The sensor repeats its last value with new times.
     Frozen,
-    /// It does not answer.
+    /// The sensor does not answer.
     Lost,
-    /// It delivers what is no number.
+    /// The sensor delivers NaN.
     NotANumber,
-    /// What it measures arrives so much later. The readings keep their times, so their age shows.
+    /// Readings arrive late. They keep their times, so their age shows.
     Delayed(Duration),
-    /// Each use takes so long.
+    /// Each use takes this long.
     Slow(Duration),
 }
 
 /// The devices of a kind of robot.
 ///
-/// `toolbox!` implements it for the devices that a toolbox declares. By hand, for a robot with one button:
+/// `toolbox!` implements it for a toolbox's devices. By hand, for a robot with one button:
 ///
 /// ```
 /// use afp_core::devices::{ControlId, ControlRow, DeviceRow, Devices, FaultId, find_control};
@@ -64,17 +65,17 @@ pub enum Defect {
 /// assert_eq!(Panel::control(id), Some(Button::Go));
 /// ```
 pub trait Devices: 'static {
-    /// The table.
+    /// The rows of the devices.
     const TABLE: &'static [DeviceRow];
-    /// What can be held down.
+    /// A control that can be held down.
     type Control: Copy;
-    /// What can be broken, and by how much.
+    /// A fault that can be injected, with its amount.
     type Fault: Copy;
 
-    /// The control of that number.
+    /// Returns the control with this number.
     fn control(id: ControlId) -> Option<Self::Control>;
 
-    /// The fault of that number; without an amount, by as much as the table says. None for a number that is not
-    /// there and an amount that is out of range.
+    /// Returns the fault with this number. The amount defaults to the table's. `None` for an
+    /// unknown number or an amount out of range.
     fn fault(id: FaultId, amount: Option<f64>) -> Option<Self::Fault>;
 }

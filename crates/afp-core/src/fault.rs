@@ -1,4 +1,4 @@
-//! Why something cannot go on.
+//! Reasons of failures.
 
 mod detail;
 
@@ -9,11 +9,11 @@ use crate::trace::{ComponentId, Names};
 pub(crate) use detail::Port;
 pub use detail::{BadValue, Detail, Subject};
 
-/// A reason why a component failed. One pointer, so that results of polls stay in registers.
+/// A reason why a component failed. It is one pointer, so that poll results stay in registers.
 #[derive(Clone, Copy)]
 pub struct Fault(&'static Reason);
 
-/// What a [`Fault`] points to; a template declares its own as constants.
+/// The target of a [`Fault`]; templates declare their own as constants.
 ///
 /// ```
 /// use afp_core::{Fault, Reason};
@@ -24,22 +24,22 @@ pub struct Fault(&'static Reason);
 pub struct Reason {
     /// A short name in kebab case, stable over versions.
     pub code: &'static str,
-    /// What happened, for people.
+    /// The message for users.
     pub text: &'static str,
 }
 
-/// Which component of a plan failed, and why.
+/// A component that failed, and the reason.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failure {
     /// The component; 0 is the plan itself.
     pub component: ComponentId,
-    /// Why.
+    /// The reason.
     pub fault: Fault,
-    /// The value that it is about, where it is about one.
+    /// The value that caused the fault, if any.
     pub detail: Option<Detail>,
 }
 
-/// Faults as constants: each with its documentation, its code and its text.
+/// Declares faults as constants with documentation, code and text.
 ///
 /// ```
 /// afp_core::faults! {
@@ -63,30 +63,30 @@ impl Fault {
         pub ARITHMETIC = "arithmetic", "a formula overflowed, divided by zero, or has no finite value";
         /// A value outside the range of its port or entry.
         pub RANGE = "range", "a value is out of its range";
-        /// A text that does not read as the type it is converted to.
+        /// A string that is not a value of the target type.
         pub CONVERSION = "conversion", "a text does not read as the value it should become";
-        /// A text of more than 64 bytes.
+        /// A string of more than 64 bytes.
         pub TOO_LONG = "too-long", "a text is longer than 64 bytes";
-        /// An object that nobody has written yet.
+        /// An object that was read before it was written.
         pub UNSET = "unset", "an object is read before it was written";
         /// More than `MAX_TRANSITIONS_PER_STEP` edges in one step.
         pub LIVELOCK = "livelock", "the plan takes edge after edge without time passing";
         /// A component panicked.
         pub PANIC = "panic", "a component panicked";
-        /// The sink or the clock of a step panicked, whoever drives the plan.
+        /// The sink, the clock or the driver of a step panicked.
         pub PANIC_OUTSIDE = "panic-outside", "what records or times the run panicked";
-        /// A test made a component fail.
+        /// A test injected this fault.
         pub INJECTED = "injected", "a test made the component fail";
-        /// The run time met a state that the compiler rules out.
+        /// The run time reached a state that the compiler excludes.
         pub INTERNAL = "internal", "the run time met an impossible state";
     }
 
-    /// A fault with a reason of one's own.
+    /// A fault with your own reason.
     pub const fn new(reason: &'static Reason) -> Self {
         Fault(reason)
     }
 
-    /// The [`Fault::code`] of what an edge to `fail` ends a plan with; the text is the plan's own.
+    /// The [`Fault::code`] of a plan that ended by an edge to `fail`; the text is the plan's own.
     pub const FAILED: &str = "failed";
 
     /// The reason's short name.
@@ -94,13 +94,13 @@ impl Fault {
         self.0.code
     }
 
-    /// What happened, for people.
+    /// The message for users.
     pub const fn text(self) -> &'static str {
         self.0.text
     }
 
-    /// What happened, for people, with the value that it is about, if it is about one:
-    /// `'speed' of 'go' is 2 m/s, at most 1 m/s; formula at plan.afp:12:30`.
+    /// The message with the value that caused it, if any: `'speed' of 'go' is 2 m/s, at most 1 m/s;
+    /// formula at plan.afp:12:30`.
     pub fn explained<'n, N: Names + ?Sized>(
         self,
         detail: Option<Detail>,
@@ -111,7 +111,7 @@ impl Fault {
 }
 
 impl Failure {
-    /// The failure as people read it: `go (Forward): the drive does not move`.
+    /// Formats the failure: `go (Forward): the drive does not move`.
     pub fn named(self, names: &impl Names) -> impl fmt::Display {
         NamedFailure(self, names)
     }

@@ -1,8 +1,8 @@
-//! Long computations beside the plan: handed to a worker, asked after at every poll.
+//! Long computations on a worker, outside of the step.
 //!
-//! No poll may take long, so a component that has much to compute (a path, the flow of a picture)
-//! describes it as a [`Job`] and hands it to a [`Worker`], which the platform owns together with
-//! every buffer the job needs. Nothing is allocated and nobody waits:
+//! No poll may take long, so a component describes a long computation (a path, optical flow) as a
+//! [`Job`]. A [`Worker`] runs it; the platform owns the worker and every buffer that the job needs.
+//! Nothing is allocated and nothing blocks:
 //!
 //! ```text
 //!   begin ──Some(ticket)──▶ under way ──poll: Ready──▶ over
@@ -11,8 +11,8 @@
 //!     is taken, ask again
 //! ```
 //!
-//! In virtual time a job is ready when its declared time has passed, however long the machine took,
-//! so a trace is the same everywhere. The workers themselves are in `afp-platform`.
+//! In virtual time a job is ready after its declared time, however long the machine took, so traces
+//! do not depend on the machine. The workers are in `afp-platform`.
 
 use core::task::Poll;
 
@@ -20,7 +20,7 @@ use afp_types::{Duration, Instant};
 
 use crate::{Fault, faults};
 
-/// A long computation together with its buffers: what it works on and what it gives.
+/// A long computation with its input and output buffers.
 ///
 /// ```
 /// use afp_core::{Duration, Fault, Job};
@@ -44,26 +44,25 @@ use crate::{Fault, faults};
 /// # Ok::<(), Fault>(())
 /// ```
 pub trait Job: Send + 'static {
-    /// How long it takes at most on the slowest platform; in virtual time it takes just that.
+    /// Longest time on the slowest platform. In virtual time the job takes exactly this.
     const TAKES: Duration;
 
-    /// Computes, on a worker. What it works on has been written into it by whoever began it.
+    /// Computes, on a worker. The caller of `begin` has prepared the input.
     ///
     /// # Errors
-    /// Whoever asks after the job gets the fault.
+    /// [`Worker::poll`] returns the fault.
     fn run(&mut self) -> Result<(), Fault>;
 }
 
-/// Names a job that was begun, to the worker that has it.
+/// Identifies a job to its worker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ticket {
-    /// The worker's slot and how many jobs it has had there.
     slot: u16,
     round: u64,
 }
 
 impl Ticket {
-    /// The `round`-th job at a slot; for those who implement workers.
+    /// The `round`-th job of a slot; for implementations of workers.
     pub const fn new(slot: u16, round: u64) -> Self {
         Ticket { slot, round }
     }
@@ -73,18 +72,18 @@ impl Ticket {
         self.slot
     }
 
-    /// How many jobs had been there, this one included.
+    /// Number of jobs of the slot so far, with this job.
     pub const fn round(self) -> u64 {
         self.round
     }
 }
 
-/// Does jobs of one kind, one after the other, with a fixed number of slots for them.
+/// Runs jobs of one kind sequentially, in a fixed number of slots.
 ///
-/// A component that ends without asking after its job need not tell anybody: a finished job that
-/// nobody has fetched for a second gives its slot up when another needs it.
+/// A component may end without fetching its job: after a second, a finished job's slot is available
+/// to other jobs.
 ///
-/// A worker for tests, which computes at once:
+/// A worker for tests, which computes immediately:
 ///
 /// ```
 /// use afp_core::{Fault, Instant, Job, Poll, Ticket, Worker};
@@ -118,8 +117,8 @@ impl Ticket {
 /// }
 /// # struct Double(u32);
 /// # impl Job for Double {
-/// #     const TAKES: afp_core::Duration = afp_core::Duration::ZERO;
-/// #     fn run(&mut self) -> Result<(), Fault> { self.0 *= 2; Ok(()) }
+/// # const TAKES: afp_core::Duration = afp_core::Duration::ZERO;
+/// # fn run(&mut self) -> Result<(), Fault> { self.0 *= 2; Ok(()) }
 /// # }
 /// # let mut worker = AtOnce { job: Double(0), round: 0, done: None };
 /// # let ticket = worker.begin(Instant::ZERO, &mut |job| job.0 = 4)?.expect("it is free");
@@ -128,34 +127,34 @@ impl Ticket {
 /// # Ok::<(), Fault>(())
 /// ```
 pub trait Worker<J: Job> {
-    /// Lets `prepare` write what a job works on into its buffers, and begins it. None if every slot
-    /// is taken; the same can be asked for again at the next poll.
+    /// Lets `prepare` write the job's input, and begins it. `None` if every slot is taken; try
+    /// again at the next poll.
     ///
     /// # Errors
-    /// [`Fault::JOB_PANICKED`] when jobs have panicked at every slot.
+    /// [`Fault::JOB_PANICKED`] if jobs have panicked at every slot.
     fn begin(
         &mut self,
         now: Instant,
         prepare: &mut dyn FnMut(&mut J),
     ) -> Result<Option<Ticket>, Fault>;
 
-    /// The job with its results, once; pending while it is under way.
+    /// Returns the finished job with its results, once; pending before.
     ///
     /// # Errors
     /// The fault of the job; [`Fault::JOB_PANICKED`] if it panicked; [`Fault::JOB_LOST`] if it was
-    /// fetched or cancelled before or gave up its slot. All of them end the job.
+    /// fetched or cancelled before or lost its slot. After an error the job is over.
     fn poll(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<&J>, Fault>;
 
-    /// Gives up a job, which may go on computing for nobody; an actor does so when it is
-    /// interrupted. One that is over already is none of the ticket's business.
+    /// Cancels a job, for example when its actor is interrupted. The computation may continue; its
+    /// result is lost. Has no effect on a job that is over.
     fn cancel(&mut self, ticket: Ticket, now: Instant);
 }
 
 impl Fault {
     faults! {
-        /// A job panicked. Its slot is not used again, for who knows what it left in its buffers.
+        /// A job panicked. Its slot is not used again, because its buffers may be inconsistent.
         pub JOB_PANICKED = "job-panicked", "a job on a worker panicked";
-        /// A job that was asked after is over already.
+        /// The job is over.
         pub JOB_LOST = "job-lost",
             "a job was asked after that nobody had fetched in time, or that was cancelled";
     }

@@ -1,7 +1,8 @@
-//! The run time of Action Flow Plans: time, values, configuration, component traits, scheduler, trace.
+//! The run time of Action Flow Plans: time, values, configuration, component traits, scheduler,
+//! trace.
 //!
-//! One scheduler drives plans compiled to Rust and plans loaded at run time alike. It needs no
-//! standard library, allocates nothing, and never panics.
+//! One scheduler drives compiled plans and plans loaded at run time. It works without the standard
+//! library, allocates nothing, and never panics.
 #![no_std]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

@@ -14,8 +14,8 @@
 //!   enter:   start its supervisors, look, read its inputs, start it
 //! ```
 //!
-//! A sub-plan is an element whose poll is the step of a machine of its own. The recursion polls
-//! outer plans first and interrupts innermost first.
+//! A sub-plan is an element whose poll is the step of its own machine. Outer plans are polled
+//! first; the innermost element is interrupted first.
 
 mod at;
 mod enter;
@@ -32,13 +32,13 @@ use afp_types::{Duration, ElementId, Instant, SupervisorId};
 use at::Stepping;
 use sweep::Seen;
 
-/// A plan, its rows and the state of its scheduling.
+/// A plan, its rows and its scheduling state.
 pub struct Machine<P: PlanState> {
     tables: P::Tables,
     level: Level<P>,
 }
 
-/// All of a machine but the rows, so that those can be read meanwhile.
+/// A machine without the rows, which are borrowed separately.
 struct Level<P: PlanState> {
     plan: P,
     slots: P::Slots,
@@ -46,20 +46,17 @@ struct Level<P: PlanState> {
     due: Instant,
 }
 
-/// An edge about to be followed.
 #[derive(Clone, Copy)]
 struct Edge {
     target: Option<Target>,
-    /// How the plan ends if the edge leads to `terminate`.
+    /// The ending if the edge leads to `terminate`.
     ending: Ending,
 }
 
-/// How following an edge may end short of an active element.
+/// Reasons why following an edge ends without an active element.
 #[derive(Clone, Copy)]
 enum Stop {
-    /// The plan ends.
     Plan(Ending),
-    /// The run ends.
     Run(Fault),
 }
 
@@ -70,7 +67,7 @@ impl<P: PlanState> Machine<P> {
         Machine { tables, level: Level { plan, slots, active: None, due: Instant::MAX } }
     }
 
-    /// A copy that goes on from here by itself; `None` where a component cannot be copied.
+    /// A copy that runs independently; `None` if a component cannot be copied.
     pub fn try_clone(&self) -> Option<Self> {
         let Level { plan, slots, active, due } = &self.level;
         let plan = plan.try_clone()?;
@@ -86,22 +83,22 @@ impl<P: PlanState> Machine<P> {
         &self.level.plan
     }
 
-    /// The plan itself.
+    /// Unwraps the plan.
     pub fn into_plan(self) -> P {
         self.level.plan
     }
 
-    /// The plan, to set its entries before the start.
+    /// Access for setting entries before the start.
     pub fn plan_mut(&mut self) -> &mut P {
         &mut self.level.plan
     }
 
-    /// The active element, by position; `None` before the start and after the end.
+    /// Position of the active element; `None` before the start and after the end.
     pub fn active(&self) -> Option<ElementId> {
         self.level.active
     }
 
-    /// Starts afresh: initial values, global supervisors, first element.
+    /// Starts or restarts: initial values, global supervisors, first element.
     pub fn start<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Flow
     where
         P: Plan<R::Env>,
@@ -109,7 +106,7 @@ impl<P: PlanState> Machine<P> {
         self.stepping(cx).start()
     }
 
-    /// Does everything that is due.
+    /// Performs all due work.
     #[inline]
     pub fn step<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Flow
     where
@@ -118,7 +115,7 @@ impl<P: PlanState> Machine<P> {
         self.stepping(cx).step()
     }
 
-    /// Interrupts whatever is active, innermost first, and drops all components.
+    /// Interrupts the active elements, innermost first, and drops all components.
     ///
     /// # Errors
     /// The fault of an `interrupt`: the whole run must end.
@@ -131,7 +128,7 @@ impl<P: PlanState> Machine<P> {
         result
     }
 
-    /// Commits what is staged from outside.
+    /// Commits writes from outside.
     pub(crate) fn commit<R: Run>(&mut self, author: Author, cx: &mut Cx<'_, R>)
     where
         P: Plan<R::Env>,
@@ -158,10 +155,10 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
         self.level.active = None;
         self.level.due = Instant::MAX;
         if let Err(why) = self.level.plan.initialise() {
-            // The values are the plan's own, whoever was called before.
+            // The values belong to the plan, whichever component was called last.
             self.cx.step.called = self.cx.place.plan;
             let fault = self.cx.note(why);
-            // A sub-plan's fault is traced by the plan that uses it, as any that ends it.
+            // The outer plan traces a sub-plan's fault.
             match self.cx.place.plan {
                 plan @ ComponentId(0) => self.cx.failed(plan, fault),
                 sub_plan => drop(self.cx.note_failure(sub_plan, fault)),
@@ -186,14 +183,13 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
         P::at_element(element, self)
     }
 
-    /// The same for functions that are seldom called: the address of what the others work with stays unknown, so that
-    /// it is kept in registers.
+    /// For functions that are seldom called. The copy hides its address, so that the hot path stays
+    /// in registers.
     #[inline(always)]
     fn seldom(&mut self) -> Stepping<'_, 'c, P, R> {
         Stepping { level: &mut *self.level, t: self.t, cx: &mut *self.cx }
     }
 
-    /// A step while an element is active.
     #[inline(always)]
     fn step_element(&mut self, element: ElementId) -> Flow {
         let Some(row) = self.t.table().element(element) else {
@@ -263,7 +259,7 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
         }
     }
 
-    /// The next instant at which anything of this level is due.
+    /// The next instant at which this level has work due.
     fn wake(&self) -> Instant {
         let row = self.level.active.and_then(|element| self.t.table().element(element));
         let sweep = row.map_or(&[][..], |row| self.t.table().sweep(row));
@@ -271,18 +267,16 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
         slots.map(|slot: &Slot| slot.next).fold(self.level.due, Instant::min)
     }
 
-    /// The slot of a row of a supervisor.
+    /// The slot of a supervisor's row.
     fn slot(&self, row: u16) -> Option<usize> {
         self.t.table().supervisor(row).map(|row| usize::from(row.slot))
     }
 
-    /// The id of an element.
     #[inline]
     fn component(&self, element: ElementId) -> ComponentId {
         ComponentId(self.cx.place.components.saturating_add(u32::from(element.0)))
     }
 
-    /// The id of a supervisor.
     #[inline]
     fn supervisor_id(&self, supervisor: SupervisorId) -> ComponentId {
         let elements = self.t.table().elements.len() as u32;
@@ -291,7 +285,7 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
     }
 }
 
-/// The next poll of an actor, on the grid of its period; polls that passed are skipped.
+/// The next poll of an actor, on the grid of its period; missed polls are skipped.
 #[inline]
 fn next_on_grid(due: Instant, row: &ElementRow, now: Instant) -> Instant {
     let next = due + row.period;

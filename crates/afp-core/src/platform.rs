@@ -1,11 +1,11 @@
-//! Platforms: a simulator, a computer on a robot or a microcontroller, with its own way to let time pass.
+//! Platforms (simulator, robot computer, microcontroller) and how time passes on them.
 
 use afp_types::Instant;
 
 use crate::clock::Clock;
 use crate::component::Environment;
 
-/// An environment in which time passes.
+/// An environment with time.
 ///
 /// ```
 /// use afp_core::{Environment, Instant, Platform, StillClock};
@@ -25,20 +25,20 @@ use crate::component::Environment;
 /// }
 /// ```
 pub trait Platform: Environment {
-    /// What times polls. It stands apart from the platform, which a step borrows.
+    /// Times polls. It is separate from the platform, which a step borrows.
     type Clock: Clock;
 
-    /// The clock of this platform.
+    /// Returns the clock.
     fn clock(&self) -> Self::Clock;
 
-    /// The instant up to which time has passed; a run begins here.
+    /// The current instant; a run begins here.
     fn now(&self) -> Instant;
 
-    /// Lets time pass up to an instant: a simulator computes, a computer sleeps, a microcontroller waits for an
-    /// interrupt. Time never goes back.
+    /// Advances to an instant: a simulator computes, a computer sleeps, a microcontroller waits for
+    /// an interrupt. Time never goes back.
     fn advance(&mut self, to: Instant);
 
-    /// No step is made before this instant: slow devices take computing time.
+    /// Earliest instant of the next step: slow devices take computing time.
     fn ready(&self) -> Instant {
         Instant::ZERO
     }

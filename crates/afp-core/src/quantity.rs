@@ -1,8 +1,8 @@
-//! Quantities: numbers that know their dimension.
+//! Quantities: numbers with a dimension.
 //!
-//! One type for all of them, the exponents of the base dimensions as parameters, the value in SI
-//! units inside. Within one dimension they add and compare; across dimensions templates compute
-//! on [`Quantity::si`].
+//! One type covers all of them. Its parameters are the exponents of the base dimensions, and its
+//! value is in SI units. Quantities of one dimension add and compare; across dimensions, compute
+//! with [`Quantity::si`].
 
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -20,7 +20,7 @@ pub struct Quantity<const M: i8, const KG: i8, const S: i8, const RAD: i8, const
 pub type Length = Quantity<1, 0, 0, 0, 0, 0>;
 /// Radians, counter-clockwise.
 pub type Angle = Quantity<0, 0, 0, 1, 0, 0>;
-/// Seconds, as an entry or a port; the scheduler's own spans are [`crate::Duration`].
+/// Seconds, as an entry or a port; the scheduler uses [`crate::Duration`].
 pub type Time = Quantity<0, 0, 1, 0, 0, 0>;
 /// Metres a second.
 pub type Speed = Quantity<1, 0, -1, 0, 0, 0>;
@@ -64,7 +64,7 @@ impls! {
 impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V: i8>
     Quantity<M, KG, S, RAD, K, V>
 {
-    /// A quantity from its value in SI units.
+    /// Makes a quantity from its SI value.
     pub const fn from_si(value: f64) -> Self {
         Quantity(value)
     }
@@ -74,28 +74,28 @@ impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V
         self.0
     }
 
-    /// The size without the sign.
+    /// The absolute value.
     pub const fn abs(self) -> Self {
         Quantity(self.0.abs())
     }
 }
 
 impl Angle {
-    /// An angle from degrees: the double product with pi / 180.
+    /// Converts degrees: the double product with pi / 180.
     pub const fn from_deg(degrees: f64) -> Self {
         Quantity(degrees * (core::f64::consts::PI / 180.0))
     }
 }
 
 impl AngularSpeed {
-    /// An angular speed from degrees a second: the double product with pi / 180.
+    /// Converts degrees a second: the double product with pi / 180.
     pub const fn from_deg(degrees: f64) -> Self {
         Quantity(degrees * (core::f64::consts::PI / 180.0))
     }
 }
 
 impl Time {
-    /// The span in whole nanoseconds; negative counts as zero.
+    /// The duration in whole nanoseconds; negative counts as zero.
     pub fn duration(self) -> crate::Duration {
         crate::Duration::from_secs_f64(self.0)
     }

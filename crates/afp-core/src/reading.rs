@@ -1,30 +1,30 @@
-//! A measured value with its time and its validity.
+//! Measured values with time and validity.
 
 use afp_types::{Duration, Instant};
 
-/// Why a reading has no value.
+/// Reason why a reading has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Invalid {
     /// The sensor has not measured yet.
     NotYet,
     /// The sensor delivered NaN or an infinite value.
     NotFinite,
-    /// The sensor delivered a value that it cannot measure.
+    /// The sensor delivered a value outside its range.
     OutOfRange,
     /// The sensor does not answer.
     NoAnswer,
-    /// The sensor says exactly the same over and over, which what it measures cannot do.
+    /// The sensor repeats exactly the same value, which noise excludes for a working sensor.
     Frozen,
-    /// The controller that reads the sensor has restarted since the run began.
+    /// The sensor's controller has restarted since the run began.
     Restarted,
 }
 
-/// What a sensor says: a value or why there is none, and when that was measured.
+/// A sensor reading: a value, or the reason why there is none, and the time of the measurement.
 ///
-/// There is no way to read the value of an invalid reading.
+/// The value of an invalid reading cannot be accessed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading<T> {
-    /// When it was measured, not when it was read.
+    /// Time of the measurement, not of the access.
     pub time: Instant,
     /// The value, if it is valid.
     pub value: Result<T, Invalid>,

@@ -20,17 +20,17 @@ use guard::guarded;
 
 pub use outside::{SetError, TypedEntry};
 
-/// Writes from outside that one step can take.
+/// Maximum number of writes from outside per step.
 pub const MAX_WRITES_PER_STEP: usize = 16;
 
-/// What a step leaves to do.
+/// The next work after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wake {
-    /// Call again at this instant, which is later than the step's; earlier does no harm.
+    /// Call again at this instant, which is later than the step's. An earlier call is harmless.
     At(Instant),
-    /// The plan has ended; nothing will ever be due.
+    /// The plan has ended.
     Ended(Ending),
-    /// The plan has not started, so nothing was done: call [`Scheduler::start`] first.
+    /// The plan has not started and did nothing: call [`Scheduler::start`] first.
     NotStarted,
 }
 
@@ -40,18 +40,19 @@ pub enum Wake {
 pub enum StartError {
     /// This `in` entry has neither a value nor a default.
     InputMissing(EntryId),
-    /// It has been started before.
+    /// The plan was started before.
     AlreadyStarted,
 }
 
-/// A plan that can be driven: started, stepped, written to and stopped.
+/// A plan to start, step, write to and stop.
 ///
-/// Whoever drives it calls [`Scheduler::step`] at the times that [`Wake`] names, and calls
-/// [`Environment::emergency_stop`] before leaving the robot alone.
+/// The driver calls [`Scheduler::step`] at the times in [`Wake`], and
+/// [`Environment::emergency_stop`] before it leaves the robot unattended.
 ///
-/// Nothing here catches a panic. Where one unwinds through a call, of a component, the sink or the clock, the plan is broken:
-/// the next [`Scheduler::step`], [`Scheduler::start`] or [`Scheduler::abort`] gives the emergency stop
-/// and ends the run in `Error`, and no component is called again. Drivers that catch do so at once.
+/// The scheduler does not catch panics. If a panic of a component, the sink or the clock unwinds
+/// through a call, the plan is broken: the next [`Scheduler::step`], [`Scheduler::start`] or
+/// [`Scheduler::abort`] calls the emergency stop and ends the run in `Error`, and no component is
+/// called again. Drivers that catch panics should make this call immediately.
 pub struct Scheduler<P: PlanState> {
     machine: Machine<P>,
     state: State,
@@ -73,7 +74,7 @@ impl fmt::Display for StartError {
 }
 
 impl StartError {
-    /// The error with the name of the entry in place of its position.
+    /// Formats the error with the entry's name instead of its position.
     pub fn named(self, names: &impl Names) -> impl fmt::Display {
         NamedStartError(self, names)
     }
@@ -99,7 +100,7 @@ impl core::error::Error for StartError {}
 enum State {
     Ready,
     Running,
-    /// A panic unwound through a call: of a component, or `outside`, of a sink or a clock.
+    /// A panic unwound through a call of a component or, if `outside`, of a sink or a clock.
     Broken {
         outside: bool,
     },
@@ -119,8 +120,8 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// A copy that goes on from here by itself, on a platform of its own: a keyframe to come back to.
-    /// `None` where a component cannot be copied.
+    /// A copy that runs independently on its own platform, as a keyframe. `None` if a component
+    /// cannot be copied.
     pub fn try_clone(&self) -> Option<Self> {
         Some(Scheduler {
             machine: self.machine.try_clone()?,
@@ -137,18 +138,18 @@ impl<P: PlanState> Scheduler<P> {
         self.machine.plan()
     }
 
-    /// The plan itself, as far as it is.
+    /// Unwraps the plan in its current state.
     pub fn into_plan(self) -> P {
         self.machine.into_plan()
     }
 
-    /// The plan, to set its `in` entries before the start; none once it has started. A running plan
-    /// is written to with [`Scheduler::set`] and [`Scheduler::write`].
+    /// Access for setting `in` entries before the start; `None` afterwards. Write to a running plan
+    /// with [`Scheduler::set`] and [`Scheduler::write`].
     pub fn plan_mut(&mut self) -> Option<&mut P> {
         (self.state == State::Ready).then(|| self.machine.plan_mut())
     }
 
-    /// The plan however far it is, for tests that put outcomes in the place of a component's own.
+    /// Access to the plan at any time, for tests that inject outcomes.
     #[doc(hidden)]
     pub fn plan_under_test(&mut self) -> &mut P {
         self.machine.plan_mut()
@@ -159,7 +160,7 @@ impl<P: PlanState> Scheduler<P> {
         self.machine.active()
     }
 
-    /// How the plan ended, once it has.
+    /// The ending, if the plan has ended.
     pub fn ending(&self) -> Option<Ending> {
         match self.state {
             State::Ended(ending) => Some(ending),
@@ -167,8 +168,8 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// Which component failed and why, where the plan ended in [`Ending::Error`]: the innermost one
-    /// whose fault no `Error` edge took. The plan itself (id 0) where no single component failed.
+    /// The failed component and its fault after [`Ending::Error`]: the innermost component whose
+    /// fault no `Error` edge took. It is the plan itself (id 0) if no single component failed.
     pub fn failure(&self) -> Option<Failure> {
         match self.state {
             State::Ended(Ending::Error(_)) => self.step.failure,
@@ -176,7 +177,7 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// Deadlines missed so far, skipped releases included.
+    /// Missed deadlines so far, with skipped releases.
     pub fn misses(&self) -> u64 {
         self.step.misses
     }
@@ -184,7 +185,7 @@ impl<P: PlanState> Scheduler<P> {
     /// Starts the plan at `now`.
     ///
     /// # Errors
-    /// [`StartError`]; nothing has happened then.
+    /// [`StartError`], without any effect.
     pub fn start<R: Run>(&mut self, mut on: R, now: Instant) -> Result<Wake, StartError>
     where
         P: Plan<R::Env>,
@@ -210,11 +211,11 @@ impl<P: PlanState> Scheduler<P> {
         Ok(self.conclude(flow, on))
     }
 
-    /// Does everything that is due at `now` and says when to call again. Before the start it does
-    /// nothing.
+    /// Performs all work due at `now` and returns the time of the next call. Does nothing before
+    /// the start.
     ///
-    /// Never allocates. Time grows linearly with the number of due supervisors. A time before
-    /// that of the last step is traced and counts as that one.
+    /// Never allocates. Time grows linearly with the number of due supervisors. A time before the
+    /// last step is traced and replaced by the last step's time.
     #[inline]
     pub fn step<R: Run>(&mut self, mut on: R, now: Instant) -> Wake
     where
@@ -251,8 +252,8 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// The plan cannot be stepped any more, for instance because a component panicked: the
-    /// platform stops, the run ends in `Error` unless it has ended before.
+    /// Ends a plan that cannot be stepped any longer, for instance after a panic. The platform
+    /// stops, and the run ends in `Error` unless it has ended before.
     pub fn abort<R: Run>(&mut self, mut on: R, fault: Fault) -> Wake {
         match self.state {
             State::Ended(ending) => {
@@ -280,7 +281,7 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// Ends a run after a panic: nobody is asked, not even to be interrupted.
+    /// Ends a run after a panic without calling any component, even for interruption.
     fn broken<R: Run>(&mut self, outside: bool, on: R) -> Wake {
         match outside {
             true => self.fatal(ComponentId(0), Fault::PANIC_OUTSIDE, on),
@@ -288,16 +289,16 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// The platform stops, the run ends in `Error`.
+    /// Stops the platform and ends the run in `Error`.
     fn fatal<R: Run>(&mut self, component: ComponentId, fault: Fault, mut on: R) -> Wake {
         let (env, sink, _) = on.parts();
         env.emergency_stop();
         let (plan, ending) = (ComponentId(0), Ending::Error(fault));
-        // An actor that could not be interrupted has been noted already.
+        // A failed interrupt is stored already.
         if self.step.failure.is_none_or(|known| known.fault != fault) {
             self.step.failure = Some(Failure { component, fault, detail: None });
         }
-        // First: whatever the sink does, nothing is called any more.
+        // Set first: if the sink panics, nothing is called again.
         self.state = State::Ended(ending);
         sink.record(self.last, &Record::Faulted { component, fault, detail: None });
         sink.record(self.last, &Record::Ended { plan, ending });
@@ -324,7 +325,7 @@ impl<P: PlanState> Scheduler<P> {
         self.conclude(flow, on)
     }
 
-    /// Turns a level's flow into the run's state.
+    /// Converts a level's flow to the run's state.
     fn conclude<R: Run>(&mut self, flow: Flow, on: R) -> Wake {
         match flow {
             Flow::Running(wake) => Wake::At(wake),

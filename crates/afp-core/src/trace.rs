@@ -1,7 +1,7 @@
-//! What a plan tells about itself while it runs.
+//! The trace of a running plan.
 //!
-//! A step hands each record to a [`Sink`]. Records speak in ids; [`Names`] turns them into the
-//! paths that people know. With [`NoTrace`] the compiler removes all of it.
+//! A step passes each record to a [`Sink`]. Records hold ids; [`Names`] resolves them to dotted
+//! paths. With [`NoTrace`] the compiler removes all tracing.
 
 mod display;
 mod hash;
@@ -32,36 +32,36 @@ pub enum Ending {
     Error(Fault),
 }
 
-/// Who wrote or stopped.
+/// The author of a commit or a stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Author {
-    /// A component that ended the activity.
+    /// A component that ended the active element.
     Component(ComponentId),
-    /// Whoever runs the plan.
+    /// The program that runs the plan.
     Outside,
 }
 
-/// What a supervisor's poll said.
+/// Result of a supervisor's poll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Nothing.
+    /// No event.
     Clear,
-    /// This event.
+    /// An event.
     Event(Outcome),
-    /// It failed.
+    /// A fault.
     Fault(Fault),
 }
 
 /// Why a deadline was missed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// The poll began too late to keep it.
+    /// The poll began too late.
     LateRelease,
     /// The poll took too long.
     LongPoll,
 }
 
-/// Receives records. Called within a step: it must neither block nor allocate where the step
+/// Receives records. It is called within a step, so it must not block, nor allocate if the step
 /// must not.
 ///
 /// ```
@@ -81,20 +81,21 @@ pub enum Cause {
 /// # assert_eq!(faults.0, 0);
 /// ```
 pub trait Sink {
-    /// Whether records are wanted at all; `false` removes the code that makes them.
+    /// Whether records are wanted; `false` removes the code that makes them.
     const ENABLED: bool = true;
 
     /// Takes one record; `at` is the time of the step.
     fn record(&mut self, at: Instant, record: &Record<'_>);
 
-    /// A component is about to be called: what another thread needs to know if the call never returns.
+    /// Called before each call of a component, so that another thread can name it if the call never
+    /// returns.
     #[inline]
     fn calls(&mut self, component: ComponentId) {
         let _ = component;
     }
 }
 
-/// No trace, no cost.
+/// Discards all records, at no cost.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoTrace;
 
@@ -104,7 +105,7 @@ impl Sink for NoTrace {
     fn record(&mut self, _: Instant, _: &Record<'_>) {}
 }
 
-/// Hands each record to a function.
+/// Passes each record to a function.
 ///
 /// ```
 /// use afp_core::Instant;
@@ -117,7 +118,7 @@ impl Sink for NoTrace {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Observe<F>(
-    /// The function: time of the step, record.
+    /// The function of the step's time and the record.
     pub F,
 );
 
@@ -140,7 +141,7 @@ impl<S: Sink + ?Sized> Sink for &mut S {
     }
 }
 
-/// Each record goes to both.
+/// Passes each record to both sinks.
 impl<A: Sink, B: Sink> Sink for (A, B) {
     const ENABLED: bool = A::ENABLED || B::ENABLED;
 

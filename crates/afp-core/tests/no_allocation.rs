@@ -1,6 +1,6 @@
-//! A million steps, transitions and commits among them, without one allocation.
+//! A million steps with transitions and commits, without one allocation.
 //!
-//! A test binary of its own, because it counts in the global allocator.
+//! The test is a separate binary, because it counts in the global allocator.
 
 mod support;
 

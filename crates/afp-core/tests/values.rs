@@ -1,4 +1,4 @@
-//! Formulas, conversions, texts and times: where plain operators would panic, wrap or round.
+//! Formulas, conversions, strings and times for which plain operators would panic, wrap or round.
 
 use afp_core::quantity::{Force, Frequency, Quantity, Speed};
 use afp_core::rt::{

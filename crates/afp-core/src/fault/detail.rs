@@ -1,7 +1,7 @@
-//! Which value a fault is about: what stands beside the fault, and the text that both make.
+//! The value that caused a fault, and the message with both.
 //!
-//! A [`Fault`] is one pointer, so that polls stay fast. What says more about it is put together only where
-//! something has failed, from numbers; names, ranges and places are looked up when somebody reads it.
+//! A [`Fault`] is one pointer, so that polls stay fast. The detail is built only after a failure
+//! and holds numbers; names, ranges and positions are looked up for the message.
 
 use core::fmt;
 
@@ -10,40 +10,42 @@ use afp_types::{Error, Measured, Quantity};
 use super::Fault;
 use crate::trace::{ComponentId, Names, PortName, TextPlace, TraceEntryId};
 
-/// The value that a fault is about.
+/// The value that caused a fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detail {
-    /// Whose it is: the innermost component, where sub-plans passed its fault on.
+    /// The innermost component, if sub-plans passed the fault on.
     pub component: ComponentId,
-    /// What it was for.
+    /// The use of the value.
     pub subject: Subject,
-    /// The value, in SI units, where it is a number and there is one.
+    /// The value in SI units, if it is a number.
     pub value: Option<f64>,
 }
 
-/// What a value was for.
+/// The use of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
-    /// An input port, by position in the template; an `in` entry of a sub-plan by position among those.
+    /// An input port, by position in the template; of a sub-plan, by position among its `in`
+    /// entries.
     Input(u16),
-    /// An output port, by position in the template; an `out` entry of a sub-plan by position among those.
+    /// An output port, by position in the template; of a sub-plan, by position among its `out`
+    /// entries.
     Output(u16),
     /// The initial value of an entry.
     Entry(TraceEntryId),
 }
 
-/// A fault with the value that it is about, on its way to the scheduler.
+/// A fault and the invalid value, on its way to the scheduler.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BadValue {
-    /// Why the value will not do.
+    /// The fault.
     pub fault: Fault,
-    /// What it was for; an entry goes by its position in its plan.
+    /// The use of the value; entries by position in their plan.
     pub(crate) port: Option<Port>,
-    /// The value, where it is a number.
+    /// The value, if it is a number.
     pub value: Option<f64>,
 }
 
-/// As [`Subject`], seen from a plan that does not know where its ids begin.
+/// [`Subject`] relative to a plan, which does not know its first id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Port {
     Input(u16),
@@ -64,37 +66,37 @@ impl From<Error> for BadValue {
 }
 
 impl BadValue {
-    /// A number that will not do.
+    /// An invalid number.
     #[cold]
     pub const fn number(fault: Fault, value: f64) -> Self {
         BadValue { fault, port: None, value: Some(value) }
     }
 
-    /// It was for an input port.
+    /// Adds the input port.
     #[must_use]
     pub fn for_input(self, port: u16) -> Self {
         self.meant_for(Port::Input(port))
     }
 
-    /// It was for the entry that an output port is bound to.
+    /// Adds the output port, whose entry the value was for.
     #[must_use]
     pub fn for_output(self, port: u16) -> Self {
         self.meant_for(Port::Output(port))
     }
 
-    /// It was the initial value of an entry, by position in its plan.
+    /// Adds the entry, by position in its plan, whose initial value this is.
     #[must_use]
     pub fn for_entry(self, entry: u16) -> Self {
         self.meant_for(Port::Entry(entry))
     }
 
-    /// What is known already stays: it is the inner one.
+    /// Keeps an earlier port, which is the inner one.
     fn meant_for(self, port: Port) -> Self {
         BadValue { port: Some(self.port.unwrap_or(port)), ..self }
     }
 }
 
-/// A fault as people read it, see [`Fault::explained`].
+/// See [`Fault::explained`].
 pub(super) struct Explained<'a, N: ?Sized> {
     pub fault: Fault,
     pub detail: Option<Detail>,
@@ -137,7 +139,6 @@ impl<'a, N: Names + ?Sized> Explained<'a, N> {
         }
     }
 
-    /// What is wrong with the value.
     fn value(
         &self,
         f: &mut fmt::Formatter<'_>,
@@ -167,7 +168,7 @@ impl<'a, N: Names + ?Sized> Explained<'a, N> {
     }
 }
 
-/// A value, to the last digit where it would read like a bound that it is not.
+/// A value, with every digit if it would otherwise print like a bound that it breaks.
 struct Shown<'a> {
     value: f64,
     unit: &'a str,
@@ -175,7 +176,7 @@ struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    /// The bound that a value breaks: zero has the unit of the value.
+    /// The bound that a value breaks; zero gets the unit of the value.
     fn beside(self, value: f64) -> impl fmt::Display + 'a {
         let [bound, beside] = [self.value, value].map(|value| Measured::new(value, self.unit));
         fmt::from_fn(move |f| match self.value == 0.0 {

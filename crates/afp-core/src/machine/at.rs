@@ -1,14 +1,14 @@
-//! The step of a level, once for each element of a compiled plan.
+//! The step of a level, compiled once for each element of a plan.
 //!
-//! With the element known, its rows fold to constants and its supervisors stand in a row: a third
-//! less time than one step that reads the rows of whichever element is active.
+//! For a known element its rows fold to constants and its supervisors are unrolled. This takes a
+//! third less time than one step that reads the rows of the active element.
 
 use super::{Flow, Level};
 use crate::fault::Fault;
 use crate::rt::{AtElement, Cx, Plan, PlanState, Run};
 use afp_types::ElementId;
 
-/// A level while it steps, its rows, and what it runs on.
+/// A level during a step, with its rows and context.
 pub(super) struct Stepping<'a, 'c, P: PlanState, R: Run> {
     pub level: &'a mut Level<P>,
     pub t: &'a P::Tables,

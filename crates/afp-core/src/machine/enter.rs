@@ -1,4 +1,5 @@
-//! Entering an element: its supervisors start, all due supervisors are polled (the look), then it starts.
+//! Entering an element: its supervisors start, all due supervisors are polled (the look), then the
+//! element starts.
 
 use super::sweep::{Found, Moment, What};
 use super::{Edge, Flow, Stepping, Stop};
@@ -10,7 +11,7 @@ use crate::trace::Record;
 use afp_types::{ElementId, SupervisorId};
 
 impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
-    /// Enters an element. `None` when it is active now, else the edge by which it was left.
+    /// Enters an element. `None` if it is now active, otherwise the edge by which it was left.
     pub(super) fn enter(&mut self, element: ElementId) -> Result<Option<Edge>, Stop> {
         let Some(row) = self.t.table().element(element) else {
             return Err(Stop::Run(Fault::INTERNAL));
@@ -28,7 +29,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         self.start_element(element, row)
     }
 
-    /// Starts a supervisor; it is due at once.
+    /// Starts a supervisor; it is due immediately.
     pub(super) fn start_supervisor(&mut self, supervisor: SupervisorId) -> Result<(), Fault> {
         let slot = self.slot(supervisor.0).unwrap_or(usize::MAX);
         if let Some(slot) = self.level.slots.as_mut().get_mut(slot) {
@@ -44,10 +45,10 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         result
     }
 
-    /// Looks before the start: due global supervisors first, then the element's own.
+    /// Polls before the start: due global supervisors first, then the element's own.
     fn look(&mut self, element: ElementId, row: &ElementRow) -> Option<Found> {
         let moment = Moment { element, look: true };
-        // Whatever ran since the last poll of a supervisor took its time too.
+        // Includes the time of everything that ran since the last poll of a supervisor.
         self.cx.step.clock = self.cx.clock.now(self.cx.now);
         for global in [true, false] {
             for &row in self.t.table().sweep(row) {
@@ -91,7 +92,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         self.after_supervisor(element, row, found)
     }
 
-    /// Reads the inputs and starts the element itself.
+    /// Reads the inputs and starts the element.
     fn start_element(
         &mut self,
         element: ElementId,
@@ -118,7 +119,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// Nothing runs: the platform stops, the element's `Error` edge is taken.
+    /// Stops the platform, since nothing runs, and takes the element's `Error` edge.
     fn start_failed(
         &mut self,
         element: ElementId,

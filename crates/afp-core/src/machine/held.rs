@@ -1,7 +1,7 @@
-//! Events that interrupt nothing yet: they lead to `resume`, or to computations that may.
+//! Events that do not interrupt yet: they lead to `resume`, or to computations that may resume.
 //!
-//! What they write is committed as it comes. The computations run beside the active element; only
-//! where their edges lead elsewhere is it interrupted, or, in the look, not started.
+//! Their writes are committed immediately. The computations run while the element stays active.
+//! Only if an edge leads elsewhere is the element interrupted or, in the look, not started.
 
 use super::leave::after_fault;
 use super::sweep::{Moment, What};
@@ -13,8 +13,8 @@ use crate::trace::{Author, Ending, Outcome, Record};
 use afp_types::{ElementId, SupervisorId};
 
 impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
-    /// Takes an event that is held, its outputs staged. The element goes on, or there is an edge to leave
-    /// it by.
+    /// Takes such an event after its outputs are staged. The element continues, or is left by an
+    /// edge.
     pub(super) fn hold(
         &mut self,
         supervisor: SupervisorId,
@@ -36,7 +36,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// Runs computations until one of their edges resumes, which is `None`, or leads elsewhere.
+    /// Runs computations until an edge resumes (`None`) or leads elsewhere.
     fn compute_until_resumed(&mut self, target: Target) -> Result<Option<Edge>, Stop> {
         let mut edge = Edge { target: Some(target), ending: Ending::Interrupted };
         loop {
@@ -54,7 +54,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// Runs one computation beside what is active.
+    /// Runs one computation while the element stays active.
     fn compute(&mut self, element: ElementId, row: &ElementRow) -> Result<Edge, Stop> {
         let id = self.component(element);
         self.cx.place.component = id;

@@ -1,4 +1,4 @@
-//! Leaving an element: it reached a state, it failed, or it is interrupted; then edges are followed.
+//! Leaving an element that finished, failed or is interrupted, and following edges.
 
 use super::{Edge, Flow, Stepping, Stop};
 use crate::fault::Fault;
@@ -19,7 +19,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
                 let id = self.component(element);
                 self.cx.failed(id, fault);
                 if matches!(polled, Polled::EndedInError(_)) {
-                    // It interrupted what was active inside.
+                    // The sub-plan has interrupted its active element.
                     self.level.active = None;
                 }
                 self.level.plan.discard();
@@ -37,13 +37,13 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Counts an edge of the step.
     ///
     /// # Errors
-    /// The step has no more edges.
+    /// The step's limit of edges is reached.
     pub(super) fn take_edge(&mut self) -> Result<(), Fault> {
         self.cx.step.edges_left = self.cx.step.edges_left.checked_sub(1).ok_or(Fault::LIVELOCK)?;
         Ok(())
     }
 
-    /// Takes edges until an element is active or the plan ends.
+    /// Follows edges until an element is active or the plan ends.
     pub(super) fn follow(&mut self, mut edge: Result<Edge, Stop>) -> Flow {
         loop {
             let taken = match edge {
@@ -72,13 +72,13 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// The plan fails by an edge of its own.
+    /// The plan ends by an edge to `fail`.
     fn fail(&mut self, fault: Fault) -> Flow {
         self.cx.note_failure(self.cx.place.plan, fault);
         self.end(Ending::Error(fault))
     }
 
-    /// An element reached a state: its outputs are staged.
+    /// An element reached a state; its outputs are staged.
     pub(super) fn finished(
         &mut self,
         element: ElementId,
@@ -91,7 +91,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         Ok(edge)
     }
 
-    /// Commits the outputs of an element that reached a state, and gives the state's edge.
+    /// Commits the outputs of the state and returns its edge.
     pub(super) fn reached(&mut self, element: ElementId, row: &ElementRow, state: u16) -> Edge {
         let id = self.component(element);
         self.cx.trace(&Record::Finished { element: id, state: Outcome::Declared(state) });
@@ -99,7 +99,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         Edge { target: self.t.table().edge(row.states, state), ending: Ending::Ok }
     }
 
-    /// The edge of an element that failed; unconnected, the plan ends.
+    /// The `Error` edge of a failed element; if unconnected, the plan ends.
     pub(super) fn error_edge(
         &mut self,
         element: ElementId,
@@ -110,7 +110,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         after_fault(row, fault)
     }
 
-    /// Interrupts the active element, if there is one, and drops it.
+    /// Interrupts and drops the active element, if any.
     pub(super) fn interrupt_active(&mut self) -> Result<(), Fault> {
         let Some(element) = self.level.active.take() else { return Ok(()) };
         let result = self.interrupt_element(element);
@@ -122,7 +122,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         result
     }
 
-    /// Interrupts an element; an actor that cannot be is traced.
+    /// Interrupts an element; traces a failure.
     pub(super) fn interrupt_element(&mut self, element: ElementId) -> Result<(), Fault> {
         let id = self.component(element);
         self.cx.place.component = id;
@@ -136,7 +136,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     }
 }
 
-/// The `Error` edge of an element; unconnected, the plan ends.
+/// The `Error` edge of an element; if unconnected, the plan ends.
 pub(super) fn after_fault(row: &ElementRow, fault: Fault) -> Result<Edge, Stop> {
     match row.on_error {
         None => Err(Stop::Plan(Ending::Error(fault))),

@@ -1,4 +1,4 @@
-//! Polling supervisors: who is due, who is late, whose event is taken.
+//! Polling supervisors: due polls, missed deadlines, the event that is taken.
 
 use afp_types::{Duration, Instant};
 
@@ -9,50 +9,45 @@ use crate::rt::{ElementRow, Fired, Plan, Run, SupervisorRow, Tables, Target};
 use crate::trace::{Author, Cause, Ending, Outcome, Record, Sink, Verdict};
 use afp_types::{ElementId, SupervisorId};
 
-/// What a sweep over the supervisors brought.
+/// Result of a sweep over the supervisors.
 pub(super) enum Seen {
-    /// Nothing; none of them is due before this instant.
+    /// Nothing found; no supervisor is due before this instant.
     Nothing(Instant),
-    /// One that stops the activity.
     Something(Found),
 }
 
-/// A supervisor that stops the activity.
+/// A supervisor that stops the active element.
 pub(super) struct Found {
-    /// Which one.
     pub supervisor: SupervisorId,
-    /// What it found.
     pub what: What,
 }
 
 pub(super) enum What {
-    /// An event to take, outputs staged, and where it leads.
+    /// An event to take, its outputs staged, and its target.
     Event(Outcome, Target),
-    /// An event that could have resumed, all of it committed, and the edge that it leads to instead.
+    /// An event that could have resumed, fully committed, and the edge that it leads to instead.
     Leads(Outcome, Result<Edge, Stop>),
-    /// It failed.
     Fault(Fault),
 }
 
-/// When a supervisor is polled, and what for.
+/// Occasion of a poll.
 #[derive(Clone, Copy)]
 pub(super) struct Moment {
     /// The element that is active or being entered.
     pub element: ElementId,
-    /// Whether it is being entered.
+    /// Whether the element is being entered.
     pub look: bool,
 }
 
 /// The release that a poll serves.
 struct Release {
     at: Instant,
-    /// The one after it.
+    /// The following release.
     next: Instant,
-    /// Earlier ones that passed entirely.
+    /// Number of earlier releases without a poll.
     skipped: u64,
 }
 
-/// A poll of a supervisor.
 struct Poll {
     /// The earliest release that was not served.
     release: Instant,
@@ -62,12 +57,12 @@ struct Poll {
 }
 
 impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
-    /// Polls all due supervisors in their order, up to the first one that stops the activity.
+    /// Polls all due supervisors in order, up to the first that stops the active element.
     #[inline(always)]
     pub(super) fn sweep(&mut self, element: ElementId, row: &ElementRow) -> Seen {
         let moment = Moment { element, look: false };
         let mut seen = Seen::Nothing(Instant::MAX);
-        // Four at a time: the polls of a compiled plan then stand in a row.
+        // Four at a time, so that the polls of a compiled plan are unrolled.
         let (fours, rest) = self.t.table().sweep(row).as_chunks::<4>();
         for &[a, b, c, d] in fours {
             if self.poll_in_sweep(a, moment, &mut seen)
@@ -86,7 +81,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         seen
     }
 
-    /// Polls one supervisor of a sweep; whether the sweep is over.
+    /// Polls one supervisor of a sweep; returns whether the sweep is over.
     #[inline(always)]
     fn poll_in_sweep(&mut self, row: u16, moment: Moment, seen: &mut Seen) -> bool {
         let Some(row) = self.t.table().supervisor(row) else { return false };
@@ -104,7 +99,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// Polls one supervisor, if due, and says when it is due again.
+    /// Polls one supervisor if due, and returns its next due time.
     #[inline(always)]
     pub(super) fn poll_if_due(
         &mut self,
@@ -137,7 +132,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         self.seldom().judge(row, Poll { release, begin, end, fired }, moment)
     }
 
-    /// Decides what a poll means that was late or brought something.
+    /// Handles a poll that was late or has a result.
     #[cold]
     #[inline(never)]
     fn judge(&mut self, row: &SupervisorRow, poll: Poll, moment: Moment) -> Result<Instant, What> {
@@ -178,7 +173,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         Ok(release.next)
     }
 
-    /// Takes an event: the sweep goes on only where that resumes.
+    /// Takes an event; the sweep continues only if the event resumes.
     fn take(
         &mut self,
         supervisor: SupervisorId,
@@ -191,7 +186,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// A supervisor stopped the activity of a started element.
+    /// A supervisor stopped a started element.
     pub(super) fn interrupted(
         &mut self,
         element: ElementId,
@@ -218,8 +213,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         self.follow(edge)
     }
 
-    /// The edge that a supervisor's finding leads to, its outputs committed. The element is not
-    /// active any more.
+    /// The edge of a supervisor's finding, its outputs committed. The element is no longer active.
     pub(super) fn after_supervisor(
         &mut self,
         element: ElementId,
@@ -245,7 +239,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// Where an event leads, if it is taken at this moment.
+    /// The target of an event, if it is taken now.
     fn taken(
         &mut self,
         supervisor: SupervisorId,
@@ -271,7 +265,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// Whether an event with this target interrupts nothing yet.
+    /// Whether an event with this target does not interrupt yet.
     fn is_held(&self, target: Target) -> bool {
         match target {
             Target::Resume => true,
@@ -282,8 +276,8 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         }
     }
 
-    /// Counts and traces a missed deadline, with its cause: a poll that began too late for its
-    /// declared budget is not itself to blame.
+    /// Counts and traces a missed deadline with its cause: a poll that began too late for its
+    /// budget is not the cause.
     #[cold]
     fn trace_miss(&mut self, row: &SupervisorRow, release: &Release, begin: Instant, end: Instant) {
         let deadline = release.at + row.timing.deadline;
@@ -318,7 +312,7 @@ impl Fired {
     }
 }
 
-/// The latest release up to `now`, where `first` is the earliest that is not served.
+/// The latest release up to `now`; `first` is the earliest that is not served.
 fn serve(first: Instant, period: Duration, now: Instant) -> Release {
     if first + period > now {
         return Release { at: first, next: first + period, skipped: 0 };

@@ -1,4 +1,5 @@
-//! Functions that generated formulas call besides those of `afp-types`, and the errors of both as faults.
+//! Functions that generated formulas call in addition to those of `afp-types`, and the errors of
+//! both as faults.
 
 use core::cmp::Ordering;
 
@@ -20,7 +21,7 @@ impl From<Error> for Fault {
     }
 }
 
-/// The divisor of a quotient. A number divided by infinity is zero, which would hide the fault.
+/// Checks a divisor. A number divided by infinity is zero, which would hide the fault.
 ///
 /// # Errors
 /// [`Error::NotFinite`].
@@ -32,10 +33,6 @@ pub fn divisor<T: Stored>(value: T) -> Result<T, Error> {
     Ok(value)
 }
 
-/// The order of two numbers.
-///
-/// # Errors
-/// [`Error::NotFinite`] for a number that is not finite.
 #[inline]
 pub fn order<T: Stored + PartialOrd>(left: &T, right: &T) -> Result<Ordering, Error> {
     for number in [left, right] {
@@ -46,20 +43,16 @@ pub fn order<T: Stored + PartialOrd>(left: &T, right: &T) -> Result<Ordering, Er
     left.partial_cmp(right).ok_or(Error::NotFinite)
 }
 
-/// Two texts joined.
-///
-/// # Errors
-/// [`Error::TooLong`] when the result does not fit.
 pub fn join(a: &str, b: &str) -> Result<Text, Error> {
     let mut text = Text::try_from(a)?;
     text.push(b)?;
     Ok(text)
 }
 
-/// A quantity as text: SI value, blank, SI unit.
+/// Formats a quantity: SI value, space, SI unit.
 ///
 /// # Errors
-/// [`Error::TooLong`] when it does not fit; [`Error::NotFinite`].
+/// [`Error::TooLong`] if it does not fit; [`Error::NotFinite`].
 pub fn print_quantity(value: f64, unit: &str) -> Result<Text, Error> {
     Text::print(Quantity { value: finite(value)?, unit })
 }

@@ -1,4 +1,4 @@
-//! The names of a plan as static rows, and plans that can be addressed by name.
+//! A plan's names as static rows, and plans addressed by name.
 
 use afp_types::{
     EntryId, Text, Unit, Value, parse_bool, parse_choice, parse_float, parse_int, parse_quantity,
@@ -11,7 +11,7 @@ use crate::trace::{
     Reaction, TextPlace, TraceEntryId,
 };
 
-/// The names of a generated plan, sub-plans unfolded.
+/// The names of a generated plan and its sub-plans.
 #[derive(Clone, Copy, Debug)]
 pub struct NameTable {
     /// The components, by id.
@@ -20,53 +20,43 @@ pub struct NameTable {
     pub entries: &'static [EntryRow],
 }
 
-/// The names of one component.
 #[derive(Clone, Copy, Debug)]
 pub struct ComponentRow {
-    /// Path, kind and template.
     pub name: ComponentName<'static>,
-    /// States or events, each with where it leads.
+    /// States or events, each with its target.
     pub outcomes: &'static [(&'static str, &'static str)],
-    /// Where `Error` or `DeadlineMissed` leads.
+    /// Target of `Error` or `DeadlineMissed`.
     pub special: &'static str,
-    /// The input ports.
     pub inputs: &'static [PortRow],
-    /// The outputs that are bound.
+    /// The bound outputs.
     pub outputs: &'static [PortRow],
-    /// The edges of an element that hold instead of those of global supervisors.
+    /// The element's edges that override those of global supervisors.
     pub reactions: &'static [Reaction<'static>],
 }
 
-/// The names of one entry.
 #[derive(Clone, Copy, Debug)]
 pub struct EntryRow {
-    /// Path, kind, type and unit.
     pub name: EntryName<'static>,
-    /// The values of an enum.
     pub choices: &'static [&'static str],
-    /// Where its initial value stands in the text.
+    /// Source position of the initial value.
     pub initial: Option<TextPlace<'static>>,
 }
 
-/// The name of one port.
 #[derive(Clone, Copy, Debug)]
 pub struct PortRow {
-    /// Name, type, unit, range and place.
     pub name: PortName<'static>,
-    /// The values of an enum.
     pub choices: &'static [&'static str],
-    /// Its position in the template, where not all ports have a row.
+    /// Position in the template, if not all ports have a row.
     pub position: u16,
 }
 
 impl PortRow {
-    /// An input port.
     pub const fn new(name: &'static str, unit: &'static str) -> Self {
         let name = PortName { name, ty: "", unit, range: None, entry: None, place: None };
         PortRow { name, choices: &[], position: 0 }
     }
 
-    /// The row of a port that takes an enum with those values, or an object without any.
+    /// Adds the type: an enum with its values, or an object without any.
     #[must_use]
     pub const fn of(mut self, ty: &'static str, choices: &'static [&'static str]) -> Self {
         self.name.ty = ty;
@@ -74,7 +64,7 @@ impl PortRow {
         self
     }
 
-    /// An output port, by position in the template, that is bound to an entry.
+    /// An output port, by position in the template, bound to an entry.
     #[must_use]
     pub const fn into(mut self, position: u16, entry: &'static str) -> Self {
         self.position = position;
@@ -82,14 +72,14 @@ impl PortRow {
         self
     }
 
-    /// The row of a port with a range, in SI units.
+    /// Adds a range, in SI units.
     #[must_use]
     pub const fn within(mut self, least: f64, greatest: f64) -> Self {
         self.name.range = Some((least, greatest));
         self
     }
 
-    /// The row of a port to which something is bound there.
+    /// Adds the source position of the bound formula.
     #[must_use]
     pub const fn at(mut self, file: &'static str, line: u32, column: u32) -> Self {
         self.name.place = Some(TextPlace { file, line, column });
@@ -98,7 +88,6 @@ impl PortRow {
 }
 
 impl ComponentRow {
-    /// A row.
     pub const fn new(
         path: &'static str,
         kind: ComponentKind,
@@ -111,14 +100,14 @@ impl ComponentRow {
         ComponentRow { name, outcomes, special, inputs, outputs: &[], reactions: &[] }
     }
 
-    /// The row of a component whose outputs are bound.
+    /// Adds the bound outputs.
     #[must_use]
     pub const fn writing(mut self, outputs: &'static [PortRow]) -> Self {
         self.outputs = outputs;
         self
     }
 
-    /// The row of an element with edges of its own for events of global supervisors.
+    /// Adds edges for events of global supervisors.
     #[must_use]
     pub const fn reacting(mut self, reactions: &'static [Reaction<'static>]) -> Self {
         self.reactions = reactions;
@@ -127,7 +116,6 @@ impl ComponentRow {
 }
 
 impl EntryRow {
-    /// A row.
     pub const fn new(
         path: &'static str,
         kind: EntryKind,
@@ -138,14 +126,14 @@ impl EntryRow {
         EntryRow { name: EntryName { path, kind, ty, unit, range: None }, choices, initial: None }
     }
 
-    /// The row of an entry with a range, in SI units.
+    /// Adds a range, in SI units.
     #[must_use]
     pub const fn within(mut self, least: f64, greatest: f64) -> Self {
         self.name.range = Some((least, greatest));
         self
     }
 
-    /// The row of an entry whose initial value stands there.
+    /// Adds the source position of the initial value.
     #[must_use]
     pub const fn at(mut self, file: &'static str, line: u32, column: u32) -> Self {
         self.initial = Some(TextPlace { file, line, column });
@@ -153,19 +141,19 @@ impl EntryRow {
     }
 }
 
-/// A plan that people address by name: generated or loaded.
+/// A plan addressed by name: generated or loaded.
 pub trait NamedPlan: PlanState {
-    /// The names behind its ids.
+    /// The names of its ids.
     type Names: Names + Send + 'static;
 
-    /// The names, to be kept apart from the running plan.
+    /// Returns the names, separate from the running plan.
     fn names(&self) -> Self::Names;
 
-    /// Reads a value for an entry as it would stand in the plan: `35 cm`, `true`,
-    /// `Side.left`; texts without quotes. Only [`NamedPlan::units`] are understood.
+    /// Parses a value for an entry, written as in the plan: `35 cm`, `true`, `Side.left`; strings
+    /// without quotes. Accepts only the units of [`NamedPlan::units`].
     ///
     /// # Errors
-    /// [`Fault::CONVERSION`]; [`Fault::TOO_LONG`] for a text.
+    /// [`Fault::CONVERSION`]; [`Fault::TOO_LONG`] for a string.
     fn read(&self, entry: EntryId, text: &str) -> Result<Value, Fault> {
         let names = self.names();
         let id = entry.into();
@@ -186,10 +174,10 @@ pub trait NamedPlan: PlanState {
         Ok(value?)
     }
 
-    /// The units that a quantity for an entry, by position, may be written in.
+    /// The accepted units of an entry, by position.
     fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>>;
 
-    /// The position of an entry of the plan itself.
+    /// Looks up an entry of the outermost plan.
     fn entry_named(&self, name: &str) -> Option<EntryId> {
         let names = self.names();
         let mut ids = (0..names.entries()).map(TraceEntryId);

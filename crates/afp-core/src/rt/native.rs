@@ -1,5 +1,4 @@
-//! What typed components and typed plans need of the scheduler: the steps of a component's life
-//! as one call each, so that generated code reads as a list of what is started and polled.
+//! Steps of a component's life as one call each, so that generated code is short.
 
 use core::task::Poll;
 
@@ -16,7 +15,7 @@ use crate::rt::store::{Choice, Entry, Stored, Writable};
 use crate::rt::write::WriteError;
 
 impl<R: Run> Cx<'_, R> {
-    /// Starts an actor with its inputs.
+    /// Starts an actor.
     ///
     /// # Errors
     /// The fault of an input or of the actor.
@@ -53,10 +52,6 @@ impl<R: Run> Cx<'_, R> {
         actor.poll(live, self.env, self.now)
     }
 
-    /// Interrupts an actor.
-    ///
-    /// # Errors
-    /// The fault of the actor.
     pub fn interrupt_actor<T, A>(&mut self, actor: &mut A) -> Result<(), Fault>
     where
         T: ActorTemplate,
@@ -65,7 +60,7 @@ impl<R: Run> Cx<'_, R> {
         actor.interrupt(self.env, self.now)
     }
 
-    /// Starts a supervisor with its inputs.
+    /// Starts a supervisor.
     ///
     /// # Errors
     /// The fault of an input or of the supervisor.
@@ -123,7 +118,7 @@ impl<R: Run> Cx<'_, R> {
 }
 
 impl Started {
-    /// What a computation brought; `stage` stages its outputs.
+    /// Converts a computation's result; `stage` stages its outputs.
     pub fn computed<O: Outcome, R: Run>(
         computed: Result<O, Fault>,
         stage: impl FnOnce(O) -> Result<(), BadValue>,
@@ -138,7 +133,7 @@ impl Started {
 }
 
 impl Polled {
-    /// What an actor's poll brought; `stage` stages its outputs.
+    /// Converts an actor's poll; `stage` stages its outputs.
     #[inline]
     pub fn actor<O: Outcome, R: Run>(
         polled: Result<Poll<O>, Fault>,
@@ -157,7 +152,7 @@ impl Polled {
 }
 
 impl Fired {
-    /// What a supervisor's poll brought; `stage` stages its outputs.
+    /// Converts a supervisor's poll; `stage` stages its outputs.
     #[inline]
     pub fn supervisor<O: Outcome, R: Run>(
         polled: Result<Option<O>, Fault>,
@@ -175,7 +170,7 @@ impl Fired {
     }
 }
 
-/// What is bound to an input port, by position in the template.
+/// Evaluates the formula of an input port, by position in the template.
 ///
 /// # Errors
 /// Those of the formula, with the port.
@@ -184,7 +179,7 @@ pub fn input<T>(port: u16, value: impl FnOnce() -> Result<T, BadValue>) -> Resul
     value().map_err(|why| why.for_input(port))
 }
 
-/// What an output port, by position in the template, gives the entry that it is bound to.
+/// Converts the value of an output port, by position in the template, for its entry.
 ///
 /// # Errors
 /// Those of conversion and range, with the port.
@@ -193,7 +188,7 @@ pub fn output<T>(port: u16, value: impl FnOnce() -> Result<T, BadValue>) -> Resu
     value().map_err(|why| why.for_output(port))
 }
 
-/// The initial value of an entry, by position in its plan.
+/// Evaluates the initial value of an entry, by position in its plan.
 ///
 /// # Errors
 /// Those of formula and range, with the entry.
@@ -201,7 +196,7 @@ pub fn initial<T>(entry: u16, value: impl FnOnce() -> Result<T, BadValue>) -> Re
     value().map_err(|why| why.for_entry(entry))
 }
 
-/// The value, unless it is a number that is not finite.
+/// Checks that a number is finite.
 ///
 /// # Errors
 /// [`Fault::ARITHMETIC`].
@@ -210,7 +205,7 @@ pub fn finite<T: Stored>(value: T) -> Result<T, BadValue> {
     finite_value(value.as_value()).map(|()| value)
 }
 
-/// The value, unless it is a number that is not finite or out of its entry's range.
+/// Checks that a number is finite and in its entry's range.
 ///
 /// # Errors
 /// [`Fault::ARITHMETIC`] or [`Fault::RANGE`].
@@ -218,14 +213,14 @@ pub fn finite<T: Stored>(value: T) -> Result<T, BadValue> {
 pub fn limited<T: Stored>(value: T, least: f64, greatest: f64) -> Result<T, BadValue> {
     match value.as_value() {
         ValueRef::Float(number) => between(number, least, greatest)?,
-        // The ends come from whole numbers; what does not fit 64 bits saturates.
+        // The bounds come from integers; larger ones saturate.
         ValueRef::Int(number) => between_ints(number, least as i64, greatest as i64)?,
         _ => {}
     }
     Ok(value)
 }
 
-/// Checks that the number of an input port is finite and in its range.
+/// Checks that an input port's number is finite and in range.
 ///
 /// # Errors
 /// [`Fault::ARITHMETIC`] or [`Fault::RANGE`].
@@ -234,7 +229,7 @@ pub fn within(port: u16, value: f64, least: f64, greatest: f64) -> Result<(), Ba
     between(value, least, greatest).map_err(|why| why.for_input(port))
 }
 
-/// Checks that the integer of an input port is in its range.
+/// Checks that an input port's integer is in range.
 ///
 /// # Errors
 /// [`Fault::RANGE`].
@@ -243,7 +238,7 @@ pub fn within_int(port: u16, value: i64, least: i64, greatest: i64) -> Result<()
     between_ints(value, least, greatest).map_err(|why| why.for_input(port))
 }
 
-/// Checks that the value of an input port is no number or a finite one.
+/// Checks that an input port's value is finite if it is a number.
 ///
 /// # Errors
 /// [`Fault::ARITHMETIC`].
@@ -282,13 +277,13 @@ fn finite_value(value: ValueRef<'_>) -> Result<(), BadValue> {
     }
 }
 
-/// Stores a computed text in `scratch` while inputs borrow it.
+/// Stores a computed string in `scratch`, for inputs to borrow.
 pub fn store_text(scratch: &mut Text, text: Text) -> &str {
     *scratch = text;
     scratch.as_str()
 }
 
-/// The name of an enum's value.
+/// Returns the name of an enum value.
 ///
 /// # Errors
 /// [`Fault::TOO_LONG`].
@@ -297,7 +292,7 @@ pub fn print_choice<T: Choice>(value: T) -> Result<Text, Fault> {
     Ok(Text::try_from(*name)?)
 }
 
-/// The value of an enum that a text names.
+/// Parses an enum value.
 ///
 /// # Errors
 /// [`Fault::CONVERSION`].
@@ -306,14 +301,14 @@ pub fn read_choice<T: Choice>(text: &str) -> Result<T, Fault> {
     T::from_index(index).ok_or(Fault::INTERNAL)
 }
 
-/// Stages a value from outside that [`Writable::from_value`] lets pass.
+/// Stages a value from outside if [`Writable::from_value`] accepts it.
 pub fn stage_outside<T: Writable>(staged: &mut Option<T>, value: &Value) {
     if let Ok(value) = T::from_value(value) {
         *staged = Some(value);
     }
 }
 
-/// Gives an `in` entry a value before the start.
+/// Sets an `in` entry before the start.
 ///
 /// # Errors
 /// [`WriteError::Type`] or [`WriteError::NotFinite`].
@@ -323,18 +318,18 @@ pub fn set_input<T: Writable>(entry: &mut Entry<T>, value: &Value) -> Result<(),
 }
 
 impl WriteError {
-    /// Whether `value` fits an entry of type `T`.
+    /// Checks that `value` fits an entry of type `T`.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason.
     pub fn check<T: Writable>(value: &Value) -> Result<(), WriteError> {
         T::from_value(value).map(|_| ())
     }
 
-    /// Whether `value` fits an entry of type `T` with a range.
+    /// Checks that `value` fits an entry of type `T` with a range.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason.
     pub fn check_within<T: Writable>(
         value: &Value,
         least: f64,
@@ -344,7 +339,7 @@ impl WriteError {
         limited(value, least, greatest).map(|_| ()).map_err(WriteError::of)
     }
 
-    /// Why a value that will not do cannot be written.
+    /// Converts the fault of an invalid value.
     pub fn of(why: BadValue) -> WriteError {
         if why.fault == Fault::ARITHMETIC { WriteError::NotFinite } else { WriteError::Range }
     }

@@ -1,4 +1,4 @@
-//! What a plan gets from the scheduler while it is asked, and what it answers.
+//! The scheduler's context for a plan's calls, and the plan's results.
 
 use core::num::NonZeroU32;
 
@@ -11,64 +11,59 @@ use crate::rt::store::{Entry, Stored};
 use crate::rt::table::Child;
 use crate::trace::{Author, ComponentId, Ending, Outcome, Record, Sink, TraceEntryId};
 
-/// How a level stands after its start or its step.
+/// State of a level after its start or step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Flow {
-    /// An element is active; nothing is due before this instant.
+    /// An element is active; the next work is due at this instant.
     Running(Instant),
-    /// The plan has ended.
     Ended(Ending),
-    /// The whole run has to end: livelock or a failed interrupt.
+    /// The whole run must end: livelock or a failed interrupt.
     Fatal(Fault),
 }
 
-/// When a supervisor is due.
+/// Due time of a supervisor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Slot {
     pub(crate) next: Instant,
 }
 
-/// What a poll of a supervisor brought. A fault beside an event is one of its outputs.
+/// Result of a supervisor's poll. A fault together with an event is the fault of an output.
 #[derive(Clone, Copy, Debug)]
 pub struct Fired {
-    /// One more than the event's number: two plain words come back in registers.
+    /// The event's number plus one, so that the result is two words in registers.
     pub(crate) event: Option<NonZeroU32>,
     pub(crate) fault: Option<Fault>,
 }
 
-/// What starting an element brought.
+/// Result of starting an element.
 #[derive(Clone, Copy, Debug)]
 pub enum Started {
-    /// It acts.
     Running,
-    /// It is a sub-plan; this is how its own start went.
+    /// The result of the sub-plan's start.
     SubPlan(Flow),
-    /// It was a computation, or a sub-plan that ended at once: its state, outputs staged.
+    /// State of a computation, or of a sub-plan that ended at once; outputs staged.
     Done(u16),
-    /// It failed and does not run.
     Failed(Fault),
 }
 
-/// What a poll of an element brought.
+/// Result of polling an element.
 #[derive(Clone, Copy, Debug)]
 pub enum Polled {
-    /// It goes on.
     Pending,
-    /// It is a sub-plan; this is how its step went.
+    /// The result of the sub-plan's step.
     SubPlan(Flow),
-    /// It reached a state, outputs staged.
+    /// The state, outputs staged.
     Done(u16),
-    /// It is made to report a state, outputs staged, while it still acts: it has to be interrupted.
+    /// A state injected by a test, outputs staged. The element still acts and must be interrupted.
     Forced(u16),
-    /// It failed and has to be interrupted.
+    /// The element failed and must be interrupted.
     Failed(Fault),
-    /// It is a sub-plan that ended in `Error`, or whose results do not fit: nothing runs in it any more.
+    /// The sub-plan ended in `Error`, or its results do not fit; nothing runs in it.
     EndedInError(Fault),
 }
 
-/// What a step carries through all levels of a plan.
+/// Context of a step, through all levels of a plan.
 pub struct Cx<'a, R: Run> {
-    /// The platform.
     pub env: &'a mut R::Env,
     /// The time of the step.
     pub now: Instant,
@@ -78,70 +73,63 @@ pub struct Cx<'a, R: Run> {
     pub(crate) place: Place,
 }
 
-/// What all levels of one step count together.
+/// Counters that all levels share.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepState {
-    /// Edges that may still be taken.
+    /// Edges that the step may still take.
     pub edges_left: u32,
     /// The latest reading of the clock.
     pub clock: Instant,
-    /// Commits so far in the run.
+    /// Commits of the run.
     pub commits: u32,
-    /// Deadlines missed so far in the run, skipped releases included.
+    /// Missed deadlines of the run, with skipped releases.
     pub misses: u64,
-    /// The component that was called last, the innermost one of those that are being called: whose a
-    /// panic is.
+    /// The innermost component called last; it owns a panic.
     pub called: ComponentId,
-    /// The component that failed last: the innermost one, where sub-plans passed its fault on.
+    /// The innermost component that failed last.
     pub failure: Option<Failure>,
-    /// The value that the fault of the component called last is about.
+    /// The invalid value behind the fault of the component called last.
     pub noted: Option<(Detail, Fault)>,
-    /// A plan has just ended in `Error`: whoever uses it fails for the same reason.
+    /// A plan has just ended in `Error`; the outer plan fails for the same reason.
     pub passed_on: bool,
 }
 
-/// Where a level's ids begin.
+/// First ids of a level.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
-    /// The plan itself.
     pub plan: ComponentId,
-    /// Its first element.
     pub components: u32,
-    /// Its first entry.
     pub entries: u32,
     /// The component that is being started.
     pub component: ComponentId,
 }
 
 impl Place {
-    /// The outermost plan.
     pub const OUTERMOST: Place =
         Place { plan: ComponentId(0), components: 1, entries: 0, component: ComponentId(0) };
 }
 
 impl Fired {
-    /// Nothing happened.
     pub const NOTHING: Fired = Fired { event: None, fault: None };
 
-    /// An event, by position in the template, and how staging its outputs went.
+    /// An event, by position in the template, and the result of staging its outputs.
     #[inline]
     pub fn event(event: u16, staged: Result<(), Fault>) -> Self {
         let event = NonZeroU32::MIN.saturating_add(u32::from(event));
         Fired { event: Some(event), fault: staged.err() }
     }
 
-    /// The poll counts as one that ended after its deadline: for tests.
+    /// Counts the poll as ended after its deadline; for tests.
     pub fn missed() -> Self {
         Fired::event(Outcome::DeadlineMissed.number(), Ok(()))
     }
 
     #[inline]
     pub(crate) fn outcome(&self) -> Option<Outcome> {
-        // Made from 16 bits.
+        // The number has 16 bits.
         self.event.map(|event| Outcome::from_number(event.get().saturating_sub(1) as u16))
     }
 
-    /// The supervisor failed.
     #[inline]
     pub fn fault(fault: Fault) -> Self {
         Fired { event: None, fault: Some(fault) }
@@ -165,7 +153,7 @@ impl<R: Run> Cx<'_, R> {
         self.checked(Ok(inputs))
     }
 
-    /// Checks inputs that are read anew.
+    /// Checks live inputs.
     ///
     /// # Errors
     /// A value that is not finite or out of range.
@@ -175,8 +163,8 @@ impl<R: Run> Cx<'_, R> {
         self.noted(checked)
     }
 
-    /// For plans that keep their components in boxes: lends the platform, and what shows the
-    /// inputs to the trace, if there is one.
+    /// For plans with boxed components: lends the platform, and the function that traces inputs, if
+    /// there is a trace.
     pub fn show_inputs<T>(
         &mut self,
         run: impl FnOnce(Option<&mut dyn FnMut(u16, ValueRef<'_>)>, &mut R::Env, Instant) -> T,
@@ -189,14 +177,14 @@ impl<R: Run> Cx<'_, R> {
         run(if R::Sink::ENABLED { Some(&mut see) } else { None }, &mut *self.env, at)
     }
 
-    /// Traces that a component reports what whoever tests the plan put there. `part` counts the
-    /// plan's elements, then its supervisors.
+    /// Traces an outcome that a test injects. `part` counts the plan's elements, then its
+    /// supervisors.
     pub fn show_injected(&mut self, part: u32, outcome: Outcome) {
         let component = ComponentId(self.place.components.saturating_add(part));
         self.trace(&Record::Injected { component, outcome });
     }
 
-    /// Runs a sub-plan's machine at its own place: its start, its step, its interruption.
+    /// Runs a sub-plan's start, step or interruption with its own first ids.
     #[inline]
     pub fn inside<T>(&mut self, child: Child, run: impl FnOnce(&mut Cx<'_, R>) -> T) -> T {
         run(&mut Cx {
@@ -216,16 +204,16 @@ impl<R: Run> Cx<'_, R> {
 }
 
 impl<R: Run> Cx<'_, R> {
-    /// What became of values of the component that is called, as a fault; what it is about is noted.
+    /// Converts the error of a value of the called component to a fault, and stores its detail.
     ///
     /// # Errors
-    /// The fault alone.
+    /// Only the fault.
     #[inline]
     pub fn noted<T>(&mut self, value: Result<T, BadValue>) -> Result<T, Fault> {
         value.map_err(|why| self.note(why))
     }
 
-    /// Notes what a fault is about.
+    /// Stores the detail of a fault.
     #[cold]
     pub fn note(&mut self, why: BadValue) -> Fault {
         let subject = why.port.map(|port| match port {
@@ -240,11 +228,11 @@ impl<R: Run> Cx<'_, R> {
         why.fault
     }
 
-    /// As [`Cx::noted`], for what a sub-plan is given and gives back: components inside may have been called
-    /// since.
+    /// As [`Cx::noted`], for the inputs and results of a sub-plan: inner components may have been
+    /// called meanwhile.
     ///
     /// # Errors
-    /// The fault alone.
+    /// Only the fault.
     pub fn noted_outside<T>(&mut self, value: Result<T, BadValue>) -> Result<T, Fault> {
         value.map_err(|why| {
             self.step.called = self.place.component;
@@ -252,8 +240,7 @@ impl<R: Run> Cx<'_, R> {
         })
     }
 
-    /// Notes who failed, unless it is a sub-plan that passes on the fault of a component inside, and says
-    /// which value the fault is about.
+    /// Stores the failed component, unless a sub-plan passes an inner fault on. Returns the detail.
     pub(crate) fn note_failure(&mut self, component: ComponentId, fault: Fault) -> Option<Detail> {
         let noted = self.step.noted.take();
         if !core::mem::take(&mut self.step.passed_on) {
@@ -264,11 +251,11 @@ impl<R: Run> Cx<'_, R> {
         self.step.failure?.detail
     }
 
-    /// Calls a component, so that a panic in it is known to be its own.
+    /// Calls a component and records its id, so that a panic can be attributed.
     ///
-    /// A guard that the unwinding drops would say so, too, and take back after the call what it says,
-    /// but each poll would pay for it. Outside of components nothing of a step panics but a sink or a
-    /// clock, which the scheduler tells from components by itself.
+    /// A drop guard could also record the id and clear it after the call, but every poll would pay
+    /// for it. Apart from components only a sink or a clock can panic in a step; the scheduler
+    /// detects these itself.
     #[inline(always)]
     pub(crate) fn call<T>(
         &mut self,
@@ -289,7 +276,7 @@ impl<R: Run> Cx<'_, R> {
         }
     }
 
-    /// Notes and traces that a component failed.
+    /// Stores and traces the failure of a component.
     #[cold]
     pub(crate) fn failed(&mut self, component: ComponentId, fault: Fault) {
         let detail = self.note_failure(component, fault);
@@ -297,7 +284,6 @@ impl<R: Run> Cx<'_, R> {
     }
 }
 
-/// Writes one commit.
 pub struct Committer<'a, S> {
     pub(crate) sink: &'a mut S,
     pub(crate) at: Instant,
@@ -317,7 +303,7 @@ impl<S: Sink> Committer<'_, S> {
         to.set(value);
     }
 
-    /// Writes one entry of the plan, unless it has that value; whether it did.
+    /// Writes one entry of the plan if its value differs; returns whether it does.
     pub fn update<T: Stored>(&mut self, entry: u16, to: &mut Entry<T>, value: T) -> bool {
         let changed = !to.get().is_still(&value);
         if changed {
@@ -332,14 +318,14 @@ impl<S: Sink> Committer<'_, S> {
         self.sink.record(self.at, &record);
     }
 
-    /// For plans that keep their entries themselves: traces one entry of the commit.
+    /// For plans that store their entries themselves: traces one entry of the commit.
     pub fn wrote(&mut self, entry: u16, old: ValueRef<'_>, new: ValueRef<'_>) {
         if S::ENABLED {
             self.record(entry, old, new);
         }
     }
 
-    /// The number of this commit, by which objects are known.
+    /// The number of this commit, which identifies objects.
     pub fn number(&self) -> u32 {
         self.number
     }

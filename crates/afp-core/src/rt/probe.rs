@@ -1,25 +1,23 @@
-//! Whether a platform has what the Rust of a template asks for, decided while a program is compiled.
+//! Compile-time check whether a platform has the traits that a template needs.
 //!
-//! A method call finds the methods of [`ActorSupported`] and [`SupervisorSupported`] where their bounds hold, else, one
-//! automatic reference later, those of [`Unsupported`]. That needs a concrete platform, so a macro makes the calls
-//! where the platform is named: `afp_macros::register!`.
+//! A method call selects [`ActorSupported`] or [`SupervisorSupported`] if their bounds hold, and
+//! [`Unsupported`] one automatic reference later. The platform must be concrete, so the macro
+//! `afp_macros::register!` makes the calls.
 
 use core::marker::PhantomData;
 
 use crate::component::{Actor, ActorTemplate, Supervisor, SupervisorTemplate};
 use crate::rt::ports::{FromArgs, Outcome, Registry};
 
-/// A template `T`, the type `A` that implements it, and a platform `E`.
+/// A template `T`, its implementation `A`, and a platform `E`.
 pub struct Probe<T, A, E: ?Sized>(PhantomData<T>, PhantomData<A>, PhantomData<E>);
 
 impl<T, A, E: ?Sized> Probe<T, A, E> {
-    /// The only value.
     pub const NEW: Self = Probe(PhantomData, PhantomData, PhantomData);
 }
 
-/// The platform has what the actor asks for.
+/// The platform supports the actor.
 pub trait ActorSupported<E: ?Sized> {
-    /// Registers it.
     fn actor(
         &self,
         registry: &mut impl Registry<E>,
@@ -28,9 +26,8 @@ pub trait ActorSupported<E: ?Sized> {
     );
 }
 
-/// The platform has what the supervisor asks for.
+/// The platform supports the supervisor.
 pub trait SupervisorSupported<E: ?Sized> {
-    /// Registers it.
     fn supervisor(
         &self,
         registry: &mut impl Registry<E>,
@@ -39,9 +36,8 @@ pub trait SupervisorSupported<E: ?Sized> {
     );
 }
 
-/// The platform lacks something that the template asks for.
+/// The platform lacks a trait that the template needs.
 pub trait Unsupported<E: ?Sized> {
-    /// Notes that the platform does not support the actor.
     fn actor(
         &self,
         registry: &mut impl Registry<E>,
@@ -49,7 +45,6 @@ pub trait Unsupported<E: ?Sized> {
         missing: &[&'static str],
     );
 
-    /// Notes that the platform does not support the supervisor.
     fn supervisor(
         &self,
         registry: &mut impl Registry<E>,

@@ -1,4 +1,4 @@
-//! Tables of constants: what reads a row of one has ports that the plan's own table gives it, so that no
+//! Tables of constants. The plan's table defines the ports of a template that reads rows, so no
 //! toolbox implements it.
 
 use afp_types::ValueRef;
@@ -7,10 +7,9 @@ use crate::fault::BadValue;
 use crate::rt::native::within_int;
 use crate::rt::ports::Ports;
 
-/// What is read before a row is: which one.
 #[derive(Clone, Copy, Debug)]
 pub struct RowInputs {
-    /// The number of the row, from 0.
+    /// The row's index, from 0.
     pub index: i64,
 }
 
@@ -25,7 +24,7 @@ impl Ports for RowInputs {
     }
 }
 
-/// The row of that number, from 0; `None` behind the last one.
+/// The row at an index, from 0; `None` after the last row.
 #[inline]
 pub fn row<T>(rows: &[T], index: i64) -> Option<&T> {
     rows.get(usize::try_from(index).ok()?)

@@ -1,13 +1,14 @@
-//! What a plan runs with.
+//! The surroundings of a running plan.
 
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::trace::Sink;
 
-/// The surroundings of a running plan: the platform, the sink of the trace, and the clock that times polls.
+/// The surroundings of a running plan: the platform, the trace sink, and the clock that times
+/// polls.
 ///
-/// Three borrowed values in parentheses are a run. [`NoTrace`](crate::trace::NoTrace) and
-/// [`StillClock`](crate::StillClock) are for programs that need no trace and no deadlines:
+/// A tuple of the three, borrowed, implements it. Use [`NoTrace`](crate::trace::NoTrace) and
+/// [`StillClock`](crate::StillClock) if you do not need a trace or deadlines:
 ///
 /// ```
 /// # use afp_core::{Environment, Instant, Plan, Scheduler, StartError, StillClock, Wake, trace::NoTrace};
@@ -27,12 +28,12 @@ use crate::trace::Sink;
 pub trait Run {
     /// The platform.
     type Env: Environment + ?Sized;
-    /// The sink of the trace.
+    /// The trace sink.
     type Sink: Sink;
     /// The clock that times polls.
     type Clock: Clock;
 
-    /// The three, borrowed.
+    /// Borrows all three.
     #[doc(hidden)]
     fn parts(&mut self) -> (&mut Self::Env, &mut Self::Sink, &Self::Clock);
 }

@@ -1,4 +1,4 @@
-//! What the scheduler asks of a plan.
+//! The scheduler's interface of a plan.
 
 use afp_types::{Value, ValueRef};
 
@@ -10,41 +10,41 @@ use crate::rt::table::{ElementId, SupervisorId, Tables};
 use crate::rt::write::WriteError;
 use crate::trace::Sink;
 
-/// A plan, whatever its platform: its rows, entries, staged outputs. `plan!` and the loader of plans
-/// implement it; programs name it in bounds.
+/// A plan, independent of its platform: rows, entries, staged outputs. `plan!` and the plan loader
+/// implement it; programs use it in bounds.
 pub trait PlanState: Sized {
-    /// Its rows.
+    /// The type of its rows.
     #[doc(hidden)]
     type Tables: Tables + Send;
-    /// Storage for the releases of its supervisors, [`crate::rt::PlanTable::slots`] of them.
+    /// Storage for the releases of its [`crate::rt::PlanTable::slots`] supervisors.
     #[doc(hidden)]
     type Slots: AsRef<[Slot]> + AsMut<[Slot]> + Clone + Send;
 
-    /// Its rows.
+    /// Returns the rows.
     #[doc(hidden)]
     fn tables(&self) -> Self::Tables;
 
-    /// Runs `run` at an element. A compiled plan spells the elements out, so that each has a step
-    /// of its own with its rows folded in.
+    /// Runs `run` for an element. A compiled plan matches each element, so that each has its own
+    /// step with folded rows.
     #[doc(hidden)]
     #[inline(always)]
     fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         run.any(element)
     }
 
-    /// A copy that goes on from here by itself; `None` where a component cannot be copied.
+    /// A copy that runs independently; `None` if a component cannot be copied.
     #[doc(hidden)]
     fn try_clone(&self) -> Option<Self>;
 
-    /// Fresh storage for releases.
+    /// New storage for releases.
     #[doc(hidden)]
     fn slots(&self) -> Self::Slots;
 
-    /// The number of the first `in` entry that has neither a value nor a default.
+    /// Position of the first `in` entry without a value or default.
     #[doc(hidden)]
     fn missing_input(&self) -> Option<u16>;
 
-    /// Gives every entry but the `in` ones that were set its initial value, or makes it unset.
+    /// Sets every entry, except `in` entries that are set, to its initial value, or unsets it.
     ///
     /// # Errors
     /// The fault of a formula; the plan then ends in `Error`.
@@ -55,52 +55,52 @@ pub trait PlanState: Sized {
     #[doc(hidden)]
     fn entry(&self, entry: u16) -> ValueRef<'_>;
 
-    /// Whether a writer from outside may give an entry this value.
+    /// Checks whether an entry accepts this value from outside.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason.
     #[doc(hidden)]
     fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError>;
 
-    /// Gives an `in` entry, by position, a value before the start.
+    /// Sets an `in` entry, by position, before the start.
     ///
     /// # Errors
-    /// Why not; [`WriteError::NotStarted`] for a `var` entry.
+    /// The reason; [`WriteError::NotStarted`] for a `var` entry.
     #[doc(hidden)]
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError>;
 
-    /// Stages a value that [`PlanState::accepts`] let pass.
+    /// Stages a value that [`PlanState::accepts`] accepted.
     #[doc(hidden)]
     fn stage(&mut self, entry: u16, value: &Value);
 
-    /// Writes everything that is staged, in the order of the entries.
+    /// Writes all staged values, in the order of the entries.
     #[doc(hidden)]
     fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>);
 
-    /// Forgets everything that is staged.
+    /// Drops all staged values.
     #[doc(hidden)]
     fn discard(&mut self);
 }
 
-/// Work to be done at an element.
+/// Work for one element.
 pub trait AtElement: Sized {
-    /// What it gives.
+    /// The result.
     type Out;
 
-    /// Does it at an element known when the plan is compiled.
+    /// Runs for an element known at compile time.
     fn at<const ELEMENT: u16>(self) -> Self::Out;
 
-    /// Does it at any element.
+    /// Runs for any element.
     fn any(self, element: ElementId) -> Self::Out;
 
-    /// There is no such element.
+    /// Runs for an unknown element.
     fn unknown(self) -> Self::Out;
 }
 
-/// A plan on platform `E`: its components. `plan!` and the loader of plans implement it; programs name
-/// it in bounds.
+/// A plan on platform `E`, with its components. `plan!` and the plan loader implement it; programs
+/// use it in bounds.
 ///
-/// Polls stage the outputs of what they report; the scheduler then commits or discards them.
+/// Polls stage the outputs of their results; the scheduler then commits or discards them.
 pub trait Plan<E: ?Sized>: PlanState {
     /// Starts a supervisor: inputs, then the component.
     ///
@@ -113,7 +113,7 @@ pub trait Plan<E: ?Sized>: PlanState {
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>;
 
-    /// Polls a supervisor for the events that would be taken.
+    /// Polls a supervisor for the wanted events.
     #[doc(hidden)]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
@@ -122,7 +122,7 @@ pub trait Plan<E: ?Sized>: PlanState {
         cx: &mut Cx<'_, R>,
     ) -> Fired;
 
-    /// Starts an element: inputs, then the component; runs a computation.
+    /// Starts an element: inputs, then the component. Runs a computation.
     #[doc(hidden)]
     fn start_element<R: Run<Env = E>>(&mut self, element: ElementId, cx: &mut Cx<'_, R>)
     -> Started;
@@ -146,7 +146,7 @@ pub trait Plan<E: ?Sized>: PlanState {
     #[doc(hidden)]
     fn leave(&mut self, element: ElementId);
 
-    /// Drops everything that is left when the plan ends.
+    /// Drops all remaining components at the plan's end.
     #[doc(hidden)]
     fn end(&mut self);
 }

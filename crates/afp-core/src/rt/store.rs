@@ -1,4 +1,4 @@
-//! Entries of the configuration as generated plans hold them.
+//! Entries of generated plans.
 
 use core::fmt;
 
@@ -8,38 +8,38 @@ use crate::fault::Fault;
 use crate::quantity::Quantity;
 use crate::rt::write::WriteError;
 
-/// A value that an entry can hold. The default is what unset storage holds.
+/// A value of an entry. The default is the value of unset storage.
 pub trait Stored: Default {
-    /// The value as a trace shows it.
+    /// The value as traced.
     fn as_value(&self) -> ValueRef<'_>;
 
-    /// The value, owning its text; a text that is stored fits.
+    /// The value with an owned string; stored strings fit.
     fn to_value(&self) -> Value {
         self.as_value().to_value().unwrap_or_default()
     }
 
-    /// Called once when a commit writes the value, with the number of that commit.
+    /// Called once when a commit writes the value, with the commit's number.
     fn committed(&mut self, _commit: u32) {}
 
-    /// Whether a value that is passed on live is the one that was passed on last: by bits, an object
-    /// by the commit that wrote it.
+    /// Whether a live value is unchanged since it was last passed: by bits, objects by their
+    /// commit.
     fn is_still(&self, passed: &Self) -> bool {
         self.as_value().is_same(passed.as_value())
     }
 }
 
-/// What stands for a port of type `any`.
+/// A type for ports of type `any`.
 pub trait Any: Stored + Clone + PartialEq {}
 
-/// What stands for a port of type `number`: an `int`, a `float` or a quantity.
+/// A type for ports of type `number`: an `int`, a `float` or a quantity.
 pub trait Number: Any + PartialOrd {}
 
-/// What stands for a port of type `discrete`: a `bool`, an `int`, a text or a value of an enum.
+/// A type for ports of type `discrete`: a `bool`, an `int`, a string or an enum.
 pub trait Discrete: Any {}
 
-/// What a writer from outside can give.
+/// A type that can be written from outside.
 pub trait Writable: Stored {
-    /// The value, where it fits the type; an `int` given to a `float` becomes one.
+    /// Converts a value; an `int` converts to a `float`.
     ///
     /// # Errors
     /// [`WriteError::Type`] or [`WriteError::NotFinite`].
@@ -51,26 +51,24 @@ pub trait Choice: Copy + Default {
     /// The names of its values, by position.
     const NAMES: &'static [&'static str];
 
-    /// The value's position.
     fn index(self) -> u16;
 
-    /// The value at a position.
     fn from_index(index: u16) -> Option<Self>;
 }
 
-/// One entry: its value, and whether anybody has written it.
+/// A value, and whether it was written.
 #[derive(Clone, Debug, Default)]
 pub struct Entry<T> {
     value: T,
     is_set: bool,
 }
 
-/// An object entry: empty until written, then known by the number of the commit that wrote it.
+/// An object entry: empty until written, then identified by the number of the commit that wrote it.
 #[derive(Clone)]
 pub struct Object<T> {
     value: Option<T>,
     commit: u32,
-    /// The commit by which it was known before it was committed here.
+    /// The commit that identified it before it was committed here.
     source: u32,
 }
 
@@ -81,45 +79,42 @@ impl<T: Stored> Entry<T> {
         &self.value
     }
 
-    /// Writes the value.
     #[inline]
     pub fn set(&mut self, value: T) {
         self.value = value;
         self.is_set = true;
     }
 
-    /// Makes the entry unset.
     pub fn clear(&mut self) {
         *self = Entry::default();
     }
 
-    /// Whether anybody has written it.
     #[inline]
     pub fn is_set(&self) -> bool {
         self.is_set
     }
 
-    /// The value, if anybody has written it.
+    /// The value, unless unset.
     pub fn value(&self) -> Option<&T> {
         self.is_set.then_some(&self.value)
     }
 
-    /// The value as a trace shows it.
+    /// The value as traced.
     pub fn as_value(&self) -> ValueRef<'_> {
         if self.is_set { self.value.as_value() } else { ValueRef::Unset }
     }
 }
 
 impl<T> Object<T> {
-    /// An object fresh from the component that made it.
+    /// A new object from the component that made it.
     pub fn new(value: T) -> Self {
         Object { value: Some(value), commit: 0, source: 0 }
     }
 
-    /// The object.
+    /// Returns the object.
     ///
     /// # Errors
-    /// [`Fault::UNSET`] while nobody has written it.
+    /// [`Fault::UNSET`] before it was written.
     pub fn get(&self) -> Result<&T, Fault> {
         self.value.as_ref().ok_or(Fault::UNSET)
     }
@@ -147,7 +142,7 @@ impl<T> Stored for Object<T> {
 }
 
 impl<T> PartialEq for Object<T> {
-    /// Whether one commit wrote both: nobody but its templates knows the inside.
+    /// Whether the same commit wrote both; only its templates can compare the content.
     fn eq(&self, other: &Self) -> bool {
         self.commit == other.commit
     }
@@ -156,7 +151,7 @@ impl<T> PartialEq for Object<T> {
 impl<T: Clone> Any for Object<T> {}
 
 impl<T> fmt::Debug for Object<T> {
-    /// Its number; nobody but its templates knows the inside.
+    /// Prints the number; only its templates can read the content.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "object#{}", self.commit)
     }

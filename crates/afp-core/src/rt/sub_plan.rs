@@ -9,8 +9,8 @@ use crate::rt::table::Child;
 use crate::trace::{Author, Ending, Record};
 
 impl<R: Run> Cx<'_, R> {
-    /// Gives a sub-plan its live inputs before its step, as a commit of its element. `write` writes those
-    /// that have changed and tells whether there are any.
+    /// Passes live inputs to a sub-plan before its step, as a commit of its element. `write` writes
+    /// the changed inputs and returns whether there are any.
     pub fn pass_live<P: PlanState>(
         &mut self,
         child: Child,
@@ -42,7 +42,7 @@ impl<R: Run> Cx<'_, R> {
 }
 
 impl Started {
-    /// What a sub-plan's start brought; `stage` stages its results.
+    /// Converts the result of a sub-plan's start; `stage` stages its results.
     pub fn sub_plan<R: Run>(
         flow: Flow,
         stage: impl FnOnce() -> Result<(), BadValue>,
@@ -57,7 +57,7 @@ impl Started {
 }
 
 impl Polled {
-    /// What a sub-plan's step brought; `stage` stages its results.
+    /// Converts the result of a sub-plan's step; `stage` stages its results.
     pub fn sub_plan<R: Run>(
         flow: Flow,
         stage: impl FnOnce() -> Result<(), BadValue>,
@@ -71,7 +71,7 @@ impl Polled {
     }
 }
 
-/// The state that a sub-plan reached, if it ended: `OK` is 0, `Interrupted` 1.
+/// The state of a sub-plan that ended: `OK` is 0, `Interrupted` 1.
 fn ended<R: Run>(
     flow: Flow,
     stage: impl FnOnce() -> Result<(), BadValue>,

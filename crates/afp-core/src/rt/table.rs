@@ -1,4 +1,4 @@
-//! How the scheduler gets at the rows of a plan.
+//! Access to the rows of a plan.
 
 use crate::fault::Fault;
 
@@ -10,8 +10,8 @@ pub use afp_types::{
 /// All rows of one plan. An edge to `fail` ends it with a fault.
 pub type PlanTable<'a> = afp_types::PlanTable<'a, Fault>;
 
-/// Gives access to the rows: a zero-sized type for generated plans, so that all of it folds to
-/// constants; a counted pointer for loaded ones.
+/// Gives access to the rows: a zero-sized type for generated plans, so that it folds to constants;
+/// a counted pointer for loaded plans.
 pub trait Tables {
     /// The rows.
     fn table(&self) -> PlanTable<'_>;

@@ -1,6 +1,6 @@
-//! Writes from outside: why one is refused.
+//! Errors of writes from outside.
 
-/// Why a write from outside was refused.
+/// Why a write from outside was rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -8,7 +8,7 @@ pub enum WriteError {
     Unknown,
     /// `const` and `out` entries cannot be written from outside.
     ReadOnly,
-    /// The value is of another type.
+    /// The value has the wrong type.
     Type,
     /// The number is not finite.
     NotFinite,
@@ -16,7 +16,7 @@ pub enum WriteError {
     Range,
     /// Too many writes since the last step.
     QueueFull,
-    /// A `var` entry has no value to be replaced before the plan has started.
+    /// A `var` entry cannot be written before the start.
     NotStarted,
     /// The plan has ended.
     Ended,

@@ -1,4 +1,4 @@
-//! Driving a plan on a platform, and replacing a plan by another one.
+//! Driving a plan on a platform, and replacing a plan.
 
 use afp_types::{EntryId, Instant};
 
@@ -8,7 +8,7 @@ use crate::platform::Platform;
 use crate::rt::{Plan, PlanState, Run};
 use crate::trace::{Ending, NoTrace, Sink};
 
-/// Stands around the driving of a platform: dropped by the unwinding of a panic, it stops the platform.
+/// Stops the platform if a panic unwinds while it is driven.
 struct Unwinding<'a, R: Environment>(&'a mut R);
 
 impl<R: Environment> Drop for Unwinding<'_, R> {
@@ -18,14 +18,15 @@ impl<R: Environment> Drop for Unwinding<'_, R> {
 }
 
 impl<P: PlanState> Scheduler<P> {
-    /// Drives the plan on a platform until it has ended, from the start if it has not started. A
-    /// plan that never ends keeps this call for ever: see [`Scheduler::run_until`].
+    /// Starts the plan if necessary and drives it until it ends. For plans that do not end, see
+    /// [`Scheduler::run_until`].
     ///
-    /// The platform is stopped at the end, by [`Environment::stop`], so that another plan may follow; by
-    /// [`Environment::emergency_stop`] where a panic unwinds. Whoever leaves the robot alone then gives that, too.
+    /// At the end it calls [`Environment::stop`], so that another plan may follow; if a panic
+    /// unwinds, [`Environment::emergency_stop`]. Also call the latter before you leave the robot
+    /// unattended.
     ///
     /// # Errors
-    /// [`StartError`] when it cannot start; nothing has happened then.
+    /// [`StartError`], without any effect.
     pub fn run<R>(&mut self, robot: &mut R) -> Result<Ending, StartError>
     where
         R: Platform,
@@ -38,18 +39,18 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// Drives the plan on a platform until it has ended or until the platform's time has come to
-    /// `until`, with the step at that instant; a plan that still runs goes on with the next call. A
-    /// plan that has not started starts at the platform's present time.
+    /// Drives the plan until it ends or the platform's time reaches `until`, including the step at
+    /// that instant. Call it again to continue. A plan that has not started starts at the
+    /// platform's current time.
     ///
-    /// Time passes up to what is due next in one call of [`Platform::advance`], however long that lasts.
+    /// Each wait is one call of [`Platform::advance`], however long.
     ///
-    /// The platform is stopped when the plan ends, by [`Environment::stop`], so that another plan may follow; by
-    /// [`Environment::emergency_stop`] where a panic unwinds. Whoever leaves the robot alone then, or while a plan still
-    /// runs, gives that, too.
+    /// At the plan's end it calls [`Environment::stop`], so that another plan may follow; if a
+    /// panic unwinds, [`Environment::emergency_stop`]. Also call the latter before you leave the
+    /// robot unattended, even while a plan still runs.
     ///
     /// # Errors
-    /// [`StartError`] when it cannot start; nothing has happened then.
+    /// [`StartError`], without any effect.
     pub fn run_until<R, S>(
         &mut self,
         robot: &mut R,
@@ -99,15 +100,15 @@ impl<P: PlanState> Scheduler<P> {
         Ok(wake)
     }
 
-    /// Ends this plan at `now`, as interrupted, and starts another one in its place at the same
-    /// instant. Its name table takes the place of this one's, too. Commits are numbered on, so that what it makes is
-    /// another object than one that it took over.
+    /// Ends this plan at `now` as interrupted and starts another plan at the same instant, with its
+    /// own name table. Commit numbers continue, so that its objects differ from objects that it
+    /// took over.
     ///
-    /// A plan that cannot be interrupted ends the run in `Error`; nothing starts then. Writes that
-    /// wait for the next step are lost.
+    /// If the interruption fails, the run ends in `Error` and nothing starts. Writes for the next
+    /// step are lost.
     ///
     /// # Errors
-    /// [`StartError::InputMissing`] of the new plan; this one goes on then.
+    /// [`StartError::InputMissing`] of the new plan; the old plan continues.
     pub fn replace<R: Run>(&mut self, plan: P, mut on: R, now: Instant) -> Result<Wake, StartError>
     where
         P: Plan<R::Env>,
@@ -124,7 +125,7 @@ impl<P: PlanState> Scheduler<P> {
         }
         let (now, commits) = (self.last.max(now), self.step.commits);
         *self = Scheduler::new(plan);
-        // By their commits objects are known, those that were taken over from this plan, too.
+        // Commits identify objects, including those from the old plan.
         self.step.commits = commits;
         self.start(on, now)
     }

@@ -1,4 +1,5 @@
-//! A guard around each call of the machine: a panic marks the plan as broken, and whether a component or code outside of the plan panicked.
+//! A guard around each call of the machine. A panic marks the plan as broken, by a component or by
+//! code outside of the plan.
 
 use core::cell::Cell;
 
@@ -12,7 +13,7 @@ use crate::trace::{ComponentId, Record, Sink};
 #[derive(Default)]
 struct Outside(Cell<bool>);
 
-/// A sink or a clock whose panics are its own.
+/// A sink or a clock whose panics are attributed to it.
 pub(super) struct Watched<'a, T> {
     inner: T,
     outside: &'a Outside,
@@ -49,7 +50,7 @@ impl<C: Clock> Clock for Watched<'_, &C> {
     }
 }
 
-/// Dropped by the unwinding of a panic, it marks the plan broken.
+/// Marks the plan as broken if a panic unwinds.
 struct Unwinding<'a> {
     state: &'a mut State,
     outside: &'a Outside,
@@ -61,7 +62,7 @@ impl Drop for Unwinding<'_> {
     }
 }
 
-/// Runs `call` with a sink and a clock so that a panic in it leaves the state broken.
+/// Runs `call` with a sink and a clock; a panic leaves the state broken.
 #[inline(always)]
 pub(super) fn guarded<S, C, R>(
     state: &mut State,

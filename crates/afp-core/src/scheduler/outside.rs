@@ -1,4 +1,4 @@
-//! What comes from outside: values of entries, and the request to stop.
+//! Input from outside: values of entries, and the stop request.
 
 use core::error::Error;
 use core::fmt;
@@ -11,38 +11,38 @@ use crate::fault::Fault;
 use crate::rt::{NamedPlan, PlanState, Writable, WriteError};
 use crate::trace::{EntryKind, Names, TraceEntryId};
 
-/// An entry of the plan `P` that takes values of type `T` from outside. `plan!` makes a constant of
-/// each `in` and `var` entry: `Patrol::WAY`.
+/// An entry of the plan `P` that takes values of type `T` from outside. `plan!` generates a
+/// constant for each `in` and `var` entry: `Patrol::WAY`.
 pub struct TypedEntry<P, T> {
     position: EntryId,
     of: PhantomData<fn(P, T)>,
 }
 
-/// Why an entry cannot be set by its name.
+/// Why an entry cannot be set by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SetError {
-    /// The plan has no entry of that name.
+    /// The plan has no entry with this name.
     Unknown,
-    /// The text is no value of the entry's type.
+    /// The string is not a value of the entry's type.
     Unreadable {
-        /// Why not.
+        /// The reason.
         why: Fault,
-        /// What to write.
+        /// A valid example.
         help: &'static str,
     },
-    /// The entry does not take the value.
+    /// The entry rejects the value.
     Refused(WriteError),
 }
 
 impl<P, T> TypedEntry<P, T> {
-    /// The entry at a position of the plan.
+    /// The entry at a position in the plan.
     #[doc(hidden)]
     pub const fn new(position: u16) -> Self {
         TypedEntry { position: EntryId(position), of: PhantomData }
     }
 
-    /// Its position among the entries of the plan.
+    /// The position among the plan's entries.
     pub const fn position(self) -> EntryId {
         self.position
     }
@@ -88,7 +88,7 @@ impl From<WriteError> for SetError {
     }
 }
 
-/// How a value of an entry is written.
+/// How to write a value of an entry.
 fn help(names: &impl Names, id: TraceEntryId) -> &'static str {
     let entry = names.entry(id);
     match entry.ty {
@@ -105,15 +105,15 @@ fn help(names: &impl Names, id: TraceEntryId) -> &'static str {
 }
 
 impl<P: PlanState> Scheduler<P> {
-    /// Gives an entry a value: before the start an `in` entry, at once; later an `in` or `var` entry,
-    /// which the next step commits. In the examples `Patrol` is a plan with an `in way: length`.
+    /// Sets an entry: before the start an `in` entry, immediately; later an `in` or `var` entry, by
+    /// the next step's commit. In the examples `Patrol` is a plan with an `in way: length`.
     ///
     /// ```ignore
     /// plan.set(Patrol::WAY, Length::from_si(0.8))?;
     /// ```
     ///
     /// # Errors
-    /// [`WriteError`]: the plan gets nothing.
+    /// [`WriteError`], without any effect.
     pub fn set<T: Writable>(
         &mut self,
         entry: TypedEntry<P, T>,
@@ -122,14 +122,14 @@ impl<P: PlanState> Scheduler<P> {
         self.write(entry.position, value.to_value())
     }
 
-    /// As [`Scheduler::set`], by name, with the value as it would stand in the plan; a text without its quotes.
+    /// As [`Scheduler::set`], by name, with a value written as in the plan; strings without quotes.
     ///
     /// ```ignore
     /// plan.set_named("way", "80 cm")?;
     /// ```
     ///
     /// # Errors
-    /// [`SetError`]: the plan gets nothing.
+    /// [`SetError`], without any effect.
     pub fn set_named(&mut self, entry: &str, text: &str) -> Result<(), SetError>
     where
         P: NamedPlan,
@@ -138,10 +138,10 @@ impl<P: PlanState> Scheduler<P> {
         Ok(self.write(position, value)?)
     }
 
-    /// The position and the value that [`Scheduler::set_named`] writes.
+    /// Returns the position and the value that [`Scheduler::set_named`] writes.
     ///
     /// # Errors
-    /// [`SetError`]: the plan has no such entry, or the entry cannot be set now, or the text is no value of its type.
+    /// [`SetError`]: the entry is unknown or cannot be set now, or the string is not a value of its type.
     pub fn read_named(&self, entry: &str, text: &str) -> Result<(EntryId, Value), SetError>
     where
         P: NamedPlan,
@@ -164,7 +164,7 @@ impl<P: PlanState> Scheduler<P> {
     /// As [`Scheduler::set`], with any value; quantities are in SI units.
     ///
     /// # Errors
-    /// [`WriteError`]: the plan gets nothing.
+    /// [`WriteError`], without any effect.
     pub fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError> {
         match self.state {
             State::Ready => self.machine.plan_mut().set_input(entry.0, &value),
@@ -176,8 +176,8 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
-    /// The committed value of an entry of the plan itself, by name; quantities are in SI units.
-    /// [`ValueRef::Unset`] while nobody has written it, `None` where there is none.
+    /// The committed value of an entry of the outermost plan, by name; quantities are in SI units.
+    /// [`ValueRef::Unset`] before the first write, `None` for an unknown entry.
     pub fn get(&self, entry: &str) -> Option<ValueRef<'_>>
     where
         P: NamedPlan,
@@ -186,7 +186,7 @@ impl<P: PlanState> Scheduler<P> {
         plan.entry_named(entry).map(|position| plan.entry(position.0))
     }
 
-    /// Asks the plan to stop: the next step interrupts it and ends it as `Interrupted`. A plan that
+    /// Requests a stop: the next step interrupts the plan and ends it as `Interrupted`. A plan that
     /// has not started then ends at its start, before anything runs.
     pub fn request_stop(&mut self) {
         self.stop_requested = true;

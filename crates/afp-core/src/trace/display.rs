@@ -1,4 +1,4 @@
-//! Records as lines of text: the form in which traces are compared and read.
+//! Records as lines of text, for reading and comparing traces.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ use super::{
 };
 use crate::fault::Fault;
 
-/// One record as a line: time in seconds, component, what happened.
+/// One record as a line: time in seconds, component, record.
 ///
 /// ```text
 /// 2.431000 searchFirstWall.touch event TouchSensorPressed -> backupCollision
@@ -18,7 +18,7 @@ use crate::fault::Fault;
 pub struct Line<'a, N: ?Sized> {
     /// The time of the step.
     pub at: Instant,
-    /// What happened.
+    /// The record.
     pub record: &'a Record<'a>,
     /// The names of the plan.
     pub names: &'a N,
@@ -48,7 +48,7 @@ impl<N: Names + ?Sized> Line<'_, N> {
         }
     }
 
-    /// An outcome and where it leads while an element is active.
+    /// An outcome and its target while an element is active.
     fn outcome(
         &self,
         f: &mut fmt::Formatter<'_>,
@@ -63,7 +63,7 @@ impl<N: Names + ?Sized> Line<'_, N> {
         }
     }
 
-    /// Where the `Error` edge of a failed element leads; a supervisor has none.
+    /// The target of a failed element's `Error` edge; supervisors have none.
     fn error_target(&self, f: &mut fmt::Formatter<'_>, id: ComponentId) -> fmt::Result {
         let supervisor = self.names.component(id).kind == ComponentKind::Supervisor;
         match self.names.target(id, Outcome::Error) {

@@ -1,4 +1,4 @@
-//! One number for a whole trace, to tell two runs apart.
+//! A hash of a whole trace, to compare runs.
 
 use core::fmt::{self, Write};
 
@@ -8,24 +8,24 @@ use super::{Line, Names, Record, Verdict};
 
 /// The FNV-1a hash of a trace as text, a [`Line`] for each record.
 ///
-/// Polls that saw nothing do not count: how often they happen is no part of what a plan does. The same
-/// plan, world and seed give the same hash in the interpreter and in generated code, on every machine,
-/// however fast it runs.
+/// Polls without a result are excluded, since their number does not affect the plan. The same plan,
+/// world and seed give the same hash in the interpreter and in generated code, on every machine at
+/// any speed.
 ///
-/// It shows as 16 hexadecimal digits.
+/// Displayed as 16 hexadecimal digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TraceHash(TextHash);
 
 impl TraceHash {
-    /// Takes a record.
+    /// Adds a record.
     pub fn record<N: Names + ?Sized>(&mut self, at: Instant, record: &Record<'_>, names: &N) {
         if !matches!(record, Record::Polled { verdict: Verdict::Clear, .. }) {
-            // Only a value's own text could fail, and none does.
+            // Formatting values never fails.
             let _ = writeln!(self, "{}", Line { at, record, names });
         }
     }
 
-    /// Takes a record whose [`Line`] is at hand.
+    /// Adds a record whose [`Line`] is available.
     pub fn line(&mut self, line: &str) {
         self.0.add(line);
         self.0.add("\n");

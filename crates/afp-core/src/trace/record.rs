@@ -1,25 +1,30 @@
-//! What a trace consists of.
+//! Records of a trace.
 
 use afp_types::{Duration, Instant, ValueRef};
 
 use super::{Author, Cause, ComponentId, Ending, Outcome, TraceEntryId, Verdict};
 use crate::fault::{Detail, Fault};
 
-/// One thing that happened. The order within a step is fixed: outside commit; for each polled
-/// supervisor its poll and its miss, and where its event may resume, event, commits and computations
-/// until resumed; event; interrupts, innermost first; commits, inner first; starts of supervisors;
-/// diverted or started. Values are held as `V`.
+/// One record; values are held as `V`. The order within a step is fixed:
+///
+/// 1. outside commit
+/// 2. for each polled supervisor its poll, its miss and, if its event may resume, event, commits
+///    and computations until resumed
+/// 3. event
+/// 4. interrupts, innermost first
+/// 5. commits, inner first
+/// 6. starts of supervisors
+/// 7. diverted or started
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RecordOf<V> {
-    /// A step was asked for an earlier time than the one before; it ran at the time of that one.
+    /// A step was requested for an earlier time than the last step; it ran at the last step's time.
     ClockWentBack {
-        /// The time asked for.
+        /// The requested time.
         asked: Instant,
     },
-    /// Somebody asked the plan to stop.
+    /// A stop was requested.
     StopRequested,
-    /// A component is about to report an outcome that is not its own: whoever tests the plan put it
-    /// there.
+    /// A component is about to report an outcome that a test injected.
     Injected {
         /// The supervisor or actor.
         component: ComponentId,
@@ -30,18 +35,18 @@ pub enum RecordOf<V> {
     Polled {
         /// The supervisor.
         supervisor: ComponentId,
-        /// What it said.
+        /// The result.
         verdict: Verdict,
     },
     /// A supervisor's poll ended after its deadline, or releases passed without a poll.
     Missed {
         /// The supervisor.
         supervisor: ComponentId,
-        /// Time after the deadline; zero when only earlier releases were skipped.
+        /// Time after the deadline; zero if only earlier releases were skipped.
         lateness: Duration,
-        /// Why.
+        /// The cause.
         cause: Cause,
-        /// Releases that passed entirely.
+        /// Number of releases without a poll.
         skipped: u64,
     },
     /// An event was taken.
@@ -50,11 +55,10 @@ pub enum RecordOf<V> {
         supervisor: ComponentId,
         /// The event.
         event: Outcome,
-        /// The element of the same plan that is active or being entered, which decides where the event leads.
+        /// The active or entered element of the same plan, which determines the target.
         element: ComponentId,
     },
-    /// An event was not taken, because it leads to the element that is already active or being
-    /// entered.
+    /// An event was not taken, because its target is already active or being entered.
     AlreadyThere {
         /// The supervisor.
         supervisor: ComponentId,
@@ -77,7 +81,7 @@ pub enum RecordOf<V> {
     },
     /// An entry changed; all entries of one commit follow one another.
     Committed {
-        /// Who wrote it.
+        /// The author.
         author: Author,
         /// The entry.
         entry: TraceEntryId,
@@ -86,13 +90,13 @@ pub enum RecordOf<V> {
         /// Its value now.
         new: V,
     },
-    /// An input that a component is about to start with.
+    /// An input of a component that is about to start.
     Input {
         /// The component.
         component: ComponentId,
         /// The port, by position among the template's input ports.
         port: u16,
-        /// What it reads.
+        /// The value.
         value: V,
     },
     /// A component started.
@@ -100,45 +104,45 @@ pub enum RecordOf<V> {
         /// The component.
         component: ComponentId,
     },
-    /// An event taken in the look replaced the start of an element.
+    /// An event in the look prevented the start of an element.
     Diverted {
         /// The element that did not start.
         element: ComponentId,
-        /// The supervisor that saw a reason.
+        /// The supervisor with the event.
         supervisor: ComponentId,
         /// The event.
         event: Outcome,
     },
-    /// An element goes on after an event that led to `resume`.
+    /// An element continues after an event that led to `resume`.
     Resumed {
         /// The element, active or being entered.
         element: ComponentId,
-        /// The supervisor whose event it was.
+        /// The supervisor with the event.
         supervisor: ComponentId,
     },
     /// A component failed.
     Faulted {
         /// The component.
         component: ComponentId,
-        /// Why.
+        /// The fault.
         fault: Fault,
-        /// The value that it is about, where it is about one.
+        /// The value that caused the fault, if any.
         detail: Option<Detail>,
     },
-    /// A plan ended; a sub-plan goes by the id of its element.
+    /// A plan ended; a sub-plan has the id of its element.
     Ended {
         /// The plan.
         plan: ComponentId,
-        /// How.
+        /// The ending.
         ending: Ending,
     },
 }
 
-/// A record that borrows its texts.
+/// A record with borrowed strings.
 pub type Record<'a> = RecordOf<ValueRef<'a>>;
 
 impl<V> RecordOf<V> {
-    /// The same record, its values held in another way.
+    /// Converts the values.
     pub fn map<'r, W>(&'r self, mut held: impl FnMut(&'r V) -> W) -> RecordOf<W> {
         match *self {
             RecordOf::ClockWentBack { asked } => RecordOf::ClockWentBack { asked },

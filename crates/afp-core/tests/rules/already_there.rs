@@ -1,4 +1,4 @@
-//! Events that lead to the element that is active or being entered.
+//! Events whose target is already active or being entered.
 
 use crate::support::build::{actor, guard, plan, sub_plan};
 use crate::support::run::{Run, assert_lines};

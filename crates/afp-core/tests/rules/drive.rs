@@ -1,4 +1,4 @@
-//! Driving a plan on a platform, who failed, and one plan in the place of another.
+//! Driving a plan on a platform, failures, and replacing a plan.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -11,7 +11,7 @@ use crate::support::run::Run;
 use crate::support::scripted::Scripted;
 use crate::support::world::{Phase, SCRIPTED, World};
 
-/// Two actors, 10 ms each.
+/// Two actors of 10 ms each.
 fn two() -> Builder {
     plan("p").with(actor("a").on("Done", "b")).with(actor("b").on("Done", "terminate"))
 }

@@ -1,4 +1,4 @@
-//! What a failing component leads to, row by row of the table of faults.
+//! Consequences of a failing component, in the order of the table of faults.
 
 use afp_core::trace::Ending;
 use afp_core::{Fault, Value};
@@ -7,7 +7,7 @@ use crate::support::build::{Builder, actor, computation, guard, plan};
 use crate::support::run::{Run, assert_lines};
 use crate::support::world::{Phase, SCRIPTED, World};
 
-/// An actor with a local supervisor and an `Error` edge to another one.
+/// An actor with a local supervisor and an `Error` edge to another actor.
 fn guarded_actor() -> Builder {
     plan("p")
         .var("x")
@@ -22,7 +22,7 @@ fn guarded_actor() -> Builder {
         .with(actor("b").on("Done", "b"))
 }
 
-/// The calls that tell whether everything was stopped as it must.
+/// The stop and interrupt calls.
 fn stops(run: &Run) -> Vec<&str> {
     let is_stop = |call: &&str| call.contains("interrupt") || call.contains("stop");
     run.world.calls.iter().map(String::as_str).filter(is_stop).collect()

@@ -1,4 +1,4 @@
-//! Edges without time passing.
+//! Edges without a passing of time.
 
 use afp_core::trace::Ending;
 use afp_core::{Fault, MAX_TRANSITIONS_PER_STEP};
@@ -7,7 +7,7 @@ use crate::support::build::{Builder, actor, computation, guard, plan, sub_plan};
 use crate::support::run::Run;
 use crate::support::world::{Phase, World};
 
-/// A computation that goes round; its edges are the only ones.
+/// A computation in a loop.
 fn spinning() -> Builder {
     plan("p").with(computation("c").on("Again", "c").on("Done", "terminate"))
 }
@@ -22,7 +22,7 @@ fn a_thousand_edges_in_a_step_and_no_more() {
     assert_eq!(MAX_TRANSITIONS_PER_STEP, 1000);
     let mut run = Run::started(spinning(), World::default());
     assert_livelock(&run);
-    // The first run needs no edge, the last one starts nothing after its edge.
+    // The first run needs no edge; the last edge starts nothing.
     assert_eq!(run.calls("start").len(), 1001);
     let trace = run.trace();
     assert_eq!(trace[trace.len() - 1], "0.000000 p ended Error(livelock)");
@@ -70,7 +70,7 @@ fn edges_of_all_levels_count_together_and_no_error_edge_catches_it() {
         .with(actor("b").on("Done", "b"));
     let run = Run::started(plan, World::default());
     assert_livelock(&run);
-    // Two edges for each round: the inner one and the outer one.
+    // Each round takes an inner and an outer edge.
     assert_eq!(run.calls("start").len(), 501);
 }
 

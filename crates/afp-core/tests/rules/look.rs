@@ -1,4 +1,4 @@
-//! Looking before anything starts.
+//! The look before a start.
 
 use afp_core::Value;
 use afp_core::trace::Ending;

@@ -1,4 +1,4 @@
-//! Every rule of the scheduler on plans built by hand; one file for each group of rules.
+//! The rules of the scheduler on plans built by hand, a file for each group.
 
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,4 +1,4 @@
-//! Who is asked first, and who wins.
+//! Order and priority of supervisors.
 
 use crate::support::build::{actor, guard, plan};
 use crate::support::run::{Run, assert_lines};

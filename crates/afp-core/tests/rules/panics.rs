@@ -1,4 +1,4 @@
-//! A component that panics: nothing of the plan is called again, and the platform is stopped.
+//! Panics of a component: no component is called again, and the platform stops.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,7 +13,8 @@ use crate::support::world::{Phase, World};
 
 const ENDED: Wake = Wake::Ended(Ending::Error(Fault::PANIC));
 
-/// A global supervisor, an actor with a local one, a computation, and a sub-plan with the same.
+/// A global supervisor, an actor with a local supervisor, a computation, and a sub-plan with the
+/// same.
 fn everything() -> Builder {
     let inner = plan("Inner")
         .guarded(guard("watch", 30).on("E", "terminate"))
@@ -104,7 +105,7 @@ fn a_panic_while_the_plan_is_stopped_breaks_it() {
     assert_eq!(run.world.calls.last().map(String::as_str), Some("emergency stop"));
 }
 
-/// Breaks at its n-th reading from now on.
+/// Panics at its n-th reading from now on.
 struct BreakingClock(Cell<u32>);
 
 impl Clock for BreakingClock {
@@ -122,7 +123,7 @@ fn a_panic_of_the_sink_or_the_clock_is_nobodys_of_the_plan() {
         });
         run.scheduler.step((&mut run.world, &mut sink, &StillClock), ms(20));
     };
-    // The first reading begins the step, the second comes after a poll.
+    // The first reading begins the step, the second follows a poll.
     let of_clock = |run: &mut Run, readings: u32| {
         let clock = BreakingClock(Cell::new(readings));
         let mut sink = Observe(|_: Instant, _: &Record<'_>| {});

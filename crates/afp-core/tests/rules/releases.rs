@@ -1,4 +1,4 @@
-//! When supervisors and actors are due, and what a step says about it.
+//! Due times of supervisors and actors, and the wake time of a step.
 
 use afp_core::Wake;
 use afp_core::trace::Ending;

@@ -1,4 +1,4 @@
-//! Events that interrupt nothing.
+//! Events that do not interrupt.
 
 use crate::support::build::{actor, computation, guard, plan};
 use crate::support::run::{Run, assert_lines};

@@ -1,4 +1,4 @@
-//! Plans inside plans.
+//! Sub-plans.
 
 use afp_core::trace::{Ending, EntryKind};
 use afp_core::{Fault, Value, Wake};
@@ -204,7 +204,7 @@ fn each_activation_starts_afresh() {
     assert_eq!(run.entry("n"), Value::Int(9));
     run.trace();
     run.until(20);
-    // The second activation writes nothing, so nothing is committed outside.
+    // The second activation writes nothing, so the outer plan commits nothing.
     assert!(!run.trace().iter().any(|line| line.starts_with("0.020000 s commits")));
 }
 

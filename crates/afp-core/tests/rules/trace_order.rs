@@ -1,4 +1,4 @@
-//! The order of records within a step, all of them in one.
+//! The order of records within a step.
 
 use afp_core::Value;
 use afp_core::trace::EntryKind;

@@ -1,4 +1,4 @@
-//! Puts plans together: elements, supervisors and edges by name, turned into the scheduler's rows.
+//! Builds plans from elements, supervisors and edges by name, as rows of the scheduler.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use afp_core::{Duration, Fault, Reason, Value};
 /// The reason of every `fail`.
 pub const STUCK: Fault = Fault::new(&Reason { code: Fault::FAILED, text: "stuck" });
 
-/// A finished plan.
+/// A complete plan.
 pub struct Spec {
     pub name: String,
     pub start: u16,
@@ -31,7 +31,7 @@ pub struct EntrySpec {
     pub name: &'static str,
     pub kind: EntryKind,
     pub init: Value,
-    /// Initialising the plan fails here.
+    /// Initialisation fails.
     pub broken: bool,
 }
 
@@ -66,7 +66,7 @@ pub struct SupervisorSpec {
     pub writes: Vec<Write>,
 }
 
-/// A plan in the making; the first element added is the first to run.
+/// A plan under construction; the first element added runs first.
 pub struct Builder {
     name: &'static str,
     entries: Vec<EntrySpec>,
@@ -107,7 +107,7 @@ pub fn sub_plan(name: &'static str, plan: Builder) -> ElementSpec {
     ElementSpec { plan: Some(plan.build()), ..element(name, ElementKind::SubPlan) }
 }
 
-/// A supervisor with a period and deadline of so many milliseconds.
+/// A supervisor with a period and deadline in milliseconds.
 pub fn guard(name: &'static str, period: u64) -> SupervisorSpec {
     SupervisorSpec {
         name,
@@ -148,7 +148,7 @@ impl ElementSpec {
         self
     }
 
-    /// An entry noted at every poll.
+    /// An entry recorded at every poll.
     pub fn live(mut self, entry: &'static str) -> Self {
         self.live = Some(entry);
         self
@@ -159,13 +159,13 @@ impl ElementSpec {
         self
     }
 
-    /// A sub-plan's `in` entry and the outer entry it gets.
+    /// A sub-plan's `in` entry and the outer entry that it reads.
     pub fn input(mut self, inner: &'static str, outer: &'static str) -> Self {
         self.ins.push((inner, outer));
         self
     }
 
-    /// A sub-plan's `out` entry and the outer entry it goes to.
+    /// A sub-plan's `out` entry and the outer entry that it writes.
     pub fn output(mut self, inner: &'static str, outer: &'static str) -> Self {
         self.outs.push((inner, outer));
         self
@@ -193,7 +193,7 @@ impl SupervisorSpec {
         self
     }
 
-    /// An entry noted at every poll.
+    /// An entry recorded at every poll.
     pub fn live(mut self, entry: &'static str) -> Self {
         self.live = Some(entry);
         self
@@ -280,13 +280,11 @@ impl Spec {
         index.unwrap_or_else(|| panic!("no entry {name}")) as u16
     }
 
-    /// Components of this level.
     fn components(&self) -> u32 {
         let guards: usize = self.elements.iter().map(|element| element.guards.len()).sum();
         (self.elements.len() + usize::from(self.globals) + guards) as u32
     }
 
-    /// Components of this level and all below.
     fn components_below(&self) -> u32 {
         let plans = self.elements.iter().filter_map(|element| element.plan.as_ref());
         self.components() + plans.map(|plan| plan.components_below()).sum::<u32>()
@@ -369,7 +367,7 @@ impl Spec {
         });
     }
 
-    /// Whether an element is a computation from which computations alone can lead to `resume`.
+    /// Whether an element is a computation that can reach `resume` through computations only.
     fn resumes(&self, index: usize, seen: &mut Vec<usize>) -> bool {
         let element = &self.elements[index];
         if element.kind != ElementKind::Computation || seen.contains(&index) {
@@ -384,13 +382,12 @@ impl Spec {
         })
     }
 
-    /// Each local supervisor's element, by position.
+    /// Position of the element that owns a local supervisor.
     pub fn owner(&self, supervisor: u16) -> Option<usize> {
         let holds = |row: &ElementRow| row.locals.indices().contains(&usize::from(supervisor));
         self.element_rows.iter().position(holds)
     }
 
-    /// The names of `Error` and `DeadlineMissed` targets.
     pub fn error_target(&self, element: usize) -> &'static str {
         self.elements[element].on_error.unwrap_or("")
     }

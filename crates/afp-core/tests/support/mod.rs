@@ -1,7 +1,7 @@
-//! Plans made from data, on a scripted platform: what the tests of the scheduler are written with.
+//! Plans built from data on a scripted platform, for tests of the scheduler.
 //!
-//! A [`plan`](build) is put together from rows, a [`world::World`] says what each component answers
-//! when, and a [`run::Run`] steps the one on the other and keeps the trace as lines of text.
+//! A [`plan`](build) is built from rows, a [`world::World`] scripts the answers of components, and
+//! a [`run::Run`] steps the plan and keeps the trace as lines of text.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
 pub mod build;
@@ -12,7 +12,6 @@ pub mod world;
 
 use afp_core::Instant;
 
-/// An instant in milliseconds.
 pub fn ms(millis: u64) -> Instant {
     Instant::from_nanos(millis * 1_000_000)
 }

@@ -1,4 +1,4 @@
-//! The names of a plan made from data, sub-plans unfolded.
+//! The names of a plan built from data, with its sub-plans.
 
 use afp_core::rt::ElementKind;
 use afp_core::trace::{

@@ -1,4 +1,4 @@
-//! Steps a plan on its world and keeps what happened.
+//! Steps a plan on its world and keeps the trace.
 
 use afp_core::trace::{Ending, Line, Record, Sink};
 use afp_core::{EntryId, Instant, Scheduler, StartError, Value, Wake, WriteError};
@@ -9,7 +9,6 @@ use super::names::SpecNames;
 use super::scripted::Scripted;
 use super::world::{CostClock, World};
 
-/// Keeps the trace as lines of text.
 pub struct Lines {
     names: SpecNames,
     lines: Vec<String>,
@@ -30,7 +29,6 @@ pub struct Run {
 }
 
 impl Run {
-    /// A plan that has not started.
     pub fn ready(plan: Builder, world: World) -> Self {
         let spec = plan.build();
         let names = SpecNames::new(&spec);
@@ -44,7 +42,6 @@ impl Run {
         }
     }
 
-    /// A plan started at 0.
     pub fn started(plan: Builder, world: World) -> Self {
         let mut run = Run::ready(plan, world);
         run.start().expect("it can start");
@@ -57,14 +54,14 @@ impl Run {
         Ok(self.wake)
     }
 
-    /// One step at this millisecond.
+    /// Steps at a time in milliseconds.
     pub fn step(&mut self, at: u64) -> Wake {
         let on = (&mut self.world, &mut self.sink, &self.clock);
         self.wake = self.scheduler.step(on, ms(at));
         self.wake
     }
 
-    /// Steps at each instant the plan asks for, up to and with this millisecond.
+    /// Steps at each requested instant up to and including `end`, milliseconds.
     pub fn until(&mut self, end: u64) -> &mut Self {
         while let Wake::At(at) = self.wake {
             if at > ms(end) {
@@ -87,7 +84,6 @@ impl Run {
         &self.sink.names
     }
 
-    /// Who failed and why, as people read it.
     pub fn failure(&self) -> Option<String> {
         self.scheduler.failure().map(|failure| failure.named(&self.sink.names).to_string())
     }
@@ -110,12 +106,11 @@ impl Run {
         Some(self.scheduler.plan().spec().elements[active.index()].name)
     }
 
-    /// The trace since the last call.
     pub fn trace(&mut self) -> Vec<String> {
         std::mem::take(&mut self.sink.lines)
     }
 
-    /// The trace since the last call without polls that saw nothing and without starts.
+    /// The trace since the last call, without polls that saw nothing and without starts.
     pub fn story(&mut self) -> Vec<String> {
         let mut lines = self.trace();
         lines.retain(|line| !line.ends_with("polled: clear"));
@@ -133,7 +128,7 @@ impl Run {
     }
 }
 
-/// Compares a trace with the lines of a text; blanks at their starts do not count.
+/// Compares a trace with the lines of a text; leading spaces are ignored.
 #[track_caller]
 pub fn assert_lines(actual: &[String], expected: &str) {
     let expected: Vec<&str> =

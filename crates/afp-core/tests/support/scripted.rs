@@ -1,4 +1,4 @@
-//! A plan over rows made at run time, its components answered for by the [`World`].
+//! A plan with rows made at run time; the [`World`] answers for its components.
 
 use std::sync::Arc;
 
@@ -12,7 +12,6 @@ use afp_core::{Fault, Value, ValueRef, WriteError};
 use super::build::{ElementSpec, Spec};
 use super::world::{Phase, World};
 
-/// Rows behind a counted pointer.
 #[derive(Clone)]
 pub struct SharedTables(Arc<Spec>);
 
@@ -27,7 +26,7 @@ pub struct Scripted {
     entries: Vec<Value>,
     staged: Vec<Option<Value>>,
     children: Vec<Option<Machine<Scripted>>>,
-    /// The element that was started and has not been left.
+    /// The element that was started and not left.
     running: Option<ElementId>,
     watching: Vec<bool>,
 }
@@ -73,7 +72,7 @@ impl Scripted {
         }
     }
 
-    /// Runs a sub-plan's machine, then hands the `out` entries that it set to `take`.
+    /// Runs a sub-plan's machine, then passes its set `out` entries to `take`.
     fn with_child<R>(
         &mut self,
         element: ElementId,
@@ -90,7 +89,7 @@ impl Scripted {
         for (from, to) in &element.outs {
             match inner.get(from) {
                 Value::Unset => {}
-                // A value that does not convert, for tests of just that.
+                // A value that tests use as one that does not convert.
                 Value::Int(666) => return Err(Fault::CONVERSION),
                 value => self.staged[usize::from(self.spec.entry(to))] = Some(value),
             }

@@ -11,7 +11,7 @@ use super::ms;
 /// The fault that scripts cause.
 pub const SCRIPTED: Fault = Fault::new(&Reason { code: "scripted", text: "as the script says" });
 
-/// A part of a component's life.
+/// A phase of a component's life.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     Start,
@@ -36,7 +36,7 @@ struct Rule {
     act: Act,
 }
 
-/// Time that polls took, which the clock shows.
+/// Cost of polls, shown by the clock.
 #[derive(Clone, Default)]
 pub struct CostClock(Rc<Cell<Instant>>);
 
@@ -46,18 +46,18 @@ impl Clock for CostClock {
     }
 }
 
-/// The platform: rules for what components answer, and a record of what was asked of them.
+/// Scripted answers of components, and a record of the calls.
 #[derive(Default)]
 pub struct World {
     rules: Vec<Rule>,
-    /// Everything that was called, as `5 interrupt go`.
+    /// Every call, as `5 interrupt go`.
     pub calls: Vec<String>,
-    /// Nothing is recorded.
+    /// Records nothing.
     quiet: bool,
     pub clock: CostClock,
-    /// Where [`Platform::now`] stands, for whoever drives a plan on it.
+    /// The time of [`Platform::now`].
     pub time: Instant,
-    /// No step before this instant.
+    /// Earliest next step.
     pub ready: Instant,
 }
 
@@ -67,7 +67,7 @@ impl World {
         World { quiet: true, ..World::default() }
     }
 
-    /// From `during.start` until before `during.end` (milliseconds) a poll brings this outcome.
+    /// Polls return this outcome from `during.start` until before `during.end` (milliseconds).
     pub fn says(self, who: &'static str, outcome: u16, during: Range<u64>) -> Self {
         self.rule(who, Phase::Poll, during, Act::Outcome(outcome))
     }
@@ -80,7 +80,7 @@ impl World {
         self.rule(who, phase, during, Act::Panic)
     }
 
-    /// Polls take so many milliseconds.
+    /// Polls take `cost` milliseconds.
     pub fn costs(self, who: &'static str, phase: Phase, cost: u64, during: Range<u64>) -> Self {
         self.rule(who, phase, during, Act::Cost(Duration::from_millis(cost)))
     }
@@ -122,7 +122,7 @@ impl World {
             match act {
                 Act::Cost(more) => cost += more,
                 Act::Fault => result = Err(SCRIPTED),
-                // Without the hook that would print it.
+                // Bypasses the hook that would print the panic.
                 Act::Panic => std::panic::resume_unwind(Box::new("as the script says")),
                 Act::Outcome(_) => {}
             }
@@ -132,7 +132,7 @@ impl World {
         result
     }
 
-    /// How handing over outputs goes; nothing is noted.
+    /// The result of passing outputs; records nothing.
     pub fn output(&self, who: &str, now: Instant) -> Result<(), Fault> {
         match self.holding(who, Phase::Output, now).next() {
             Some(_) => Err(SCRIPTED),
@@ -140,12 +140,12 @@ impl World {
         }
     }
 
-    /// A value that a component read at a poll.
+    /// Records a value that a component read at a poll.
     pub fn saw(&mut self, now: Instant, who: &str, value: &str) {
         self.note(now, &format!("see {value}"), who);
     }
 
-    /// The outcome of a poll: the first declared one that holds and is wanted.
+    /// The outcome of a poll: the first declared outcome that holds and is wanted.
     pub fn outcome(&self, who: &str, wanted: Events, now: Instant) -> Option<u16> {
         let outcomes = self.holding(who, Phase::Poll, now).filter_map(|act| match act {
             Act::Outcome(outcome) if wanted.contains(outcome) => Some(outcome),
