@@ -1,4 +1,4 @@
-//! Operations where plain operators would panic, wrap or round differently.
+//! Operations for which plain operators would panic, wrap or round differently.
 
 use crate::Error;
 
@@ -38,7 +38,7 @@ checked! {
 pub fn int_rem(a: i64, b: i64) -> Result<i64, Error> {
     match b {
         0 => Err(Error::DivisionByZero),
-        // Of the least integer, too, whose quotient is none.
+        // Also for the least integer, whose quotient overflows.
         -1 => Ok(0),
         _ => Ok(a % b),
     }
@@ -56,13 +56,14 @@ pub fn int_neg(a: i64) -> Result<i64, Error> {
 /// `a % b` with the sign of `a`.
 ///
 /// # Errors
-/// [`Error::DivisionByZero`]; [`Error::NotFinite`] for a `b` that is not finite, which would leave `a`.
+/// [`Error::DivisionByZero`]; [`Error::NotFinite`] for a `b` that is not finite, for which the
+/// result would be `a`.
 #[inline]
 pub fn rem(a: f64, b: f64) -> Result<f64, Error> {
     if b == 0.0 { Err(Error::DivisionByZero) } else { Ok(a % finite(b)?) }
 }
 
-/// The number itself.
+/// Checks that a number is finite.
 ///
 /// # Errors
 /// [`Error::NotFinite`].
@@ -71,7 +72,7 @@ pub fn finite(value: f64) -> Result<f64, Error> {
     if value.is_finite() { Ok(value) } else { Err(Error::NotFinite) }
 }
 
-/// An `int` as a `float`.
+/// Converts an `int` to a `float`.
 #[inline]
 pub fn int_to_float(value: i64) -> f64 {
     value as f64
@@ -89,7 +90,7 @@ pub fn bool_to_float(value: bool) -> f64 {
     f64::from(u8::from(value))
 }
 
-/// A `float` as an `int`, toward zero.
+/// Converts a `float` to an `int`, toward zero.
 ///
 /// # Errors
 /// [`Error::Overflow`] for NaN and for values out of range.

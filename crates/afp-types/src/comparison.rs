@@ -1,8 +1,8 @@
-//! How values are compared.
+//! Comparisons of values.
 
 use crate::{Error, Part, Source, Value, ValueOf, finite};
 
-/// How two values compare.
+/// A comparison operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
     /// `==`
@@ -20,7 +20,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// The comparison that is written so.
+    /// Parses an operator.
     pub fn parse(text: &str) -> Option<Comparison> {
         Some(match text {
             "==" => Comparison::Equal,
@@ -38,7 +38,7 @@ impl Comparison {
         !matches!(self, Comparison::Equal | Comparison::NotEqual)
     }
 
-    /// Whether the values of two formulas compare so.
+    /// Compares the values of two formulas.
     ///
     /// # Errors
     /// Those of the formulas; [`Error::NotFinite`] for a number that is not finite.
@@ -51,7 +51,7 @@ impl Comparison {
         Ok(self.holds(&comparable(left, source)?, &comparable(right, source)?))
     }
 
-    /// Whether two values compare so. Only numbers have an order; an int and a float compare as floats.
+    /// Compares two values. Only numbers have an order; an int and a float compare as floats.
     pub fn holds<T: PartialEq>(self, left: &ValueOf<T>, right: &ValueOf<T>) -> bool {
         let order = match (left, right) {
             (ValueOf::Int(left), ValueOf::Int(right)) => left.partial_cmp(right),

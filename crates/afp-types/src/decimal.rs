@@ -1,4 +1,4 @@
-//! Numbers as they are written.
+//! Number literals.
 
 use crate::exact::{Scale, exact};
 
@@ -10,11 +10,11 @@ pub struct Decimal<'a> {
     power: i32,
 }
 
-/// Exponents beyond it mean zero or infinity, whatever the digits.
+/// Larger exponents mean zero or infinity.
 const MAX_POWER: i32 = 1_000_000;
 
-/// Length of the number literal at the start: digits, perhaps a fraction, perhaps an exponent; zero
-/// where there is none.
+/// Length of the number literal at the start: digits, an optional fraction, an optional exponent;
+/// zero without a literal.
 pub fn number_length(text: &str) -> usize {
     let digits =
         |from: usize| text.bytes().skip(from).take_while(|byte| byte.is_ascii_digit()).count();
@@ -34,7 +34,7 @@ pub fn number_length(text: &str) -> usize {
 }
 
 impl<'a> Decimal<'a> {
-    /// The number that a text is, all of it.
+    /// Parses a whole string.
     pub fn parse(text: &'a str) -> Option<Self> {
         if text.is_empty() || number_length(text) < text.len() {
             return None;
@@ -57,7 +57,7 @@ impl<'a> Decimal<'a> {
         self.power.saturating_sub(behind)
     }
 
-    /// The value in SI units of the number with a sign and a unit; `None` where it is not finite.
+    /// The value in SI units with a sign and a unit; `None` if it is not finite.
     pub fn value(&self, negative: bool, scale: Scale) -> Option<f64> {
         exact(self.digits(), self.exponent(), negative, scale)
     }

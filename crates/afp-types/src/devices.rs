@@ -1,7 +1,7 @@
-//! The devices of a robot as a table: what can be pressed, how it can fail, what it signals.
+//! A robot's devices as a table: controls, faults, signals.
 //!
-//! Command line, scenarios, Python, logs and help read these rows; nobody but a robot's own crate names a
-//! device. Controls, faults and signals are numbered through the whole table, in its order.
+//! The command line, scenarios, Python, logs and help read these rows; only a robot's own crate
+//! names devices. Controls, faults and signals are numbered through the whole table, in its order.
 
 /// A control of a robot, by its number in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -18,69 +18,70 @@ pub struct SignalId(pub u16);
 /// A device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceRow {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// What it is, for people.
+    /// A description for users.
     pub help: &'static str,
-    /// What can be pressed on it.
+    /// The controls.
     pub controls: &'static [ControlRow],
-    /// How it can fail.
+    /// The faults.
     pub faults: &'static [FaultRow],
-    /// What it says.
+    /// The signals.
     pub signals: &'static [SignalRow],
 }
 
-/// Something that can be held down and let go.
+/// A control that can be pressed and released.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlRow {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// What it is, for people.
+    /// A description for users.
     pub help: &'static str,
-    /// Whether it is there to end what runs; the Escape key of a terminal presses it.
+    /// Whether it stops the plan; the Escape key of a terminal presses it.
     pub stops: bool,
 }
 
-/// A way in which a device can fail.
+/// A failure of a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaultRow {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// How much of it there can be.
+    /// The severity, if it varies.
     pub amount: Option<AmountRow>,
-    /// What happens, for people.
+    /// The effect, for users.
     pub help: &'static str,
 }
 
-/// How much of a fault there is.
+/// The severity of a fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmountRow {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
     /// The SI unit: `s`, or empty for a plain number.
     pub unit: &'static str,
-    /// What is taken where nothing is said.
+    /// The default.
     pub default: f64,
-    /// The least.
+    /// The minimum.
     pub from: f64,
-    /// The greatest.
+    /// The maximum.
     pub to: f64,
 }
 
-/// Something that a device says.
+/// A signal of a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalRow {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// What its values are.
+    /// The type of its values.
     pub ty: SignalType,
-    /// Whether only a judge may know it.
+    /// Whether it is ground truth, which only a judge may read.
     pub truth: bool,
-    /// What it says, for people.
+    /// A description for users.
     pub help: &'static str,
 }
 
-/// What the values of a signal are. `U` says what a number measures: an SI unit, empty for none, or a dimension.
+/// The type of a signal's values. `U` is the unit of a number: an SI unit, empty for none, or a
+/// dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignalType<U = &'static str> {
     /// A truth value.
@@ -89,20 +90,20 @@ pub enum SignalType<U = &'static str> {
     Int,
     /// A number or a quantity.
     Float(U),
-    /// A text.
+    /// A string.
     Text,
-    /// Where one frame stands in another.
+    /// The pose of one frame in another.
     Pose,
-    /// What a range sensor heard.
+    /// A range sensor's reading.
     Range,
     /// A picture.
     Image,
-    /// The outline of something that moves.
+    /// The outline of a moving object.
     Outline,
 }
 
 impl SignalType {
-    /// The SI unit of its numbers; empty for plain ones and for what is none.
+    /// The SI unit of its numbers; empty for plain numbers and other types.
     pub fn unit(self) -> &'static str {
         match self {
             SignalType::Float(unit) => unit,
@@ -110,7 +111,7 @@ impl SignalType {
         }
     }
 
-    /// Its word in a toolbox; `float` for all numbers.
+    /// The keyword in a toolbox; `float` for all numbers.
     pub fn word(self) -> &'static str {
         match self {
             SignalType::Bool => "bool",
@@ -126,15 +127,15 @@ impl SignalType {
 }
 
 impl AmountRow {
-    /// The amount that is meant; none where it is out of range.
+    /// The amount or its default; `None` if out of range.
     pub fn checked(&self, amount: Option<f64>) -> Option<f64> {
         let amount = amount.unwrap_or(self.default);
         (self.from <= amount && amount <= self.to).then_some(amount)
     }
 }
 
-/// How much of a fault is meant, zero of one of which there is no more or less; none where there is no such
-/// fault, or not so much of it.
+/// The amount of a fault or its default, zero for a fault without an amount. `None` for an unknown
+/// fault or an amount out of range.
 pub fn amount(table: &[DeviceRow], id: FaultId, amount: Option<f64>) -> Option<f64> {
     let (_, _, row) = faults(table).find(|(known, ..)| *known == id)?;
     match (row.amount, amount) {
@@ -162,7 +163,7 @@ pub fn signals(table: &[DeviceRow]) -> impl Iterator<Item = (SignalId, &DeviceRo
     (0..).zip(all).map(|(id, (device, row))| (SignalId(id), device, row))
 }
 
-/// A control by its words: `touch.left`, or `left` where one control alone is called so.
+/// Finds a control by name: `touch.left`, or `left` if this name is unique.
 pub fn find_control(table: &[DeviceRow], words: &str) -> Option<ControlId> {
     let of_device = words.split_once('.').and_then(|(device, name)| {
         controls(table).find(|(_, at, row)| at.name == device && row.name == name)
@@ -175,18 +176,18 @@ pub fn find_control(table: &[DeviceRow], words: &str) -> Option<ControlId> {
     named.next().is_none().then_some(id)
 }
 
-/// The control that is there to end what runs.
+/// Finds the control that stops the plan.
 pub fn find_stop(table: &[DeviceRow]) -> Option<ControlId> {
     controls(table).find(|(_, _, row)| row.stops).map(|(id, ..)| id)
 }
 
-/// A fault by its device and its own name.
+/// Finds a fault by its device and name.
 pub fn find_fault(table: &[DeviceRow], device: &str, name: &str) -> Option<FaultId> {
     let mut all = faults(table);
     all.find(|(_, at, row)| at.name == device && row.name == name).map(|(id, ..)| id)
 }
 
-/// A signal by its device and its own name.
+/// Finds a signal by its device and name.
 pub fn find_signal(table: &[DeviceRow], device: &str, name: &str) -> Option<SignalId> {
     let mut all = signals(table);
     all.find(|(_, at, row)| at.name == device && row.name == name).map(|(id, ..)| id)

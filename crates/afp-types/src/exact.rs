@@ -1,32 +1,33 @@
 //! The double nearest to a decimal number times a unit.
 //!
-//! `35 cm` is 0.35 and not `35.0 * 0.01`; `0.03 min` is 1.8 s. The digits are multiplied and divided as
-//! digits, and the standard library's reader, which rounds correctly, makes the double. Degrees are the
-//! double product with pi/180, since no decimal is exact there.
+//! `35 cm` is 0.35 and not `35.0 * 0.01`; `0.03 min` is 1.8 s. Multiplication and division work on
+//! the digits, and the standard library's correctly rounding parser makes the double. Degrees are
+//! the double product with pi/180, since no decimal is exact.
 
 use core::fmt::Write;
 use core::num::NonZeroU128;
 
 use heapless::Vec;
 
-/// One radian per degree: numbers in degrees are the double product with this.
+/// Radians per degree: numbers in degrees are the double product with this.
 pub const RADIANS_PER_DEGREE: f64 = core::f64::consts::PI / 180.0;
 
-/// Significant digits that are kept: more than the longest exact midpoint of two doubles has (767).
+/// Significant digits kept: more than the longest exact midpoint of two doubles has (767).
 const KEPT: usize = 800;
-/// Digits of a factor of 64 bits, and of the zeros that dividing by one puts first.
+/// Digits of a 64-bit factor, and leading zeros that a division adds.
 const FACTOR: usize = 20;
 const ROOM: usize = FACTOR + KEPT + FACTOR;
-/// Digits, what stands for the rest of them, and an exponent.
+/// Digits, a sticky digit and an exponent.
 const TEXT: usize = ROOM + 16;
 
-/// How a number in some unit becomes SI.
+/// The conversion from a unit to SI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// Shift the decimal point.
     Decimal(i32),
-    /// Multiply by a fraction and shift the decimal point, exactly; then, for each degree in the unit,
-    /// multiply by [`RADIANS_PER_DEGREE`], or divide where there are fewer than none.
+    /// Multiply by a fraction and shift the decimal point, exactly. Then multiply by
+    /// [`RADIANS_PER_DEGREE`] for each positive exponent of the degree, or divide for each negative
+    /// one.
     Fraction {
         /// Numerator.
         times: u64,
@@ -42,7 +43,7 @@ pub enum Scale {
 }
 
 impl Scale {
-    /// A [`Scale::Fraction`].
+    /// Makes a [`Scale::Fraction`].
     pub const fn fraction(times: u64, by: u64, shift: i32, degrees: i32) -> Self {
         Scale::Fraction { times, by, shift, degrees }
     }
@@ -56,17 +57,17 @@ impl Scale {
     }
 }
 
-/// A number as digits, with room in front for those that a factor adds.
+/// A number as digits, with room in front for the digits that a factor adds.
 struct Digits {
     digits: Vec<u8, TEXT>,
     /// Power of ten of the last digit.
     exponent: i32,
-    /// Whether what was cut off is more than nothing.
+    /// Whether a nonzero rest was cut off.
     inexact: bool,
 }
 
-/// The double nearest to a number in SI units; `None` where that is not finite. `digits` may begin
-/// with zeros.
+/// The double nearest to a number in SI units; `None` if it is not finite. `digits` may begin with
+/// zeros.
 pub fn exact(
     digits: impl Iterator<Item = u8>,
     exponent: i32,
@@ -93,7 +94,7 @@ pub fn exact(
 impl Digits {
     fn new(digits: impl Iterator<Item = u8>, exponent: i32) -> Self {
         let mut number = Digits { digits: Vec::new(), exponent, inexact: false };
-        // The room in front is filled with zeros, which no reader minds.
+        // The room in front holds zeros.
         let _ = number.digits.resize(FACTOR, 0);
         for digit in digits.skip_while(|digit| *digit == 0) {
             if number.digits.len() < FACTOR + KEPT {
@@ -118,7 +119,8 @@ impl Digits {
         }
     }
 
-    /// Long division, far enough that one more digit cannot change the nearest double. `None` for zero.
+    /// Long division, up to the digit after which the nearest double cannot change. `None` for
+    /// zero.
     fn divide(&mut self, by: u64) -> Option<()> {
         let by = NonZeroU128::new(u128::from(by))?;
         if by.get() == 1 {
@@ -144,7 +146,7 @@ impl Digits {
     fn value(mut self) -> Option<f64> {
         self.digits.iter_mut().for_each(|digit| *digit += b'0');
         if self.inexact {
-            // Stands for everything cut off: a value above a midpoint stays above it.
+            // A sticky digit: a value above a midpoint stays above it.
             let _ = self.digits.push(b'1');
             self.exponent = self.exponent.saturating_sub(1);
         }
@@ -153,14 +155,14 @@ impl Digits {
     }
 }
 
-/// Kelvin, exactly rounded for every number of at most 24 digits.
+/// Kelvin, correctly rounded for every number of at most 24 digits.
 fn celsius(digits: impl Iterator<Item = u8>, exponent: i32, negative: bool) -> Option<f64> {
     let number = Digits::new(digits, exponent);
     let written = number.digits.get(FACTOR..).unwrap_or(&[]);
     if written.len() <= 24 && (-24..=0).contains(&exponent) {
         let value = written.iter().fold(0_i128, |sum, digit| sum * 10 + i128::from(*digit));
         let signed = if negative { -value } else { value };
-        // Both at 10^-26, so that no digit of either is lost.
+        // Both at 10^-26, so that no digit is lost.
         let lift = 10_i128.checked_pow(u32::try_from(exponent + 26).ok()?)?;
         let offset = 27_315 * 10_i128.checked_pow(24)?;
         let sum = signed.checked_mul(lift)?.checked_add(offset)?;

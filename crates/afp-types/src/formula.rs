@@ -1,8 +1,8 @@
-//! Formulas as flat arrays of nodes, and their values.
+//! Formulas as flat arrays of nodes, and their evaluation.
 //!
-//! Operands come before the node that uses them, so each part of a formula is a run of nodes whose last
-//! one is the root. The compiler folds constants with the evaluation of this module and the interpreter
-//! runs it; code generation walks the same nodes. Nothing here allocates.
+//! Operands come before the node that uses them, so each part of a formula is a slice whose last
+//! node is the root. The compiler folds constants with this evaluation, the interpreter runs it,
+//! and code generation walks the same nodes. Nothing allocates.
 
 use core::ops::Deref;
 
@@ -25,8 +25,8 @@ pub enum Operator {
     Rem,
 }
 
-/// The operation of a node. Operands have the types that the operation needs: conversions are nodes of
-/// their own. `C` says what is converted into what.
+/// The operation of a node. Operands have the required types: conversions are separate nodes. `C`
+/// describes a conversion.
 #[derive(Clone, Debug)]
 pub enum Op<C> {
     /// `true` or `false`.
@@ -35,7 +35,7 @@ pub enum Op<C> {
     Int(i64),
     /// A number or a quantity in SI units.
     Float(f64),
-    /// A text.
+    /// A string.
     Text(Text),
     /// A value of an enum, by position.
     Choice(u16),
@@ -43,7 +43,7 @@ pub enum Op<C> {
     Entry(EntryId),
     /// A sign change of one operand.
     Neg,
-    /// An operation on two operands; on texts, `+` joins.
+    /// An operation on two operands; on strings, `+` joins.
     Binary(Operator),
     /// A function of at most three operands; functions that take any number have two.
     Call(Function),
@@ -51,7 +51,7 @@ pub enum Op<C> {
     Convert(C),
 }
 
-/// Which kind of value a node has.
+/// The kind of a node's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// A truth value.
@@ -60,28 +60,28 @@ pub enum Shape {
     Int,
     /// A number or a quantity.
     Float,
-    /// A text.
+    /// A string.
     Text,
     /// A value of an enum.
     Choice,
-    /// An object, or a value whose type is known only at the use of a computation.
+    /// An object, or a value whose type depends on the use of a computation.
     Object,
 }
 
-/// One node of a formula, with a note of the phase that made it.
+/// One node of a formula, with a note of the compiler phase.
 #[derive(Clone, Debug)]
 pub struct Node<C, N = ()> {
     /// The operation.
     pub op: Op<C>,
     /// The kind of its value.
     pub shape: Shape,
-    /// How many nodes the part has that ends here, this one included.
+    /// Number of nodes of the part that ends here.
     pub len: u16,
-    /// The note of the phase that made it.
+    /// The note of the compiler phase.
     pub note: N,
 }
 
-/// A formula or a part of one: its root, and the nodes of the root's operands before it.
+/// A formula or a part of it: the root, and the nodes of its operands before it.
 ///
 /// It dereferences to the note of its root.
 #[derive(Debug)]
@@ -92,19 +92,20 @@ pub struct Part<'a, C, N = ()> {
     pub below: &'a [Node<C, N>],
 }
 
-/// The entries and conversions of a formula that is evaluated.
+/// The entries and conversions for an evaluation.
 pub trait Source<C> {
-    /// Whether constants are folded, as in the compiler. Then each operation without a finite result is an error,
-    /// and so is a division by a constant zero, even of an unknown number.
+    /// Whether constants are folded, as in the compiler. Then each operation without a finite
+    /// result is an error, as well as a division by a constant zero, even of an unknown number.
     ///
-    /// Otherwise a number that is not finite goes on to the reader, which shows it. It is an error earlier if the next
-    /// operation could give a finite result for it.
+    /// Otherwise a number that is not finite is passed on and detected later. It is an error
+    /// earlier if the next operation could have a finite result.
     const FOLDS: bool = false;
 
     /// Reads the value of an entry.
     ///
     /// # Errors
-    /// [`Error::Unknown`] for an entry without a value, [`Error::Mistyped`] if `read` gives nothing.
+    /// [`Error::Unknown`] for an entry without a value, [`Error::Mistyped`] if `read` returns
+    /// `None`.
     fn entry<V>(&self, entry: EntryId, read: impl FnOnce(&Value) -> Option<V>) -> Result<V, Error>;
 
     /// Converts a value.
@@ -131,7 +132,7 @@ impl<C, N> Deref for Part<'_, C, N> {
 }
 
 impl Operator {
-    /// How it is written.
+    /// The character in formulas.
     pub fn sign(self) -> char {
         match self {
             Operator::Add => '+',
@@ -144,7 +145,7 @@ impl Operator {
 }
 
 impl<C> Op<C> {
-    /// The same with conversions in another form.
+    /// Converts the conversions.
     pub fn map<D>(&self, convert: impl FnOnce(&C) -> D) -> Op<D> {
         match self {
             Op::Bool(value) => Op::Bool(*value),
@@ -162,14 +163,14 @@ impl<C> Op<C> {
 }
 
 impl<C> Op<C> {
-    /// Whether it reads nothing and computes nothing.
+    /// Whether it is a literal.
     pub fn is_literal(&self) -> bool {
         matches!(self, Op::Bool(_) | Op::Int(_) | Op::Float(_) | Op::Text(_) | Op::Choice(_))
     }
 }
 
 impl<'a, C, N> Part<'a, C, N> {
-    /// The part at the end of some nodes.
+    /// The part that ends with the last node.
     pub fn last(nodes: &'a [Node<C, N>]) -> Option<Self> {
         let (root, before) = nodes.split_last()?;
         let first = nodes.len().saturating_sub(usize::from(root.len));
@@ -181,7 +182,7 @@ impl<'a, C, N> Part<'a, C, N> {
         &self.root.op
     }
 
-    /// The operands, the last one first.
+    /// The operands, last to first.
     fn backward(self) -> impl Iterator<Item = Self> {
         let mut nodes = self.below;
         core::iter::from_fn(move || {
@@ -191,7 +192,7 @@ impl<'a, C, N> Part<'a, C, N> {
         })
     }
 
-    /// The operands in their order, at most three.
+    /// The operands in order, at most three.
     pub fn operands(self) -> impl DoubleEndedIterator<Item = Self> {
         let mut found = [None; 3];
         for (slot, part) in found.iter_mut().rev().zip(self.backward()) {
@@ -200,7 +201,7 @@ impl<'a, C, N> Part<'a, C, N> {
         found.into_iter().flatten()
     }
 
-    /// The only operand of a sign change or a conversion.
+    /// The operand of a sign change or a conversion.
     pub fn operand(self) -> Option<Self> {
         Part::last(self.below)
     }
@@ -243,7 +244,7 @@ impl<C, N> Part<'_, C, N> {
         bool Bool bool, not_computed;
         /// The value of an `int` formula.
         int Int i64, int_computed;
-        /// The value of a `float` or quantity formula in SI units; perhaps not finite.
+        /// The value of a `float` or quantity formula in SI units; may be infinite or NaN.
         float Float f64, float_computed;
         /// The value of an enum formula, by position.
         choice Choice u16, not_computed;
@@ -274,7 +275,7 @@ impl<C, N> Part<'_, C, N> {
         }
     }
 
-    /// The value of a formula of any type; of an object, the number of the commit that wrote it.
+    /// The value of a formula of any type; for an object, the number of the commit that wrote it.
     ///
     /// # Errors
     /// Those of the formula.
@@ -308,7 +309,7 @@ impl<C, N> Part<'_, C, N> {
                     Operator::Sub => int_sub(a, b),
                     Operator::Mul => int_mul(a, b),
                     Operator::Rem => int_rem(a, b),
-                    // The check turns both sides of `/` into floats.
+                    // The checker converts both sides of `/` to floats.
                     Operator::Div => Err(Error::Mistyped),
                 }
             }
@@ -342,8 +343,8 @@ impl<C, N> Part<'_, C, N> {
         if S::FOLDS { finite(value) } else { Ok(value) }
     }
 
-    /// The values of both operands, with the first error. [`Error::Unknown`] comes after every other error:
-    /// the plan cannot run then, whatever the entry holds.
+    /// The values of both operands, or the first error. Any other error takes precedence over
+    /// [`Error::Unknown`], because the plan can never run.
     fn pair<S: Source<C>, V: Default + PartialEq>(
         self,
         operator: Operator,
@@ -362,7 +363,7 @@ impl<C, N> Part<'_, C, N> {
         }
     }
 
-    /// A function of the operands. Bounds in the wrong order are an error for every value.
+    /// The value of a function. Bounds in the wrong order are an error for every value.
     fn called<V: Copy + Default>(
         self,
         function: Function,

@@ -1,32 +1,32 @@
-//! The functions that formulas can call: one table, and their values.
+//! The functions of formulas: one table, and their values.
 //!
-//! The values go by the names that generated code calls. An operand that is not finite is an error where it could
-//! disappear: the least of 5 and infinity is 5.
+//! The names of the values are those in generated code. An operand that is not finite is an error
+//! if the result could hide it: the minimum of 5 and infinity is 5.
 
 use crate::{Error, finite};
 
-/// The types of operands and value. All operands are numbers of one dimension.
+/// The types of operands and result. All operands are numbers of one dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Signature {
-    /// It gives one of its operands. Ints stay ints.
+    /// Returns one of its operands. Ints stay ints.
     Choice,
-    /// It gives a value of its operand's type. Ints stay ints.
+    /// Returns a value of its operand's type. Ints stay ints.
     Same,
-    /// It gives a quantity of its operands' dimension.
+    /// Returns a quantity of its operands' dimension.
     Quantity,
-    /// It gives the square root of its operand's dimension.
+    /// Returns the square root of its operand's dimension.
     Root,
-    /// It takes an angle and gives a plain number.
+    /// Takes an angle and returns a plain number.
     OfAngle,
-    /// It gives an angle.
+    /// Returns an angle.
     Angle,
 }
 
-/// Whether a function takes as many operands as it names, or more, too.
+/// Whether a function takes exactly the named operands, or also more.
 const EXACTLY: bool = false;
 const AT_LEAST: bool = true;
 
-/// On which numbers a function can fail by itself.
+/// For which numbers a function can fail: ints, floats.
 const NEVER: [bool; 2] = [false, false];
 const INTS: [bool; 2] = [true, false];
 const FLOATS: [bool; 2] = [false, true];
@@ -41,10 +41,10 @@ macro_rules! functions {
         }
 
         impl Function {
-            /// All of them.
+            /// Every function.
             pub const ALL: &'static [Function] = &[$(Function::$function),*];
 
-            /// How formulas call it.
+            /// The name in formulas.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Function::$function => $name,)*
@@ -61,14 +61,14 @@ macro_rules! functions {
                 }
             }
 
-            /// The names of its operands, and whether it takes more of them, too.
+            /// The names of its operands, and whether it accepts more.
             pub fn operands(self) -> (&'static [&'static str], bool) {
                 match self {
                     $(Function::$function => (&[$($operand),*], $count),)*
                 }
             }
 
-            /// The types of its operands and its value.
+            /// The types of operands and result.
             pub fn signature(self) -> Signature {
                 match self {
                     $(Function::$function => Signature::$signature,)*
@@ -87,13 +87,13 @@ macro_rules! functions {
 }
 
 functions! {
-    /// The value without its sign.
+    /// The absolute value.
     Abs "abs" EXACTLY ["a"] Same INTS;
-    /// The least of two or more.
+    /// The minimum of two or more.
     Min "min" AT_LEAST ["a", "b"] Choice FLOATS;
-    /// The greatest of two or more.
+    /// The maximum of two or more.
     Max "max" AT_LEAST ["a", "b"] Choice FLOATS;
-    /// The first operand, but at least the second one and at most the third one.
+    /// The first operand, clamped to the range from the second to the third.
     Clamp "clamp" EXACTLY ["value", "low", "high"] Choice BOTH;
     /// The square root.
     Sqrt "sqrt" EXACTLY ["a"] Root NEVER;
@@ -101,25 +101,24 @@ functions! {
     Sin "sin" EXACTLY ["angle"] OfAngle NEVER;
     /// The cosine of an angle.
     Cos "cos" EXACTLY ["angle"] OfAngle NEVER;
-    /// The angle of a point, of which `y` comes first.
+    /// The angle of a point; `y` comes first.
     Atan2 "atan2" EXACTLY ["y", "x"] Angle FLOATS;
     /// The hypotenuse of two sides.
     Hypot "hypot" EXACTLY ["a", "b"] Quantity NEVER;
 }
 
 impl Function {
-    /// The function of a name.
+    /// The function with this name.
     pub fn named(name: &str) -> Option<Function> {
         Function::ALL.iter().copied().find(|function| function.name() == name)
     }
 
-    /// Whether it has a value for ints.
+    /// Whether it accepts ints.
     pub fn takes_ints(self) -> bool {
         matches!(self.signature(), Signature::Choice | Signature::Same)
     }
 
-    /// Its value for numbers; operands that it does not have are not looked at, and of several only
-    /// two are compared.
+    /// The value for floats; extra operands are ignored, and only two are compared.
     ///
     /// # Errors
     /// Those of the value's function. A result that is not finite is not an error here.
@@ -138,10 +137,11 @@ impl Function {
         })
     }
 
-    /// Its value for integers, for those that have one.
+    /// The value for ints.
     ///
     /// # Errors
-    /// As [`int_abs`] and [`int_clamp`]; [`Error::NotAValue`] for functions of floats alone.
+    /// As [`int_abs`] and [`int_clamp`]; [`Error::NotAValue`] for functions that accept only
+    /// floats.
     #[inline]
     pub fn of_ints(self, [a, b, c]: [i64; 3]) -> Result<i64, Error> {
         match self {
@@ -154,7 +154,7 @@ impl Function {
     }
 }
 
-/// `a` without its sign.
+/// The absolute value.
 ///
 /// # Errors
 /// [`Error::Overflow`] for the least integer.
@@ -163,63 +163,63 @@ pub fn int_abs(a: i64) -> Result<i64, Error> {
     a.checked_abs().ok_or(Error::Overflow)
 }
 
-/// The smaller one.
+/// The minimum.
 #[inline]
 pub fn int_min(a: i64, b: i64) -> i64 {
     a.min(b)
 }
 
-/// The greater one.
+/// The maximum.
 #[inline]
 pub fn int_max(a: i64, b: i64) -> i64 {
     a.max(b)
 }
 
-/// `value`, but at least `low` and at most `high`.
+/// Clamps `value` to the range from `low` to `high`.
 ///
 /// # Errors
-/// [`Error::NoRange`] when `low` is above `high`.
+/// [`Error::NoRange`] if `low` is above `high`.
 #[inline]
 pub fn int_clamp(value: i64, low: i64, high: i64) -> Result<i64, Error> {
     if low > high { Err(Error::NoRange) } else { Ok(value.max(low).min(high)) }
 }
 
-/// `a` without its sign.
+/// The absolute value.
 #[inline]
 pub fn abs(a: f64) -> f64 {
     libm::fabs(a)
 }
 
-/// The smaller one.
+/// The minimum.
 ///
 /// # Errors
-/// [`Error::NotFinite`] when one of them is not finite.
+/// [`Error::NotFinite`] if an operand is not finite.
 #[inline]
 pub fn min(a: f64, b: f64) -> Result<f64, Error> {
     let (a, b) = (finite(a)?, finite(b)?);
     Ok(if a < b { a } else { b })
 }
 
-/// The greater one.
+/// The maximum.
 ///
 /// # Errors
-/// [`Error::NotFinite`] when one of them is not finite.
+/// [`Error::NotFinite`] if an operand is not finite.
 #[inline]
 pub fn max(a: f64, b: f64) -> Result<f64, Error> {
     let (a, b) = (finite(a)?, finite(b)?);
     Ok(if a > b { a } else { b })
 }
 
-/// `value`, but at least `low` and at most `high`.
+/// Clamps `value` to the range from `low` to `high`.
 ///
 /// # Errors
-/// [`Error::NoRange`] when `low` is above `high`, [`Error::NotFinite`] when one of them is not finite.
+/// [`Error::NoRange`] if `low` is above `high`, [`Error::NotFinite`] if an operand is not finite.
 #[inline]
 pub fn clamp(value: f64, low: f64, high: f64) -> Result<f64, Error> {
     if low > high { Err(Error::NoRange) } else { min(max(value, low)?, high) }
 }
 
-/// The square root; no number for what is negative.
+/// The square root; NaN for negative numbers.
 #[inline]
 pub fn sqrt(a: f64) -> f64 {
     libm::sqrt(a)
@@ -240,7 +240,7 @@ pub fn cos(a: f64) -> f64 {
 /// The angle of the point (x, y), from -pi to pi; zero for (0, 0).
 ///
 /// # Errors
-/// [`Error::NotFinite`] when one of them is not finite.
+/// [`Error::NotFinite`] if an operand is not finite.
 #[inline]
 pub fn atan2(y: f64, x: f64) -> Result<f64, Error> {
     Ok(libm::atan2(finite(y)?, finite(x)?))

@@ -1,10 +1,11 @@
-//! One number for a text, to tell it from others.
+//! Hashes of strings.
 
 use core::fmt;
 
-/// The 64-bit FNV-1a hash of a text (Fowler, Noll and Vo), or of several, one behind the other. Not for secrets.
+/// The 64-bit FNV-1a hash of a string (Fowler, Noll and Vo), or of the concatenation of several
+/// strings. It is not cryptographic.
 ///
-/// It shows as 16 hexadecimal digits.
+/// Displayed as 16 hexadecimal digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextHash(u64);
 
@@ -15,14 +16,14 @@ impl Default for TextHash {
 }
 
 impl TextHash {
-    /// Of one text.
+    /// The hash of one string.
     pub fn of(text: &str) -> Self {
         let mut hash = TextHash::default();
         hash.add(text);
         hash
     }
 
-    /// Takes another text.
+    /// Appends a string.
     pub fn add(&mut self, text: &str) {
         let step = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         self.0 = text.bytes().fold(self.0, step);

@@ -1,4 +1,4 @@
-//! The positions of parts of a plan in their tables, each with a type of its own.
+//! Indices of the parts of a plan, each with its own type.
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
@@ -7,7 +7,7 @@ macro_rules! ids {
         pub struct $name(pub u16);
 
         impl $name {
-            /// The position in the table.
+            /// The index in the table.
             #[inline]
             pub fn index(self) -> usize {
                 usize::from(self.0)
@@ -27,6 +27,6 @@ ids! {
     SupervisorId,
     /// A toolbox of a graph.
     ToolboxId,
-    /// A text after `fail`.
+    /// A reason of `fail`.
     ReasonId,
 }

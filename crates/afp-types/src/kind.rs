@@ -1,6 +1,6 @@
-//! What components and entries are, said alike by compiler and run time.
+//! Kinds of components and entries, for compiler and run time.
 
-/// What a component is.
+/// The kind of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComponentKind {
     /// The outermost plan.
@@ -15,25 +15,25 @@ pub enum ComponentKind {
     Supervisor,
 }
 
-/// Who may set an entry.
+/// The kind of an entry: who may set it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EntryKind {
-    /// Set by whoever starts the plan.
+    /// Set when the plan starts.
     In,
     /// A result of the plan.
     Out,
-    /// Inner data.
+    /// Internal data.
     Var,
-    /// Never changes.
+    /// Constant.
     Const,
 }
 
 impl EntryKind {
-    /// The kinds in the order in which initial values come to be known: one may use entries of the kinds before its own.
+    /// The kinds in the order of initialisation: initial values may use entries of earlier kinds.
     pub const BY_VALUE: [&[EntryKind]; 3] =
         [&[EntryKind::Const], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]];
 
-    /// The word that declares such an entry.
+    /// The keyword of the declaration.
     pub const fn word(self) -> &'static str {
         match self {
             EntryKind::In => "in",

@@ -1,10 +1,10 @@
-//! What compiler and run time say alike: times and values, the arithmetic of formulas, how texts become numbers and
-//! numbers texts, what components, entries, devices and parts of rows are, how much one step may do, and which number
-//! tells texts apart.
+//! Definitions that compiler and run time share: times and values, arithmetic of formulas, parsing
+//! and printing of numbers, kinds of components, entries, devices and rows, limits of a step, and
+//! the hash of strings.
 //!
-//! A formula that is constant is computed by the compiler, any other by the interpreter or by
-//! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
-//! line. All of them come here, so that they cannot disagree. Nothing panics, allocates or needs an
+//! The compiler evaluates constant formulas, the interpreter or generated Rust evaluates the
+//! others. `35 cm` may occur in a plan, in a string for an entry, or on a command line. All of them
+//! use this crate, so that their results are identical. Nothing panics, allocates or needs an
 //! operating system.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -54,30 +54,31 @@ pub use value::{Text, Value, ValueOf, ValueRef};
 
 use core::fmt;
 
-/// Greatest length of a text in bytes of UTF-8.
+/// Maximum length of a string in bytes of UTF-8.
 pub const MAX_TEXT: usize = 64;
 
-/// Edges that one step may take, all levels together. A plan that needs more lets no time pass.
+/// Maximum number of edges per step, on all levels together. A plan that needs more does not let
+/// time pass.
 pub const MAX_TRANSITIONS_PER_STEP: u32 = 1000;
 
 /// Why a formula has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// An integer leaves 64 bits.
+    /// Integer overflow.
     Overflow,
     /// A division or remainder by zero.
     DivisionByZero,
     /// The result is infinite or not a number.
     NotFinite,
-    /// A range whose least value is above its greatest one.
+    /// A range with its minimum above its maximum.
     NoRange,
-    /// A text of more than [`MAX_TEXT`] bytes.
+    /// A string of more than [`MAX_TEXT`] bytes.
     TooLong,
-    /// A text is no value of the wanted type.
+    /// A string is not a value of the required type.
     NotAValue,
-    /// An entry has no value before the plan runs; only the compiler meets this error.
+    /// An entry has no value before the plan runs; occurs only in the compiler.
     Unknown,
-    /// A part of the formula has another type than its use needs, which the check rules out.
+    /// A part of the formula has the wrong type; the checker excludes it.
     Mistyped,
 }
 

@@ -1,23 +1,26 @@
-//! What the checks and the reports know of templates beyond the declarations in toolboxes.
+//! Meanings of templates for checks and reports, beyond their declarations in toolboxes.
 //!
-//! Only this file names templates outside of their own crates. Everything else asks for the meaning.
+//! Only this file names templates outside of their own crates; everything else uses the meaning.
 
-/// What a computation does, or when a supervisor reports. States and events are given by position.
+/// The effect of a computation, or the condition of a supervisor. States and events are given by
+/// position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Meaning {
-    /// Shows its input to people.
+    /// Logs its input.
     Logs,
-    /// Ends in 0 and writes a row of a table; ends in 1 behind the last row.
+    /// Ends in 0 and writes a row of a table; ends in 1 after the last row.
     ReadsRow,
     /// Ends in the state that its input, a value of an enum, selects.
     Selects,
-    /// Reports after the time of its first input, and from then on permanently.
+    /// Reports from the time in its first input on.
     TimesOut,
     /// Reports 0 if its first input is below the second, 1 if it is above.
     Limits,
-    /// Reports 0 if the way in the direction of its first input is shorter than the second, 1 if it is longer.
+    /// Reports 0 if the free distance in the direction of its first input is below the second, 1 if
+    /// above.
     LooksFar,
-    /// Reports if the shares of red, green and blue light are its first three inputs, each within the fourth.
+    /// Reports if the shares of red, green and blue light equal its first three inputs within the
+    /// fourth.
     SeesColor,
     /// Reports 0 if the light is stronger than its first input, 1 if it is weaker.
     SeesDark,

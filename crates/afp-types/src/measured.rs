@@ -1,13 +1,14 @@
-//! Numbers of quantities as people write them.
+//! Quantities in the units of everyday use.
 
 use core::fmt;
 
 use crate::Rounded;
 
-/// A number of an SI unit as people write it: angles in degrees; less than a metre in centimetres, less than a
-/// second in milliseconds; shown to the thousandth of its part, or to three digits where that would be nothing.
+/// Formats a quantity: angles in degrees, less than a metre in centimetres, less than a second in
+/// milliseconds. It shows thousandths of the smaller unit, or three significant digits if these
+/// would be zero.
 ///
-/// Two that are equal read the same.
+/// Equal numbers print the same.
 ///
 /// ```
 /// use afp_types::Measured;
@@ -24,7 +25,7 @@ pub struct Measured<'a> {
 }
 
 impl<'a> Measured<'a> {
-    /// A number in that SI unit, `""` for a plain one.
+    /// A number in an SI unit, `""` for a plain number.
     pub fn new(number: f64, unit: &'a str) -> Self {
         let (value, decimals, unit) = in_its_unit(number, unit);
         let (value, decimals) = match rounded(value, decimals) {
@@ -34,19 +35,20 @@ impl<'a> Measured<'a> {
         Measured { value, decimals, unit }
     }
 
-    /// The same where nothing is rounded away but what computing has left.
+    /// The same without rounding, except for arithmetic residue.
     pub fn exact(number: f64, unit: &'a str) -> Option<Self> {
         let shown = Self::new(number, unit);
         let (value, ..) = in_its_unit(number, unit);
         ((shown.value - value).abs() <= value.abs() * RESIDUE).then_some(shown)
     }
 
-    /// Whether a number reads like another number that it is not: then only [`crate::Quantity`] tells them apart.
+    /// Whether a number prints like a different number; then only [`crate::Quantity`] distinguishes
+    /// them.
     pub fn misleads(number: f64, other: f64, unit: &str) -> bool {
         number != other && Measured::new(number, unit) == Measured::new(other, unit)
     }
 
-    /// Zero in the unit of another number that it is read with; any other number as it is.
+    /// Zero in the unit of the other number; any other number unchanged.
     pub fn beside(self, other: Self) -> Self {
         match self.value == 0.0 {
             true => Measured { unit: other.unit, ..self },
@@ -55,12 +57,12 @@ impl<'a> Measured<'a> {
     }
 }
 
-/// What is smaller than this in its unit is what computing has left of zero.
+/// Smaller numbers, in their unit, count as arithmetic residue of zero.
 const NOTHING: f64 = 1e-9;
-/// What computing leaves of a number, as a part of it.
+/// Relative arithmetic residue of a number.
 const RESIDUE: f64 = 1e-14;
 
-/// A number in the unit that people write it in, and how many decimals are shown.
+/// A number in its display unit, and the number of decimals.
 fn in_its_unit(number: f64, unit: &str) -> (f64, usize, &str) {
     match unit {
         "rad" => (number.to_degrees(), 3, "deg"),
@@ -72,7 +74,7 @@ fn in_its_unit(number: f64, unit: &str) -> (f64, usize, &str) {
     }
 }
 
-/// A number from one on in its unit, below in parts of it that are so many powers of ten smaller.
+/// A number from one on in its unit, a smaller number in a unit that is smaller by a power of ten.
 fn whole_or_parts<'a>(
     number: f64,
     unit: &'a str,
@@ -86,7 +88,7 @@ fn whole_or_parts<'a>(
     }
 }
 
-/// To so many decimals; as it is where it has none of them.
+/// Rounds to some decimals; unchanged without decimals.
 fn rounded(number: f64, decimals: usize) -> f64 {
     let scale = libm::pow(10.0, decimals as f64);
     match (number * scale).abs() < EXACT {
@@ -95,16 +97,16 @@ fn rounded(number: f64, decimals: usize) -> f64 {
     }
 }
 
-/// A number of less than a thousandth to three digits, and how many decimals those are.
+/// Rounds a number below a thousandth to three digits; returns the number of decimals.
 fn three_digits(number: f64) -> (f64, usize) {
     let decimals = (2.0 - libm::floor(libm::log10(number.abs()))) as usize;
     (rounded(number, decimals), decimals)
 }
 
-/// Up to here floats have each whole number, and from here on no other ones.
+/// Largest float up to which all integers are exact; larger floats are always integers.
 pub const EXACT: f64 = 9_007_199_254_740_992.0;
 
-/// From here on a number is written with an exponent.
+/// Larger numbers are written with an exponent.
 const LARGE: f64 = 1e12;
 
 impl fmt::Display for Measured<'_> {

@@ -1,4 +1,4 @@
-//! Values from texts, and quantities as text.
+//! Parsing of values, and printing of quantities.
 
 use core::fmt;
 
@@ -6,27 +6,27 @@ use crate::Error;
 use crate::decimal::{Decimal, number_length};
 use crate::exact::Scale;
 
-/// A unit that a text may carry.
+/// A unit that a string may contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit<'a> {
-    /// How it is written.
+    /// The symbol.
     pub name: &'a str,
-    /// How its numbers become SI.
+    /// The conversion to SI.
     pub scale: Scale,
 }
 
-/// A quantity as text: SI value, blank, SI unit.
+/// A quantity as text: SI value, space, SI unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity<'a> {
     /// The value in SI units.
     pub value: f64,
-    /// The SI unit, empty for a plain number.
+    /// The SI unit; empty for a plain number.
     pub unit: &'a str,
 }
 
 impl fmt::Display for Quantity<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Both zeros read the same.
+        // Both zeros print the same.
         let value = self.value + 0.0;
         match self.unit {
             "" => write!(f, "{value}"),
@@ -35,7 +35,7 @@ impl fmt::Display for Quantity<'_> {
     }
 }
 
-/// `true` or `false` from a text, nothing around it but white space.
+/// Parses `true` or `false`, with optional surrounding white space.
 ///
 /// # Errors
 /// [`Error::NotAValue`].
@@ -43,7 +43,7 @@ pub fn parse_bool(text: &str) -> Result<bool, Error> {
     text.trim().parse().map_err(|_| Error::NotAValue)
 }
 
-/// An `int` from a text.
+/// Parses an `int`.
 ///
 /// # Errors
 /// [`Error::NotAValue`].
@@ -57,7 +57,7 @@ pub fn parse_int(text: &str) -> Result<i64, Error> {
     i64::try_from(if sign { -value } else { value }).map_err(|_| Error::NotAValue)
 }
 
-/// A `float` from a text.
+/// Parses a `float`.
 ///
 /// # Errors
 /// [`Error::NotAValue`].
@@ -66,7 +66,7 @@ pub fn parse_float(text: &str) -> Result<f64, Error> {
     value(rest, negative, Scale::Decimal(0))
 }
 
-/// A number with one of `units` from a text, in SI units, as the same literal in a plan.
+/// Parses a number with one of `units`, like the literal in a plan; returns SI units.
 ///
 /// # Errors
 /// [`Error::NotAValue`].
@@ -81,7 +81,7 @@ pub fn parse_quantity<'u>(
     value(number, negative, unit.scale)
 }
 
-/// A value of an enum from its name, by position.
+/// Parses the name of an enum value; returns its position.
 ///
 /// # Errors
 /// [`Error::NotAValue`].

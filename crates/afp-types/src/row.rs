@@ -1,10 +1,11 @@
-//! The rows that the compiler lowers and the scheduler reads.
+//! The rows that the compiler produces and the scheduler reads.
 //!
-//! The compiler owns them in vectors, generated code in statics. Both lend them as a [`PlanTable`].
+//! The compiler stores them in vectors, generated code in statics. Both lend them as a
+//! [`PlanTable`].
 
 use crate::{Duration, ElementId, SupervisorId, Target};
 
-/// What an element is.
+/// The kind of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
     /// An actor.
@@ -15,16 +16,16 @@ pub enum ElementKind {
     SubPlan,
 }
 
-/// A run of rows in another table.
+/// Consecutive rows in another table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Range {
-    /// Index of the first.
+    /// Index of the first row.
     pub first: u16,
-    /// How many.
+    /// Number of rows.
     pub len: u16,
 }
 
-/// Where the ids of a sub-plan begin, counted from the first id of the plan that uses it.
+/// First ids of a sub-plan, relative to the first id of the plan that uses it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Child {
     /// Offset of its component ids.
@@ -33,84 +34,83 @@ pub struct Child {
     pub entries: u32,
 }
 
-/// When a supervisor is polled, and how long a poll may take.
+/// Period, deadline and budget of a supervisor's polls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timing {
-    /// Poll period, above zero.
+    /// Poll period, greater than zero.
     pub period: Duration,
     /// Deadline after each release.
     pub deadline: Duration,
-    /// Declared bound of one poll; zero if none is declared.
+    /// Declared bound of a poll's duration; zero if undeclared.
     pub budget: Duration,
 }
 
-/// Events of a supervisor, by position in its template.
+/// A set of a supervisor's events, by position in its template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Events(u64);
 
-/// One element.
+/// An element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ElementRow {
-    /// What it is.
+    /// The kind.
     pub kind: ElementKind,
     /// Poll period of an actor; zero for computations and sub-plans.
     pub period: Duration,
-    /// Its states in [`PlanTable::edges`].
+    /// The states in [`PlanTable::edges`].
     pub states: Range,
-    /// Its `Error` edge.
+    /// The `Error` edge.
     pub on_error: Option<Target>,
-    /// Whether it is a computation from which computations alone can lead to [`Target::Resume`].
+    /// Whether it is a computation that can reach [`Target::Resume`] through computations only.
     pub resumes: bool,
-    /// Its local supervisors in [`PlanTable::supervisors`].
+    /// The local supervisors in [`PlanTable::supervisors`].
     pub locals: Range,
     /// The supervisors polled while it is active, in order, in [`PlanTable::sweeps`].
     pub sweep: Range,
-    /// Its ids; zero unless it is a sub-plan.
+    /// The ids of a sub-plan; otherwise zero.
     pub child: Child,
 }
 
-/// One supervisor. The global ones come first, then the local ones, element by element. Then follow
-/// rows for global ones of which an element wants other events than most do, or whose events lead
-/// elsewhere while it is active.
+/// A supervisor. Global supervisors come first, then the local ones, element by element. Extra rows
+/// follow for global supervisors with other wanted events or targets at some element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SupervisorRow {
-    /// Which supervisor it is.
+    /// The supervisor.
     pub instance: SupervisorId,
-    /// When it is polled.
+    /// The timing of its polls.
     pub timing: Timing,
-    /// Where it keeps its releases: its own number for a global one, and for a local one the
-    /// number of globals plus its position in its element.
+    /// The slot of its releases: the number of a global supervisor; for a local one the number of
+    /// globals plus its position in its element.
     pub slot: u16,
-    /// Its events in [`PlanTable::edges`].
+    /// The events in [`PlanTable::edges`].
     pub events: Range,
-    /// Its `DeadlineMissed` edge.
+    /// The `DeadlineMissed` edge.
     pub on_miss: Option<Target>,
-    /// The events that would be taken: those that are not ignored and do not lead to where the plan
-    /// is already.
+    /// The events that would be taken: not ignored, and with a target that is not active.
     pub wanted: Events,
-    /// The same in the look, where an element's own supervisors do not start it again.
+    /// The same in the look, in which an element's own supervisors do not restart it.
     pub wanted_in_look: Events,
 }
 
-/// All rows of one plan; `R` says why an edge to `fail` ends it. Reading a row that does not exist
-/// gives `None`, never a panic.
+/// All rows of one plan; `R` is the reason of an edge to `fail`. An invalid index gives `None`,
+/// never a panic.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanTable<'a, R> {
     /// The first element.
     pub start: ElementId,
-    /// How many supervisors are global.
+    /// Number of global supervisors.
     pub globals: u16,
-    /// How many entries there are.
+    /// Number of entries.
     pub entries: u16,
     /// The elements.
     pub elements: &'a [ElementRow],
     /// The supervisors.
     pub supervisors: &'a [SupervisorRow],
-    /// Why edges to `fail` end the plan.
+    /// The reasons of edges to `fail`.
     pub reasons: &'a [R],
-    /// Where states and events lead; `None` where a state cannot be reached.
+    /// Targets of states and events; `None` for an unreachable state.
     pub edges: &'a [Option<Target>],
-    /// For each element, the rows of its supervisors and of the global ones in polling order.
+    /// For each element, the rows of its supervisors and of the global supervisors in polling
+    /// order.
     pub sweeps: &'a [u16],
 }
 
@@ -122,7 +122,7 @@ impl Range {
         first..first + usize::from(self.len)
     }
 
-    /// The supervisors, for a run in [`PlanTable::supervisors`].
+    /// The supervisors in this range of [`PlanTable::supervisors`].
     #[inline]
     pub fn supervisors(self) -> impl Iterator<Item = SupervisorId> {
         (self.first..self.first.saturating_add(self.len)).map(SupervisorId)
@@ -130,7 +130,7 @@ impl Range {
 }
 
 impl Events {
-    /// A set from its bits: bit `n` is the template's `n`-th event.
+    /// Makes a set from bits: bit `n` is the template's `n`-th event.
     pub const fn from_bits(bits: u64) -> Self {
         Events(bits)
     }
@@ -140,14 +140,14 @@ impl Events {
         self.0
     }
 
-    /// Whether the template's `n`-th event is one of them.
+    /// Whether it contains the template's `n`-th event.
     pub const fn contains(self, n: u16) -> bool {
         n < 64 && self.0 >> n & 1 == 1
     }
 }
 
 impl<'a, R> PlanTable<'a, R> {
-    /// How many slots the supervisors need: the global ones and those of the richest element.
+    /// Number of slots for supervisors: globals plus the largest number of locals.
     pub fn slots(&self) -> usize {
         let locals = self.elements.iter().map(|row| row.locals.len).max().unwrap_or(0);
         usize::from(self.globals) + usize::from(locals)

@@ -1,12 +1,12 @@
-//! Where edges lead.
+//! Targets of edges.
 
 use crate::{ElementId, ReasonId};
 
-/// Where an edge leads. `E` names the element and `R` the reason of `fail`, each as the
-/// phase knows it.
+/// The target of an edge. `E` is the element and `R` the reason of `fail`, in the form of the
+/// compiler phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Target<E = ElementId, R = ReasonId> {
-    /// To an element of the same plan.
+    /// An element of the same plan.
     Element(E),
     /// The plan ends.
     Terminate,
@@ -38,7 +38,7 @@ impl<E, R> Target<E, R> {
         }
     }
 
-    /// The same target with element and reason named in another way.
+    /// Converts element and reason.
     pub fn map<F, S>(
         self,
         element: impl FnOnce(E) -> F,

@@ -1,18 +1,18 @@
-//! Numbers and times as people write them.
+//! Display of numbers and times.
 
 use core::fmt::{self, Write};
 
 use heapless::String;
 
-/// The longest number with [`MOST_DECIMALS`]: a sign, 309 digits, a point.
+/// Length of the longest number with [`MOST_DECIMALS`]: a sign, 309 digits, a point.
 const LONGEST: usize = 352;
 const MOST_DECIMALS: usize = 32;
 
-/// A span of time in nanoseconds, exact, in the unit that suits its size: `20 s`, `1.5 ms`.
+/// A duration in nanoseconds, exact, in a suitable unit: `20 s`, `1.5 ms`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Nanoseconds(pub u64);
 
-/// A number with at most so many decimals, and none at its end that are zero: `0.3`, `2`.
+/// A number with a maximum number of decimals, without trailing zeros: `0.3`, `2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded(pub f64, pub usize);
 

@@ -1,7 +1,7 @@
-//! Instants and spans in whole nanoseconds.
+//! Instants and durations in whole nanoseconds.
 //!
-//! Plans count time from the start of their run. All arithmetic saturates, at zero and at the end of time: a deadline past
-//! it never comes, and no step can panic over it.
+//! Plans count time from the start of their run. All arithmetic saturates, at zero and at the
+//! maximum, so no step can panic; a deadline at the maximum never comes.
 //!
 //! ```
 //! use afp_types::{Duration, Instant};
@@ -21,7 +21,7 @@ use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Instant(u64);
 
-/// A span of time in nanoseconds.
+/// A duration in nanoseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Duration(u64);
 
@@ -46,7 +46,7 @@ impl Instant {
         Duration(self.0).as_secs_f64()
     }
 
-    /// Time since `earlier`, zero where that is later.
+    /// Time since `earlier`, zero if that is later.
     pub const fn since(self, earlier: Instant) -> Duration {
         Duration(self.0.saturating_sub(earlier.0))
     }
@@ -55,35 +55,35 @@ impl Instant {
 impl Duration {
     /// No time.
     pub const ZERO: Duration = Duration(0);
-    /// The longest span.
+    /// The longest duration.
     pub const MAX: Duration = Duration(u64::MAX);
 
-    /// A span of nanoseconds.
+    /// A duration in nanoseconds.
     pub const fn from_nanos(nanos: u64) -> Self {
         Duration(nanos)
     }
 
-    /// A span of microseconds.
+    /// A duration in microseconds.
     pub const fn from_micros(micros: u64) -> Self {
         Duration(micros.saturating_mul(1_000))
     }
 
-    /// A span of milliseconds.
+    /// A duration in milliseconds.
     pub const fn from_millis(millis: u64) -> Self {
         Duration(millis.saturating_mul(1_000_000))
     }
 
-    /// A span of whole seconds.
+    /// A duration in seconds.
     pub const fn from_secs(secs: u64) -> Self {
         Duration(secs.saturating_mul(1_000_000_000))
     }
 
-    /// A span of seconds, to the nearest nanosecond; negative and NaN count as zero.
+    /// A duration in seconds, to the nearest nanosecond; negative and NaN count as zero.
     ///
-    /// Every time that comes as a number of seconds becomes one of nanoseconds here.
+    /// All conversions of seconds to nanoseconds use this function.
     pub fn from_secs_f64(secs: f64) -> Self {
         let nanos = secs * 1e9;
-        // A float cast saturates and sends NaN to zero, which is what is wanted.
+        // A float cast saturates and converts NaN to zero.
         let below = nanos as u64;
         Duration(below.saturating_add(u64::from(nanos - below as f64 >= 0.5)))
     }
@@ -98,7 +98,7 @@ impl Duration {
         self.0 / 1_000_000
     }
 
-    /// How many whole periods fit into the span; a period of zero counts as one nanosecond.
+    /// Number of whole periods in the duration; a period of zero counts as one nanosecond.
     pub const fn periods(self, period: Duration) -> u64 {
         match self.0.checked_div(period.0) {
             Some(periods) => periods,
@@ -146,7 +146,7 @@ impl From<Duration> for core::time::Duration {
 }
 
 impl From<core::time::Duration> for Duration {
-    /// [`Duration::MAX`] for what is longer.
+    /// Longer durations become [`Duration::MAX`].
     fn from(duration: core::time::Duration) -> Self {
         Duration(u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX))
     }
@@ -186,7 +186,7 @@ impl Mul<u64> for Duration {
 }
 
 impl fmt::Display for Instant {
-    /// Seconds with the nanoseconds that matter: `1.250000`, `0.000000125`.
+    /// Seconds with at least six decimals, and nine if needed: `1.250000`, `0.000000125`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&Duration(self.0), f)
     }

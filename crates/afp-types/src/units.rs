@@ -1,24 +1,25 @@
-//! Units of one word: the only list of them. Compiler and run time make composed units from these.
+//! Units of one word: the only list. Compiler and run time compose other units from these.
 //!
-//! A new unit is a line of [`SingleUnit::ALL`]. Tests compare the grammars of editors and the lists in `docs/` with it;
-//! `AFP_BLESS=1` writes them: `cargo test -p afp-syntax --test editors`, `cargo test -p afp-book units`.
+//! To add a unit, add a line to [`SingleUnit::ALL`]. Tests compare the editors' grammars and the
+//! lists in `docs/` with it; `AFP_BLESS=1` rewrites them: `cargo test -p afp-syntax --test
+//! editors`, `cargo test -p afp-book units`.
 
 use core::fmt;
 
 use crate::{Scale, Unit};
 
-/// A unit of one word, such as `cm`, and how many SI units it is.
+/// A unit of one word, such as `cm`, and its SI factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SingleUnit {
-    /// How it is written.
+    /// The symbol.
     pub symbol: &'static str,
-    /// What it measures, as the language calls it.
+    /// The quantity's name in the language.
     pub quantity: &'static str,
-    /// The factor to SI, before the power of ten.
+    /// The factor to SI, without the power of ten.
     pub numerator: u64,
     /// The power of ten of the factor to SI.
     pub exponent: i32,
-    /// How people write it out, without the 's' of a plural: the language does not read it but suggests the symbol.
+    /// Long names in the singular: the language does not accept them but suggests the symbol.
     pub words: &'static [&'static str],
 }
 
@@ -32,7 +33,7 @@ const fn single(
 }
 
 impl SingleUnit {
-    /// All of them.
+    /// Every unit.
     pub const ALL: &'static [SingleUnit] = &[
         single("m", "length", (1, 0), &["meter", "metre"]),
         single("km", "length", (1, 3), &["kilometer", "kilometre"]),
@@ -62,17 +63,17 @@ impl SingleUnit {
         single("MHz", "frequency", (1, 6), &[]),
     ];
 
-    /// Those of a quantity.
+    /// The units of a quantity.
     pub fn of(quantity: &str) -> impl Iterator<Item = &'static SingleUnit> {
         SingleUnit::ALL.iter().filter(move |single| single.quantity == quantity)
     }
 
-    /// The exponent of the degree in it, each worth [`crate::RADIANS_PER_DEGREE`].
+    /// The exponent of the degree, each worth [`crate::RADIANS_PER_DEGREE`].
     pub fn degrees(&self) -> i32 {
         i32::from(self.symbol == "deg")
     }
 
-    /// Whether people write prefixes before it: its own symbol has none.
+    /// Whether users combine it with prefixes: its symbol has none.
     pub fn takes_prefix(&self) -> bool {
         let rest = self.symbol.get(1..);
         let is_prefixed = SingleUnit::ALL.iter().any(|other| Some(other.symbol) == rest);
@@ -84,22 +85,22 @@ impl SingleUnit {
         self.symbol == "degC"
     }
 
-    /// The unit, for numbers that become SI; not for `degC`.
+    /// The unit for conversion to SI; not for `degC`.
     pub fn unit(&self) -> Unit<'static> {
         let si = SingleUnit { numerator: 1, exponent: 0, symbol: "", ..*self };
         Unit { name: self.symbol, scale: self.over(&si) }
     }
 
-    /// How often another unit goes into this one: what makes numbers of this unit such of the other one. Of a length over a
-    /// time it makes metres a second.
+    /// The ratio to another unit, which converts numbers of this unit to the other. For a length
+    /// over a time, it converts to metres a second.
     pub fn over(&self, other: &SingleUnit) -> Scale {
         let (shift, degrees) = (self.exponent - other.exponent, self.degrees() - other.degrees());
         Scale::factor(self.numerator, other.numerator, shift, degrees)
     }
 }
 
-/// The SI unit of a dimension, in the spelling of literals; empty for a plain number. It has the exponents of metre, kilogram,
-/// second, radian, kelvin and volt.
+/// The SI unit of a dimension, spelled as in literals; empty for a plain number. The exponents are
+/// of metre, kilogram, second, radian, kelvin and volt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SiUnit(pub [i8; 6]);
 
@@ -117,11 +118,11 @@ impl fmt::Display for SiUnit {
 /// A product of powers, such as `m/s^2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Powers {
-    /// What the base dimensions are called, in the order of [`SiUnit`].
+    /// The names of the base dimensions, in the order of [`SiUnit`].
     pub words: [&'static str; 6],
     /// Their exponents.
     pub exponents: [i8; 6],
-    /// Without a positive exponent: whether it starts with `1/`, else with a negative exponent.
+    /// Format without positive exponents: `1/` first, otherwise negative exponents.
     pub leading_one: bool,
 }
 

@@ -1,7 +1,7 @@
-//! Values of the language, and the text that an entry holds in place.
+//! Values of the language, and the fixed-size string of entries.
 //!
-//! Compiler, scheduler, trace and logs have the same kinds of values. They differ in how they hold a text, and in whether
-//! the values of enums and the objects have numbers or names.
+//! Compiler, scheduler, trace and logs share the kinds of values. They differ in the representation
+//! of strings, enum values and objects.
 
 use core::cmp::Ordering;
 use core::fmt;
@@ -9,14 +9,14 @@ use core::ops::Deref;
 
 use crate::{Error, MAX_TEXT, Measured};
 
-/// A text of at most [`MAX_TEXT`] bytes, in place.
+/// A string of at most [`MAX_TEXT`] bytes, stored inline.
 #[derive(Clone, Default, PartialEq, Eq, Hash)]
 pub struct Text(heapless::String<MAX_TEXT>);
 
-/// A value: a text is held as `T`, the value of an enum as `C`, an object as `O`.
+/// A value: a string is held as `T`, an enum value as `C`, an object as `O`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ValueOf<T, C = u16, O = u32> {
-    /// Nobody has written it yet.
+    /// Not yet written.
     #[default]
     Unset,
     /// A truth value.
@@ -25,43 +25,43 @@ pub enum ValueOf<T, C = u16, O = u32> {
     Int(i64),
     /// A number or a quantity in SI units.
     Float(f64),
-    /// A text.
+    /// A string.
     Text(T),
     /// A value of an enum: its position or its name.
     Choice(C),
-    /// An object: the number of the commit that wrote it, or that with the name of its type.
+    /// An object: the number of the commit that wrote it, or that number with the name of its type.
     Object(O),
 }
 
-/// A value that owns its text.
+/// A value that owns its string.
 pub type Value = ValueOf<Text>;
 
-/// A value that borrows its text: cheap to pass to a trace.
+/// A value that borrows its string: cheap to pass to a trace.
 pub type ValueRef<'a> = ValueOf<&'a str>;
 
 impl Text {
-    /// The empty text.
+    /// The empty string.
     pub const fn new() -> Self {
         Text(heapless::String::new())
     }
 
-    /// The text itself.
+    /// The string slice.
     pub fn as_str(&self) -> &str {
         self.0.as_str()
     }
 
-    /// Appends a text.
+    /// Appends a string.
     ///
     /// # Errors
-    /// [`Error::TooLong`] when it does not fit; the text is then as before.
+    /// [`Error::TooLong`] if it does not fit; the string is then unchanged.
     pub fn push(&mut self, more: &str) -> Result<(), Error> {
         self.0.push_str(more).map_err(|_| Error::TooLong)
     }
 
-    /// A text from anything that prints.
+    /// Formats a value.
     ///
     /// # Errors
-    /// [`Error::TooLong`] when it does not fit.
+    /// [`Error::TooLong`] if it does not fit.
     pub fn print(value: impl fmt::Display) -> Result<Self, Error> {
         use fmt::Write;
         let mut text = Text::new();
@@ -119,7 +119,7 @@ impl fmt::Display for Text {
 }
 
 impl<T, C, O> ValueOf<T, C, O> {
-    /// The same value, its text, choice or object held in another way.
+    /// Converts the string, choice or object.
     pub fn map<U, D, P>(
         self,
         text: impl FnOnce(T) -> U,
@@ -130,7 +130,7 @@ impl<T, C, O> ValueOf<T, C, O> {
         self.try_map(text, choice, |it| Some(object(it))).unwrap_or_default()
     }
 
-    /// The same value, its text, choice or object held in another way; none where that cannot be.
+    /// Converts the string, choice or object; `None` if that fails.
     pub fn try_map<U, D, P>(
         self,
         text: impl FnOnce(T) -> Option<U>,
@@ -148,7 +148,7 @@ impl<T, C, O> ValueOf<T, C, O> {
         })
     }
 
-    /// The value as people write it; a number is in the SI unit `unit`, empty for none.
+    /// Formats the value; a number is in the SI unit `unit`, empty for none.
     pub fn in_unit<'a>(&'a self, unit: &'a str) -> impl fmt::Display + 'a
     where
         Self: fmt::Display,
@@ -159,7 +159,7 @@ impl<T, C, O> ValueOf<T, C, O> {
         })
     }
 
-    /// Writes the value as in a plan; a quantity in SI units without the unit, which the entry knows.
+    /// Writes the value as in a plan; a quantity in SI units without the unit.
     fn write(
         &self,
         f: &mut fmt::Formatter<'_>,
@@ -182,7 +182,7 @@ impl<T, C, O> ValueOf<T, C, O> {
 }
 
 impl Value {
-    /// The same value, its text borrowed.
+    /// Borrows the string.
     pub fn as_deref(&self) -> ValueRef<'_> {
         match self {
             Value::Unset => ValueRef::Unset,
@@ -197,7 +197,7 @@ impl Value {
 }
 
 impl ValueRef<'_> {
-    /// Whether both are the same, floats by their bits.
+    /// Whether both are identical, floats by their bits.
     pub fn is_same(self, other: ValueRef<'_>) -> bool {
         match (self, other) {
             (ValueRef::Float(one), ValueRef::Float(other)) => one.to_bits() == other.to_bits(),
@@ -205,10 +205,10 @@ impl ValueRef<'_> {
         }
     }
 
-    /// The same value, owning its text.
+    /// Copies the string.
     ///
     /// # Errors
-    /// [`Error::TooLong`] for a text that no entry holds.
+    /// [`Error::TooLong`] for a string that no entry can hold.
     pub fn to_value(self) -> Result<Value, Error> {
         self.try_map(|text| text.try_into().ok(), Some, Some).ok_or(Error::TooLong)
     }
@@ -266,7 +266,7 @@ impl<'a> From<&'a str> for ValueRef<'a> {
 }
 
 impl PartialOrd for Value {
-    /// Numbers of one kind compare; the compiler gives all `number` ports of a component one type.
+    /// Compares numbers of one kind; the compiler gives all `number` ports of a component one type.
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         match (self, other) {
             (Value::Int(a), Value::Int(b)) => a.partial_cmp(b),

@@ -1,4 +1,4 @@
-//! Numbers with units against arithmetic that is exact by other means.
+//! Numbers with units, compared with exact arithmetic.
 
 use afp_types::{Error, RADIANS_PER_DEGREE, Scale, Unit, parse_quantity};
 

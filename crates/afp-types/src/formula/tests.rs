@@ -1,8 +1,8 @@
-//! Values of constant formulas, and formulas that fail before the plan runs.
+//! Constant formulas, and formulas that fail before the plan runs.
 
 use super::*;
 
-/// Entries that nobody knows before the plan runs.
+/// Entries without known values.
 struct Unknowns;
 
 impl Source<()> for Unknowns {
@@ -17,7 +17,7 @@ impl Source<()> for Unknowns {
     }
 }
 
-/// An operand of these types; `None` is an entry.
+/// An operand of this type; `None` is an entry.
 fn leaf(value: Option<f64>, shape: Shape) -> Node<()> {
     let op = match (value, shape) {
         (None, _) => Op::Entry(EntryId(0)),
