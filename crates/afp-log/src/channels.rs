@@ -30,16 +30,13 @@ const POSE: Channel = (("", "/robot/pose"), "foxglove.PoseInFrame", FOXGLOVE_SET
 const SCENE: Channel = (("", "/scene"), "foxglove.SceneUpdate", FOXGLOVE_SET);
 const TEXT: Channel = (("", "/log"), "foxglove.Log", FOXGLOVE_SET);
 
-/// The channels that every log has.
 pub(crate) const ALWAYS: [Channel; 7] =
     [EVENTS, CONFIGURATION, TABLE, TRANSFORMS, POSE, SCENE, TEXT];
 
-/// The topic of a channel.
 pub(crate) fn topic(key: Key) -> String {
     match key {
         ("", topic) => topic.to_owned(),
         (device, "") => format!("/robot/{device}"),
-        // Signals of the whole robot.
         ("robot", name) => format!("/robot/{name}"),
         (device, name) => format!("/robot/{device}/{name}"),
     }
@@ -68,7 +65,6 @@ pub(crate) enum Said {
 }
 
 impl Said {
-    /// The channel of the message.
     pub(crate) fn channel(&self) -> Channel {
         match *self {
             Said::Transforms(_) => TRANSFORMS,

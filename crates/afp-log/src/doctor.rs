@@ -1,4 +1,4 @@
-//! Finds errors in a log.
+//! Finds errors in logs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

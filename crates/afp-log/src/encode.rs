@@ -1,4 +1,4 @@
-//! A run as messages: one method per kind of message.
+//! Converts a run to messages, one method per kind.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -49,7 +49,6 @@ impl Item {
     }
 }
 
-/// An open channel with its number of messages.
 #[derive(Clone, Copy, Debug)]
 struct Open {
     id: u16,
@@ -179,7 +178,6 @@ impl Encoder {
         self.send_buffer(to, at)
     }
 
-    /// Sends the message in the buffer.
     fn send_buffer(&mut self, to: Channel, at: Instant) -> Result<(), LogError> {
         let channel = self.open(to)?;
         let (id, sequence) = (channel.id, channel.count);
@@ -208,7 +206,6 @@ impl Encoder {
         self.to.finish(in_order)
     }
 
-    /// Ends and discards the output.
     pub(crate) fn discard(self) {
         self.to.discard();
     }

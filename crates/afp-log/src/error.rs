@@ -103,7 +103,6 @@ fn reason(error: &mcap::McapError) -> &dyn fmt::Display {
     }
 }
 
-/// Whether a file cannot be written.
 fn is_forbidden(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }

@@ -27,7 +27,6 @@ pub fn unpack(bytes: &[u8]) -> Option<RunEvent> {
     PlanEvent::decode(bytes).ok().map(decode)
 }
 
-/// An event as a message; unused fields are empty.
 pub(crate) fn message(event: RunEvent) -> PlanEvent {
     let RunEvent { at, component, kind } = event;
     let mut to = PlanEvent {
@@ -204,7 +203,6 @@ fn kind(message: PlanEvent) -> EventKind {
     }
 }
 
-/// A value as a message.
 pub(crate) fn encode_value(datum: Datum) -> Value {
     Value {
         value: match datum {
@@ -219,7 +217,6 @@ pub(crate) fn encode_value(datum: Datum) -> Value {
     }
 }
 
-/// The value in a message.
 pub(crate) fn decode_value(message: Value) -> Datum {
     match message.value {
         None => Datum::Unset,
@@ -327,7 +324,6 @@ fn decode_pose(numbers: &[f64]) -> Pose2 {
     Pose2 { x: number(0), y: number(1), heading: number(2) }
 }
 
-/// A value of an entry as a message.
 pub(crate) fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: ValueRef<'_>) -> Entry {
     let EntryName { path, ty, unit, .. } = names.entry(id);
     Entry {
@@ -338,7 +334,6 @@ pub(crate) fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: Valu
     }
 }
 
-/// The plan's components, as a message.
 pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     let outcomes = |id| {
         let named = |(outcome, name): (_, &str)| plan_table::Outcome {
@@ -381,7 +376,6 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     }
 }
 
-/// An instant as a protobuf time stamp.
 pub(crate) fn timestamp(at: Instant) -> Timestamp {
     let nanos = at.as_nanos();
     // Both fit: a u64 holds 584 years of nanoseconds.

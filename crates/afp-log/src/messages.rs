@@ -6,7 +6,7 @@ use afp_core::Instant;
 
 use crate::error::LogError;
 
-/// A receiver of a run's messages: a file or live clients.
+/// Receives a run's messages.
 pub trait Messages: Send {
     /// Opens a channel of protobuf messages: its topic, the name of its schema, the schema's
     /// descriptors (a `FileDescriptorSet`). Returns its number.
@@ -46,7 +46,7 @@ pub trait Messages: Send {
     /// The disk is full or fails.
     fn finish(self: Box<Self>, in_order: bool) -> Result<(PathBuf, u64), LogError>;
 
-    /// Ends the messages of a run that never started; removes the file.
+    /// Ends the messages of a run that never started, and removes the file.
     fn discard(self: Box<Self>) {
         // There is no receiver for the error.
         let _ = self.finish(false);

@@ -25,7 +25,7 @@ pub fn pixels(file: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
     /// Bytes.
     const MOST: usize = 64 << 20;
     let mut reader = png::Decoder::new(Cursor::new(file)).read_info().ok()?;
-    // The size is checked before any data is decoded.
+    // Checked before any data is decoded.
     let size = reader.output_buffer_size().filter(|size| *size <= MOST)?;
     let mut pixels = vec![0; size];
     let info = reader.next_frame(&mut pixels).ok()?;
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn a_picture_larger_than_any_cameras_is_none() {
-        // Only kilobytes in the file.
+        // Few kilobytes as a file.
         let black = |height: u32| {
             let rgb = vec![0; 4000 * height as usize * 3].into();
             png(&Image { time: Instant::ZERO, frame: "camera", width: 4000, height, rgb }).unwrap()

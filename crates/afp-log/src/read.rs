@@ -21,7 +21,7 @@ use crate::recover::{Missing, RECOVERED, missing};
 use crate::robot::Pose2;
 use crate::scan::{load, scan};
 
-/// The contents of a log.
+/// Contents of a log.
 #[derive(Clone, Debug, Default)]
 pub struct LogData {
     /// The metadata record `afp.run`.
@@ -61,7 +61,7 @@ pub struct LogData {
     pub missing: Vec<Missing>,
 }
 
-/// All entries after a commit.
+/// The values of all entries after a commit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configured {
     /// The time.
@@ -124,7 +124,6 @@ pub fn read_any(path: &Path) -> Result<LogData, LogError> {
     Ok(log)
 }
 
-/// The contents of a file up to its damage, and whether it describes its run.
 pub(crate) fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
     let bytes = load(path)?;
     let mut reader = Reader::default();
@@ -149,7 +148,7 @@ pub(crate) fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
 }
 
 impl LogData {
-    /// The number of records that were lost during writing.
+    /// Number of records lost during writing.
     pub fn lost(&self) -> u64 {
         let lost = |event: &RunEvent| match event.kind {
             EventKind::Lost(count) => count,
@@ -178,9 +177,8 @@ pub fn configuration(bytes: &[u8]) -> Option<Configured> {
 struct Reader {
     log: LogData,
     schemas: BTreeMap<u16, String>,
-    /// Topic and schema.
     channels: BTreeMap<u16, (String, String)>,
-    /// Whether it describes its run.
+    /// Whether the log describes its run.
     says_run: bool,
     footer: bool,
 }

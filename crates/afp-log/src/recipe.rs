@@ -14,12 +14,10 @@ const TOOLBOX: &str = "toolbox/";
 /// same path.
 const HERE: &str = "./";
 
-/// Whether an attachment is not a source of the plans.
 fn is_taken(attachment: &str) -> bool {
     attachment == WORLD || attached_toolbox(attachment).is_some()
 }
 
-/// The name of a source's attachment.
 fn text_attachment(file: &str) -> String {
     match is_taken(file) {
         true => format!("{HERE}{file}"),
@@ -27,7 +25,6 @@ fn text_attachment(file: &str) -> String {
     }
 }
 
-/// The file of an attached source.
 fn attached_text(attachment: &str) -> &str {
     attachment.strip_prefix(HERE).filter(|file| is_taken(file)).unwrap_or(attachment)
 }
@@ -150,7 +147,7 @@ impl LogData {
         made.map(|request| (request.at, request.what.clone())).collect()
     }
 
-    /// Whether it names the run's world, which may have no text.
+    /// Whether it names a world, which may have no text.
     pub fn has_world(&self) -> bool {
         self.attachments.contains_key(WORLD)
     }

@@ -30,7 +30,7 @@ const FLUSH_EVERY: Span = Span::from_millis(250);
 /// The writer's pause if the queue is empty.
 const REST: Span = Span::from_micros(500);
 
-/// The action if the writer is too slow.
+/// What to do if the writer is too slow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhenFull {
     /// Drop the item and count it: control must not wait for a disk.
@@ -58,7 +58,7 @@ pub struct Recorder {
     queue: Producer<Item>,
     when_full: WhenFull,
     lost: u64,
-    /// The dropped items that the log does not mention yet.
+    /// Dropped items that the log does not mention yet.
     unreported: u64,
     /// Whether a loss was reported since the last query.
     reported: bool,
@@ -66,10 +66,8 @@ pub struct Recorder {
     entries: Vec<Value>,
     end: Arc<End>,
     thread: Option<JoinHandle<Outcome>>,
-    /// Whether the plan has started.
     started: bool,
     kept: Option<PathBuf>,
-    /// Whether the messages go to live clients instead of a file.
     pub(crate) is_live: bool,
 }
 
@@ -167,7 +165,7 @@ impl Recorder {
         self.say(at, Said::Transforms(all));
     }
 
-    /// Writes the robot's pose.
+    /// Writes a pose of the robot.
     pub fn pose(&mut self, at: Instant, frame: &'static str, pose: Pose2) {
         self.say(at, Said::Pose { frame, pose });
     }
@@ -193,17 +191,17 @@ impl Recorder {
         self.push(Item::Event(Box::new(event)), at);
     }
 
-    /// Writes the results of the run: the metadata record `afp.end`.
+    /// Writes the results as the metadata record `afp.end`.
     pub fn end(&mut self, at: Instant, facts: Vec<(String, String)>) {
         self.push(Item::End { at, facts }, at);
     }
 
-    /// Writes the objects in the room; allocates and is meant for the start.
+    /// Writes the objects in the room. Allocates, so call it at the start.
     pub fn scene(&mut self, at: Instant, shapes: Vec<Shape>) {
         self.say(at, Said::Scene(shapes.into()));
     }
 
-    /// Writes a line for people; allocates and must not be used within a step.
+    /// Writes a line for users. Allocates, so do not call it within a step.
     pub fn text(&mut self, at: Instant, level: Level, name: &'static str, text: &str) {
         self.say(at, Said::Text { level, name, text: text.into() });
     }
@@ -214,7 +212,7 @@ impl Recorder {
     }
 
     /// Whether the log has reported a loss since the last call. The caller must then repeat its
-    /// state, which the log may lack. Reports a pending loss if there is room.
+    /// state. Reports a pending loss if there is room.
     pub fn has_told_of_loss(&mut self, at: Instant) -> bool {
         self.tell_of_loss(at);
         std::mem::take(&mut self.reported)
@@ -248,7 +246,7 @@ impl Recorder {
         self.put(item);
     }
 
-    /// Reports a loss in the log when there is room.
+    /// Reports a loss when there is room.
     fn tell_of_loss(&mut self, at: Instant) {
         let has_room = self.when_full == WhenFull::Wait || self.queue.slots() > ROOM;
         if self.unreported > 0 && has_room {
@@ -271,7 +269,6 @@ impl Recorder {
         }
     }
 
-    /// Records the new value of an entry.
     fn set(&mut self, entry: TraceEntryId, value: ValueRef<'_>) {
         if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
             *kept = value.to_value().unwrap_or_default();

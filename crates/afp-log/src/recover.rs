@@ -14,7 +14,7 @@ use crate::error::LogError;
 use crate::scan::{Damage, load, salvage, scan};
 use crate::write::{LogWriter, begin, end};
 
-/// The result of a recovery.
+/// Result of a recovery.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recovered {
     /// The new log.
@@ -110,9 +110,7 @@ struct Copy<'a> {
     schemas: BTreeMap<u16, u16>,
     channels: BTreeMap<u16, u16>,
     messages: u64,
-    /// The time of the last message.
     last: Option<Instant>,
-    /// The first damage.
     damage: Option<String>,
     missing: Vec<Missing>,
 }
@@ -125,7 +123,6 @@ impl<'a> Copy<'a> {
         Ok(Copy { writer, summary, schemas, channels, messages, last, damage, missing })
     }
 
-    /// Skips damaged data.
     fn pass(&mut self, Damage { why, messages }: Damage) -> Result<(), LogError> {
         if let LogError::Compressed(_) = why {
             return Err(why);
@@ -204,7 +201,6 @@ impl<'a> Copy<'a> {
 }
 
 impl Missing {
-    /// The form in a log: both ends in nanoseconds.
     fn written(self) -> String {
         let time = |at: Option<Instant>, none: &str| {
             at.map_or_else(|| none.to_owned(), |at| at.as_nanos().to_string())

@@ -72,7 +72,6 @@ fn walk(
     Ok(())
 }
 
-/// Options for a part of a file's records.
 fn of_part() -> LinearReaderOptions {
     LinearReaderOptions::default().with_skip_start_magic(true).with_skip_end_magic(true)
 }
@@ -158,13 +157,10 @@ pub(crate) fn salvage(
 /// Damage in a log.
 #[derive(Debug)]
 pub(crate) struct Damage {
-    /// The error.
     pub why: LogError,
-    /// Whether messages may be lost.
     pub messages: bool,
 }
 
-/// The starts and lengths of chunks.
 fn chunks(summary: &Summary) -> BTreeMap<usize, usize> {
     let place = |chunk: &ChunkIndex| {
         let begin = usize::try_from(chunk.chunk_start_offset).ok()?;

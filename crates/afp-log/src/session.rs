@@ -15,7 +15,6 @@ use crate::error::LogError;
 use crate::recorder::{Recorder, Written};
 use crate::robot::{Image, Level, Transform};
 
-/// The interval of camera pictures in a log.
 const FILM: Duration = Duration::from_millis(500);
 
 /// The interval in which live clients get the whole scene.
@@ -24,7 +23,6 @@ const SCENES: Duration = Duration::from_secs(1);
 /// Records a session: its trace, and the signals of its robot.
 pub struct SessionLog {
     recorder: Recorder,
-    /// The signals of the robot.
     signals: Vec<Followed>,
     /// The frame with its own channel for the pose.
     body: Option<SignalId>,
@@ -45,13 +43,10 @@ pub struct SessionLog {
     scene_again: Instant,
 }
 
-/// A signal of the robot.
 struct Followed {
     signal: Signal,
     ty: SignalType,
-    /// The last written value.
     said: Option<Datum>,
-    /// Whether these samples include it.
     is_heard: bool,
 }
 
@@ -139,7 +134,6 @@ impl SessionLog {
         self.signals.get(usize::from(id.0)).map_or("", |it| it.signal.device)
     }
 
-    /// Writes an object's place if it has moved.
     fn outline(&mut self, shape: &Shape) {
         let known = self.shapes.iter_mut().find(|known| known.id == shape.id);
         match known {

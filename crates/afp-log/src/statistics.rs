@@ -1,4 +1,4 @@
-//! The deadlines, interruptions and coverage in a log.
+//! Statistics of a log.
 
 use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome};
 use afp_session::{Counts, Usage};

@@ -25,10 +25,9 @@ const NEAR: f64 = 0.004;
 /// An actor that moves less than this acts on the spot, in metres.
 const SPOT: f64 = 0.05;
 
-/// Colours of actors, suitable for colour-blind readers.
+/// Colours of actors, distinguishable for colour-blind readers.
 const PALETTE: [&str; 8] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#6a3d9a", "#56b4e9", "#7f7f7f"];
-/// The path while no actor is active.
 const NOBODY: &str = "#9a9a9a";
 
 /// The contents of a picture.
@@ -48,7 +47,7 @@ pub struct Picture<'a> {
     pub figures: Vec<(String, String)>,
 }
 
-/// The present state of a run.
+/// Current state of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct SoFar<'a> {
     /// The plan's name.
@@ -67,7 +66,7 @@ pub struct SoFar<'a> {
     pub things: &'a Outlines,
 }
 
-/// Draws the path of a run over its world, up to the present.
+/// Draws a run's path over its world, up to now.
 pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
     let SoFar { plan, world, seed, time, path, marks, things } = *run;
     let way = path.windows(2).map(|pair| {
@@ -126,7 +125,7 @@ pub fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     }
     let mut beside = 0;
     for (actor, points) in &stretches {
-        // An actor that acts on the spot has a dot next to the path, in a row with others.
+        // An actor that acts on the spot gets a dot next to the path.
         beside = if length(points) < SPOT { beside + 1 } else { 0 };
         if let (1.., Some(actor), Some(at)) = (beside, actor, points.last()) {
             canvas.dot(*at, beside, color(Some(*actor)));
@@ -236,7 +235,6 @@ fn stretches(path: &[Waypoint]) -> Vec<(Option<ComponentId>, Vec<[f64; 2]>)> {
     stretches
 }
 
-/// The length of a path through some points, in metres.
 fn length(points: &[[f64; 2]]) -> f64 {
     points.windows(2).map(|pair| apart(pair[0], pair[1])).sum()
 }
@@ -259,7 +257,6 @@ fn bounds(world: &Drawing, path: &[Waypoint]) -> [[f64; 2]; 2] {
     [low, high]
 }
 
-/// The outline of a body at a pose.
 fn placed(body: &[[f64; 2]], pose: Pose2) -> impl Iterator<Item = [f64; 2]> {
     // A robot without a known body is a point.
     let point = body.is_empty().then_some([pose.x, pose.y]);
@@ -270,7 +267,6 @@ fn placed(body: &[[f64; 2]], pose: Pose2) -> impl Iterator<Item = [f64; 2]> {
     corners.chain(point)
 }
 
-/// The middle and the width of an outline.
 fn middle(corners: &[[f64; 2]]) -> ([f64; 2], f64) {
     let count = corners.len() as f64;
     let sum = corners.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);

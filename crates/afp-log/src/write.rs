@@ -53,7 +53,7 @@ pub(crate) fn end(mut writer: LogWriter) -> Result<(Output, u64), LogError> {
     Ok((output.map_err(|failed| mcap::McapError::from(failed.into_error()))?, bytes))
 }
 
-/// A log during writing, with `.part` after its name.
+/// A log during writing; its name ends in `.part`.
 pub(crate) struct LogFile {
     writer: LogWriter,
     path: PathBuf,

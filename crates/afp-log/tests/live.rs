@@ -106,7 +106,6 @@ impl Client {
         self.socket.send(Message::binary(bytes)).expect("it can be said");
     }
 
-    /// The next JSON message of that kind.
     fn hear(&mut self, op: &str) -> Value {
         loop {
             let message = self.socket.read().expect("an answer comes");
@@ -149,7 +148,6 @@ impl Client {
     }
 }
 
-/// The number of a service by its name.
 fn service(client: &mut Client, name: &str) -> u32 {
     let said = client.hear("advertiseServices");
     let services = said["services"].as_array().expect("a list").iter();

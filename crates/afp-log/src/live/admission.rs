@@ -9,13 +9,12 @@ use tungstenite::handshake::server::Request;
 /// The rights of a client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// It may only watch.
+    /// May only watch.
     Watcher,
-    /// It may write entries, press buttons, inject faults, stop the plan.
+    /// May write entries, press buttons, inject faults and stop the plan.
     Operator,
 }
 
-/// The tokens that admit clients.
 #[derive(Clone, Debug)]
 pub(crate) struct Tokens {
     pub operator: Token,

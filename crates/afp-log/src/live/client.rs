@@ -46,11 +46,9 @@ struct Client<'a> {
     hub: &'a Arc<Hub>,
     queue: &'a Arc<Queue>,
     role: Role,
-    /// The time since which writing blocks.
     stalled: Option<Wall>,
 }
 
-/// Whether an operation timed out.
 fn is_late(error: &Error) -> bool {
     matches!(error, Error::Io(io) if matches!(io.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut))
 }
@@ -182,7 +180,6 @@ impl Client<'_> {
         }
     }
 
-    /// The question of a call.
     fn asked(&self, call: &Call<'_>) -> Result<Stimulus, String> {
         let service = self.hub.service(call.service).ok_or("there is no such service")?;
         // Every client may stop a robot.

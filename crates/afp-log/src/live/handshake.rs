@@ -19,7 +19,6 @@ const LONGEST: usize = 1 << 20;
 /// The maximum time of a write before requests are read again.
 const WRITE: Duration = Duration::from_millis(100);
 
-/// An admitted client.
 pub(crate) struct Admitted {
     pub socket: WebSocket<Paced>,
     pub role: Role,

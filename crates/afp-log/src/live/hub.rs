@@ -59,9 +59,7 @@ pub(crate) struct Hub {
     services: Vec<Service>,
     shared: Mutex<Shared>,
     inbox: Sender<Question>,
-    /// The number of open questions.
     open: AtomicUsize,
-    /// The number of taken places.
     taken: AtomicUsize,
     over: AtomicBool,
 }
@@ -69,7 +67,6 @@ pub(crate) struct Hub {
 #[derive(Default)]
 struct Shared {
     channels: Vec<Channel>,
-    /// The SI units of entries.
     units: BTreeMap<String, String>,
     parameters: BTreeMap<String, Value>,
     clients: Vec<Arc<Queue>>,
@@ -135,7 +132,6 @@ impl Hub {
         self.shared().clients.retain(|known| !Arc::ptr_eq(known, queue));
     }
 
-    /// The number of clients.
     pub fn clients(&self) -> usize {
         self.shared().clients.len()
     }
@@ -183,7 +179,6 @@ impl Hub {
         }
     }
 
-    /// The service with a number.
     pub fn service(&self, id: u32) -> Option<&Service> {
         self.services.get(usize::try_from(id.checked_sub(1)?).ok()?)
     }
@@ -195,22 +190,18 @@ impl Hub {
         let _ = self.inbox.send(question);
     }
 
-    /// Whether a question is open.
     pub fn is_asked(&self) -> bool {
         self.open.load(Ordering::Acquire) > 0
     }
 
-    /// Closes a question.
     pub fn answered(&self) {
         self.open.fetch_sub(1, Ordering::Release);
     }
 
-    /// Ends the message stream.
     pub fn end(&self) {
         self.over.store(true, Ordering::Release);
     }
 
-    /// Whether the message stream has ended.
     pub fn is_over(&self) -> bool {
         self.over.load(Ordering::Acquire)
     }
@@ -242,7 +233,6 @@ impl Shared {
         known.map(|(name, value)| (name.clone(), value.clone())).collect()
     }
 
-    /// The value of an entry as its parameter.
     fn shown(&self, entry: &str, datum: &Datum) -> Value {
         shown(datum, self.units.get(entry).map_or("", String::as_str))
     }

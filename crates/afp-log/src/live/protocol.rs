@@ -44,7 +44,6 @@ pub(crate) struct Subscription {
     pub channel_id: u32,
 }
 
-/// A value that a client writes.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(crate) struct Parameter {
     pub name: String,
@@ -62,7 +61,6 @@ impl Parameter {
     }
 }
 
-/// A call of a service.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Call<'a> {
     pub service: u32,

@@ -33,15 +33,13 @@ struct Waiting {
     answers: VecDeque<Message>,
     answer_bytes: usize,
     messages: VecDeque<(u32, Sent)>,
-    /// The number of queued messages per channel, by the client's number.
+    /// Number of queued messages by the client's number of the channel.
     of_channel: BTreeMap<u32, usize>,
     bytes: usize,
     dropped: u64,
-    /// Whether too many answers are unread.
     overflown: bool,
     /// The client's number of each subscribed channel.
     wanted: BTreeMap<u32, u32>,
-    /// The subscribed parameters.
     parameters: BTreeSet<String>,
 }
 
@@ -90,7 +88,6 @@ impl Queue {
         Some(protocol::message(subscription, at, &payload).into())
     }
 
-    /// Whether too many answers are unread.
     pub fn is_overflown(&self) -> bool {
         self.get().overflown
     }
@@ -103,7 +100,6 @@ impl Queue {
         }
     }
 
-    /// Ends a subscription.
     pub fn unsubscribe(&self, subscription: u32) {
         let mut waiting = self.get();
         waiting.wanted.retain(|_, known| *known != subscription);
@@ -124,7 +120,6 @@ impl Queue {
         }
     }
 
-    /// Whether the client has subscribed to a parameter.
     pub fn watches(&self, name: &str) -> bool {
         self.get().parameters.contains(name)
     }

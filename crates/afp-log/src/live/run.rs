@@ -82,7 +82,7 @@ impl Live {
         }
     }
 
-    /// Ends the message stream; clients get the rest.
+    /// Ends the message stream; clients still receive queued messages.
     pub fn finish(mut self) {
         self.close();
     }

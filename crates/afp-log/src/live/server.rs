@@ -38,11 +38,9 @@ pub(crate) fn start(
     Ok((at, thread))
 }
 
-/// A connection to the port.
 struct Visitor {
     stream: TcpStream,
     since: Wall,
-    /// Whether it is admitted.
     admitted: Arc<AtomicBool>,
     /// Whether it was disconnected: its thread may notice it later.
     sent_away: bool,
@@ -60,7 +58,6 @@ impl Visitor {
         Some(Visitor { stream, since, admitted, sent_away: false, thread })
     }
 
-    /// Whether it waits for admission.
     fn is_stranger(&self) -> bool {
         !self.sent_away && !self.admitted.load(Ordering::Acquire)
     }

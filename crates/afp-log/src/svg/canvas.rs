@@ -8,7 +8,6 @@ use afp_session::Pose2;
 use super::placed;
 use super::symbol::symbol;
 
-/// Around the room, pixels.
 pub(super) const MARGIN: f64 = 28.0;
 /// The width of the room, in pixels, unless it is very tall.
 const ROOM_WIDTH: f64 = 860.0;
@@ -45,13 +44,11 @@ impl View {
         libm::pow(10.0, libm::ceil(libm::log10(side / MOST_LINES)).max(0.0))
     }
 
-    /// The right and lower end of the room, in pixels.
     pub(super) fn end(&self) -> (f64, f64) {
         self.point([self.high[0], self.low[1]])
     }
 }
 
-/// A picture during drawing.
 pub(super) struct Canvas {
     view: View,
     body: String,
@@ -84,7 +81,6 @@ impl Canvas {
         }
     }
 
-    /// Paint on the floor.
     pub(super) fn patch(&mut self, corners: &[[f64; 2]], [red, green, blue]: [u8; 3]) {
         let points = self.points(corners);
         self.put(format_args!(
@@ -92,13 +88,11 @@ impl Canvas {
         ));
     }
 
-    /// The path of a moving obstacle.
     pub(super) fn way(&mut self, places: &[[f64; 2]]) {
         let points = self.points(places);
         self.put(format_args!(r#"<polyline class="way" points="{points}"/>"#));
     }
 
-    /// A source of infrared light.
     pub(super) fn light(&mut self, at: [f64; 2]) {
         let (x, y) = self.view.point(at);
         self.put(format_args!(
@@ -186,7 +180,6 @@ impl Canvas {
         self.put(format_args!("</g>"));
     }
 
-    /// A thin line: a true or estimated path.
     pub(super) fn line(&mut self, class: &str, points: &[[f64; 2]]) {
         let points = self.points(points);
         self.put(format_args!(r#"<polyline class="line {class}" points="{points}"/>"#));
@@ -242,7 +235,6 @@ impl Canvas {
         let mut text = String::new();
         for corner in corners {
             let (x, y) = self.view.point(*corner);
-            // Writing to a String cannot fail.
             let _ = write!(text, "{x:.1},{y:.1} ");
         }
         text.truncate(text.trim_end().len());
@@ -254,14 +246,13 @@ impl Canvas {
     }
 }
 
-/// The multiples of a number between two others, limited to the maximum for a picture.
+/// The multiples of `step` in a range, limited to the number of floor lines.
 fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
     let first = libm::ceil(from / step);
     let all = (0..=MOST_LINES as u32).map(move |count| (first + f64::from(count)) * step);
     all.take_while(move |at| *at <= to)
 }
 
-/// Text with escaped special characters.
 pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

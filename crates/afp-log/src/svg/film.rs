@@ -16,16 +16,13 @@ use still::fewer_colors;
 
 /// The maximum number of pictures; longer films are thinned out evenly.
 const MOST: usize = 40;
-/// The number of pictures in a row.
 const COLUMNS: usize = 5;
 /// The width of a picture, in pixels; it keeps its aspect ratio. In a PNG with two pixels for each,
 /// a camera pixel is 3 by 3.
 const WIDTH: f64 = 240.0;
 const HEIGHT: f64 = 180.0;
-/// Below a picture, and between two of them.
 const CAPTION: f64 = 30.0;
 const GAP: f64 = 10.0;
-/// Around everything, and above the first row.
 const MARGIN: f64 = 24.0;
 const HEAD: f64 = 62.0;
 
@@ -37,7 +34,6 @@ text { font: 12.5px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2
 </style>
 "#;
 
-/// A picture with its caption.
 struct Shot<'a> {
     at: Instant,
     png: &'a [u8],
@@ -78,7 +74,7 @@ pub fn draw_film(log: &LogData) -> Option<String> {
     Some(svg)
 }
 
-/// At most this number of pictures, from the first to the last.
+/// At most `MOST` pictures, from the first to the last.
 fn thinned(images: &[(Instant, Vec<u8>)]) -> Vec<&(Instant, Vec<u8>)> {
     match images.len() {
         count @ ..=MOST => images.iter().take(count).collect(),
@@ -92,7 +88,6 @@ fn head(svg: &mut String, log: &LogData, shown: usize) {
         all if all == shown => format!("{all} pictures"),
         all => format!("{shown} of {all} pictures"),
     };
-    // Writing to a String cannot fail.
     let _ = writeln!(
         svg,
         "<text class=\"title\" x=\"{MARGIN}\" y=\"30\">{}</text>\n\

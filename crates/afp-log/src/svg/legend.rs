@@ -5,14 +5,12 @@ use std::fmt::Write;
 use super::canvas::{ECHO, MARGIN, View, escape};
 use super::symbol::symbol;
 
-/// The height of a line, pixels.
 const LINE: f64 = 21.0;
 /// The width of an average letter, in pixels.
 const LETTER: f64 = 7.2;
 /// The width of symbols before their text, in pixels.
 const INDENT: f64 = 30.0;
 
-/// The column beside the room.
 pub(super) struct Legend {
     x: f64,
     y: f64,
@@ -83,7 +81,6 @@ impl Legend {
         self.entry(&symbol, "way by odometry");
     }
 
-    /// A symbol and its meaning.
     fn entry(&mut self, symbol: &str, text: &str) {
         self.put(format_args!("{symbol}"));
         self.text("name", INDENT, text);
@@ -100,7 +97,6 @@ impl Legend {
         }
     }
 
-    /// The column, its right end and its lower end.
     pub(super) fn finish(self) -> (String, f64, f64) {
         (self.body, self.x + self.width, self.y)
     }
@@ -119,7 +115,6 @@ impl Legend {
     }
 
     fn put(&mut self, element: std::fmt::Arguments<'_>) {
-        // Writing to a String cannot fail.
         let _ = writeln!(self.body, "{element}");
     }
 }

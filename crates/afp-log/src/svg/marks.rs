@@ -7,7 +7,6 @@ use afp_session::Mark;
 
 use super::canvas::Canvas;
 
-/// The number of kinds with their own symbol.
 const SYMBOLS: usize = 12;
 
 /// The kinds of events with symbols, in the order of the plan: all that lead somewhere, so that

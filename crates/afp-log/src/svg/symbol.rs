@@ -1,5 +1,3 @@
-//! The shapes for kinds of events, on the path and in the legend.
-
 /// The symbol of a kind, around a point in pixels; `size` is 1 by default.
 pub(super) fn symbol(kind: usize, x: f64, y: f64, size: f64) -> String {
     // After six kinds the shapes repeat, filled.

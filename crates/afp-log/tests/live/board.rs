@@ -6,7 +6,6 @@ use afp_carbot::table::Carbot;
 use afp_core::{Environment, Instant, Platform, StillClock};
 use afp_session::{Hardware, Robot, Samples, Settings};
 
-/// A robot that looks like a real robot to this test.
 pub struct Board;
 
 impl Environment for Board {

@@ -8,7 +8,6 @@ use afp_log::{LogError, doctor, read, read_any, recover};
 
 use crate::{at, create, written};
 
-/// The starts and lengths of chunks.
 fn chunks(bytes: &[u8]) -> Vec<(usize, usize)> {
     let summary = mcap::Summary::read(bytes).unwrap().unwrap();
     let chunks = summary.chunk_indexes.iter();

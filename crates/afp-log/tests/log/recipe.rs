@@ -1,4 +1,4 @@
-//! The recipe of a run is in its log.
+//! Recipes of runs in logs.
 
 use afp_core::Duration;
 use afp_log::robot::Pose2;

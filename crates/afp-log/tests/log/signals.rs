@@ -1,5 +1,3 @@
-//! Signals in a log.
-
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType};
 use afp_log::{SessionLog, read};
