@@ -13,13 +13,12 @@ use std::error::Error;
 /// The time between two commands.
 const TICK: Duration = Duration::from_millis(10);
 
-/// The robot's commands. The file also has the tolerance between both engines.
 #[derive(Deserialize)]
 struct Manoeuvre {
     name: String,
     /// Commanded speed and turn rate, with their duration: seconds, metres and radians a second.
     drive: Vec<(f64, f64, f64)>,
-    /// The remaining share of the grip, from a time in seconds.
+    /// Share of the grip that remains, from a time in seconds.
     slip: Option<(f64, f64)>,
     #[serde(rename = "box")]
     thing: Option<Thing>,

@@ -26,7 +26,6 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// Its stream.
     pub(crate) fn of(self, seed: u64) -> Noise {
         Noise::numbered(seed, self as u64)
     }

@@ -3,7 +3,6 @@
 use crate::world::{Look, Mobility, Obstacle, Patch, Rgb, World};
 use std::sync::Arc;
 
-/// The solids and the floor. Copies share all fixed solids.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     fixed: Arc<[Solid]>,
@@ -36,7 +35,6 @@ pub(crate) struct Crossing {
     pub(crate) normal: [f64; 2],
 }
 
-/// The floor's colours.
 #[derive(Debug)]
 struct Floor {
     look: Look,
@@ -76,7 +74,6 @@ impl Scene {
         self.solids().filter_map(move |solid| Some((solid, solid.cross(origin, direction)?)))
     }
 
-    /// Every solid; fixed solids first.
     pub(crate) fn solids(&self) -> impl Iterator<Item = &Solid> {
         self.fixed.iter().chain(&self.moving)
     }
@@ -103,7 +100,6 @@ impl Scene {
         })
     }
 
-    /// The colour of the floor at a place.
     pub(crate) fn floor(&self, at: [f64; 2]) -> Rgb {
         let patches = self.floor.patches.iter().rev();
         let mut over = patches.filter(|patch| contains(&patch.corners, at));

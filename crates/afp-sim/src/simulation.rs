@@ -49,7 +49,6 @@ type SimulatedFlow = FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>
 #[derive(Clone)]
 pub struct Simulation {
     stage: Stage,
-    /// The robot's start.
     start: Pose,
     now: Instant,
     steps: u64,
@@ -61,20 +60,16 @@ pub struct Simulation {
     trail: Trail,
     scene: Scene,
     lights: Vec<Light>,
-    /// Created on first use.
     flow: Option<Box<SimulatedFlow>>,
     /// The expected readings of the range sensor, shared by all simulations of a world.
     audible: Audible,
-    /// Created on first use.
     locator: Option<Box<SimulatedLocator>>,
     /// The errors of the localisation.
     located: Located,
-    /// Created on first use.
     planner: Option<Box<SimulatedPlanner>>,
     /// The lamp and the tone.
     shown: (bool, Option<Frequency>),
     seed: u64,
-    /// After an emergency stop.
     stopped: bool,
     /// The injected faults, for manual driving.
     faults: Faults<Fault>,

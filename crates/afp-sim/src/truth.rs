@@ -12,7 +12,7 @@ use rapier2d::parry::query;
 use rapier2d::parry::shape::Segment;
 use std::f64::consts::FRAC_PI_2;
 
-/// The truth about a running simulation.
+/// The ground truth of a running simulation.
 #[derive(Clone, Copy)]
 pub struct Truth<'a> {
     pub(crate) now: Instant,

@@ -13,7 +13,6 @@ use afp_syntax::source::Source;
 const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
 const PLAN: &str = include_str!("../../../plans/wall_following.afp");
 
-/// Records the start of each actor.
 struct Actors<N> {
     names: N,
     started: Vec<(Instant, String)>,
@@ -30,7 +29,6 @@ impl<N: Names> Sink for Actors<N> {
     }
 }
 
-/// The result of a run.
 #[derive(Debug, Default)]
 struct Outcome {
     /// The actors in the order of their activations.
@@ -57,7 +55,6 @@ fn load() -> LoadedPlan<Simulation> {
     LoadedPlan::new(&graph, &registry).expect("every template has its component")
 }
 
-/// Runs for a minute.
 fn run(seed: u64) -> Outcome {
     let world = World::parse(ROOM).expect("the room is well-formed");
     let mut sim = Simulation::new(&world, seed).expect("the room can be built");

@@ -21,11 +21,9 @@ const CUT_OFF: f64 = 6.0;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Battery {
-    /// The drawn energy, in joules.
     drawn: f64,
-    /// The share of a full charge at the start.
+    /// Share of a full charge at the start.
     first: f64,
-    /// The maximum of the remaining share.
     most: f64,
     voltage: f64,
 }
@@ -50,7 +48,6 @@ impl Battery {
         self.voltage = open - RESISTANCE * power / open;
     }
 
-    /// The share of the motors' top speed at the present voltage.
     pub(crate) fn speed(&self) -> f64 {
         ((self.voltage - CUT_OFF) / (FULL_SPEED - CUT_OFF)).clamp(0.0, 1.0)
     }

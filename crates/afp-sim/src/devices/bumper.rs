@@ -35,7 +35,7 @@ impl Switch {
         }
     }
 
-    /// The switch's reading.
+    /// The current reading.
     pub fn says(&self) -> bool {
         self.says
     }

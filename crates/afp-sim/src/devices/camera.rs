@@ -21,11 +21,9 @@ pub(crate) const FORWARD: f64 = 0.18;
 pub(crate) const HEIGHT: f64 = 0.20;
 /// The horizontal field of view, in radians.
 const OPENING: f64 = 70.0 / 180.0 * core::f64::consts::PI;
-/// Pixels.
 const COLUMNS: usize = 160;
 const ROWS: usize = 120;
 
-/// The mounting and the field of view.
 pub(crate) fn lens() -> Lens {
     Lens {
         forward: Length::from_si(FORWARD),
@@ -59,7 +57,6 @@ impl Exposure {
         Exposure { scene, robot, seed, number, rgb: OnceLock::new() }
     }
 
-    /// The picture.
     pub(crate) fn frame(&self) -> Frame<'_> {
         let draw = || render::render(&self.scene, self.robot, self.seed ^ (self.number << 32));
         let rgb = self.rgb.get_or_init(draw);

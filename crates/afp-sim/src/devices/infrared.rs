@@ -23,7 +23,6 @@ const NEAR: f64 = 0.1;
 const BEARING_NOISE: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 const STRENGTH_NOISE: f64 = 0.05;
 
-/// The sensor.
 #[derive(Clone, Debug)]
 pub(crate) struct Infrared {
     noise: Noise,

@@ -14,7 +14,6 @@ const TRACK: f64 = 0.008;
 /// Standard deviation of the counts of one step, as a share of the speed.
 const COUNTS: f64 = 0.03;
 
-/// The counted motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Odometer {
     noise: Noise,

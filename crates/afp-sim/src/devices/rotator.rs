@@ -28,7 +28,6 @@ impl Rotator {
         self.servo.hold();
     }
 
-    /// Blocks or frees it.
     pub(crate) fn set_stuck(&mut self, stuck: bool) {
         self.stuck = stuck;
     }

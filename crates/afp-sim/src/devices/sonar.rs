@@ -54,7 +54,6 @@ pub(crate) const CARBOT: RangeModel = RangeModel {
     lost: [0.01, 0.4],
 };
 
-/// The sensor's mounting.
 pub(crate) fn beam() -> Beam {
     Beam {
         forward: Length::from_si(FORWARD),

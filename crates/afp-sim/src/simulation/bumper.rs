@@ -12,7 +12,6 @@ use afp_core::Instant;
 const WRAP: f64 = 0.02;
 
 impl Simulation {
-    /// Updates the robot's contacts after a step.
     pub(super) fn feel(&mut self, now: Instant) {
         let mut touched = false;
         self.stage.feel(now, |touch| touched |= touch.at[0] > HALF_LENGTH - WRAP);

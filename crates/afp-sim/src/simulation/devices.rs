@@ -17,7 +17,7 @@ impl Environment for Simulation {
         self.shown = (false, None);
     }
 
-    /// Blocks the wheels immediately. Wheels and rotator ignore commands until
+    /// Blocks the wheels. Wheels and rotator ignore commands until
     /// [`Simulation::reset_emergency_stop`].
     fn emergency_stop(&mut self) {
         self.stopped = true;

@@ -20,14 +20,12 @@ impl Simulation {
         }
     }
 
-    /// Begins and ends the faults that are due.
     pub(super) fn break_and_mend(&mut self) {
         let mut faults = std::mem::take(&mut self.faults);
         self.apply_faults(&faults.advance(self.now));
         self.faults = faults;
     }
 
-    /// Applies exactly these faults.
     pub(crate) fn apply_faults(&mut self, active: &Active<'_, Fault>) {
         self.drive.set_health(Health {
             dead: active.any(|fault| fault == Fault::ControllerDead),

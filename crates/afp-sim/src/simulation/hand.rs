@@ -12,7 +12,6 @@ use rapier2d::parry::query;
 use rapier2d::parry::shape::{Shape, SharedShape};
 use rapier2d::prelude::RigidBodyHandle;
 
-/// The shapes of new objects.
 pub(super) const SHAPES: [Droppable; 3] = [
     Droppable {
         shape: "crate",
@@ -31,7 +30,6 @@ const BODIES: [(f64, f64); SHAPES.len()] = [(0.3, 2.0), (0.12, 0.3), (0.4, 30.0)
 /// The maximum number of dropped objects, of all shapes: each costs time in every step.
 const MOST: usize = 64;
 
-/// An object at a free place.
 enum Placed {
     Robot,
     Thing { body: RigidBodyHandle, to: Isometry },
@@ -92,7 +90,6 @@ impl Simulation {
         Ok(Placed::Thing { body, to })
     }
 
-    /// The middle of an obstacle at the start.
     fn middle(&self, index: usize) -> Pose {
         let corners =
             self.stage.obstacles.get(index).map_or_else(Vec::new, |it| it.outline.corners());
@@ -182,7 +179,6 @@ impl Simulation {
         self.stage.chassis.shared()
     }
 
-    /// Places a body somewhere, at rest.
     pub(super) fn set_down(&mut self, body: RigidBodyHandle, at: Isometry) {
         self.stage.disturb();
         let physics = &mut self.stage.physics;

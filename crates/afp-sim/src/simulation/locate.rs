@@ -19,10 +19,8 @@ use afp_session::frames::{BY_LOCALISATION, WORLD};
 use afp_session::{SampleRef, Samples, Shape};
 use std::f64::consts::TAU;
 
-/// The filter in virtual time.
 pub(super) type SimulatedLocator = Locator<VirtualWorker<LocateJob>>;
 
-/// The path planner in virtual time.
 pub(super) type SimulatedPlanner = Planner<VirtualWorker<SearchJob>>;
 
 /// Thickness of the discs that show beliefs, in metres, and their number of corners.

@@ -6,7 +6,6 @@ use afp_carbot::devices::{Echo, Reading};
 use afp_core::Instant;
 
 impl Simulation {
-    /// Sends a ping from the sensor's present position.
     pub(super) fn ping(&mut self, now: Instant) {
         let rays = self.stage.rays(sonar::FORWARD);
         let range =
@@ -19,7 +18,6 @@ impl Simulation {
         self.sensors.ping = Some((now + sonar::flight(range), Reading { time: now, value }));
     }
 
-    /// Receives an echo that has arrived.
     pub(super) fn receive(&mut self) {
         if let Some((_, echo)) = self.sensors.ping.take_if(|(arrival, _)| *arrival <= self.now) {
             self.sensors.echo = echo;

@@ -107,7 +107,6 @@ macro_rules! lines {
             $(pub(super) $device: Line<$value>,)+
         }
 
-        /// The sensors' own readings, before their lines.
         pub(super) struct Raw;
 
         impl Raw {
@@ -129,7 +128,6 @@ macro_rules! lines {
                 })+
             }
 
-            /// Records the present readings for lines with a delay.
             pub(super) fn note(&mut self) {
                 if self.sensors.delayed {
                     let now = self.now;

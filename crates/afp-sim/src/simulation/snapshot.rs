@@ -12,7 +12,7 @@ pub struct Snapshot {
     pub time: Instant,
     /// The true pose.
     pub pose: Pose,
-    /// The odometry's estimate, relative to the start.
+    /// The odometry, relative to the start.
     pub odometry: Motion,
     /// The rotator's angle relative to the heading, in radians.
     pub rotator: f64,

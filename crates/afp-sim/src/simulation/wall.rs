@@ -12,7 +12,6 @@ const SETTLING: Duration = Duration::from_secs(2);
 const FOLLOWER: &str = "WallForward";
 const DISTANCE_PORT: &str = "walldist";
 
-/// The error of wall following so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WallDistance {
     /// The sum of absolute values, in metres.
@@ -22,12 +21,10 @@ pub(crate) struct WallDistance {
     following: Option<Following>,
 }
 
-/// The active wall following.
 #[derive(Clone, Copy, Debug)]
 struct Following {
     actor: ComponentId,
     since: Instant,
-    /// The wanted distance, in metres.
     wanted: f64,
 }
 

@@ -17,7 +17,6 @@ pub(crate) const HIGH: Group = Group::GROUP_1;
 const LOW: Group = Group::GROUP_2;
 pub(crate) const ROBOT: Group = Group::GROUP_3;
 
-/// A world in the engine.
 pub(crate) struct Built {
     pub(crate) physics: PhysicsWorld,
     pub(crate) body: RigidBodyHandle,
@@ -26,7 +25,6 @@ pub(crate) struct Built {
     pub(crate) movers: Vec<Mover>,
 }
 
-/// Builds a world and the robot in the engine.
 pub(crate) fn build(world: &World, chassis: &Chassis) -> Result<Built, WorldError> {
     let mut physics = PhysicsWorld::new();
     physics.gravity = Vector::ZERO;
@@ -78,7 +76,6 @@ pub(crate) fn collider(
         .user_data(i as u128)
 }
 
-/// The robot's collider.
 fn robot(chassis: &Chassis) -> ColliderBuilder {
     ColliderBuilder::new(chassis.shared())
         .mass(chassis.mass as f32)

@@ -17,7 +17,7 @@ pub struct Collision {
 /// Touches of one obstacle within this time are one collision, in nanoseconds.
 const APART: u64 = 300_000_000;
 
-/// The collisions so far, oldest first.
+/// Oldest first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Collisions(Vec<Collision>);
 

@@ -11,27 +11,22 @@ use rapier2d::prelude::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 /// The deceleration of a sliding object, in metres a second squared.
 const FLOOR: f32 = 0.4 * 9.81;
 
-/// An obstacle that moves.
 #[derive(Clone)]
 pub(crate) struct Mover {
     obstacle: usize,
     body: RigidBodyHandle,
-    /// Its place at the start.
     start: Isometry,
     moved_by: MovedBy,
 }
 
-/// The cause of the motion.
 #[derive(Clone)]
 enum MovedBy {
-    /// It follows a path.
     Scripted(Path),
     /// It is pushed; its radius of gyration is in metres and at least a centimetre.
     Pushed { gyration: f32 },
 }
 
 impl Mover {
-    /// A body for a moving obstacle; `None` for a fixed one.
     pub(crate) fn body(obstacle: &Obstacle, at: Isometry) -> Option<RigidBodyBuilder> {
         match obstacle.mobility {
             Mobility::Fixed => None,
@@ -58,7 +53,6 @@ impl Mover {
         Mover { obstacle: i, body, start, moved_by }
     }
 
-    /// The obstacle's index in [`World::obstacles`](crate::World).
     pub(crate) fn obstacle(&self) -> usize {
         self.obstacle
     }
@@ -67,7 +61,6 @@ impl Mover {
         self.body
     }
 
-    /// Its place at the start.
     pub(crate) fn start(&self) -> Isometry {
         self.start
     }

@@ -16,7 +16,6 @@ pub struct Met {
     pub obstacle: usize,
 }
 
-/// Rays from one place of the robot.
 pub(crate) struct Rays<'a> {
     queries: QueryPipeline<'a>,
     stage: &'a Stage,

@@ -18,7 +18,6 @@ const TOP_SPEED: f64 = 0.31;
 /// A castor's rolling resistance, in newtons.
 const ROLLING: f64 = 0.02 * MASS * 9.81 / 4.0;
 
-/// The drive with its controller.
 #[derive(Clone, Debug)]
 pub(crate) struct Drive {
     wheels: [Wheel; 2],
@@ -26,7 +25,6 @@ pub(crate) struct Drive {
     footing: Footing<4>,
     command: (f64, f64),
     commanded: Instant,
-    /// The last command, even if it had no effect.
     asked: (f64, f64),
     health: Health,
 }
@@ -101,7 +99,6 @@ impl Drive {
         }
     }
 
-    /// Sets its faults.
     pub(crate) fn set_health(&mut self, health: Health) {
         self.health = health;
         for (wheel, stalled) in self.wheels.iter_mut().zip(health.stalled) {

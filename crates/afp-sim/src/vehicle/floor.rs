@@ -44,7 +44,6 @@ pub struct Push {
     pub turn: f64,
 }
 
-/// A place of the body that touches the floor.
 #[derive(Clone, Debug)]
 struct Contact {
     /// Ahead and to the left of the body's centre, metres.
@@ -138,7 +137,6 @@ impl<const N: usize> Footing<N> {
 }
 
 impl Twist {
-    /// The difference of two motions.
     fn less(self, other: Twist) -> Twist {
         Twist { x: self.x - other.x, y: self.y - other.y, turn: self.turn - other.turn }
     }
@@ -150,7 +148,6 @@ impl Contact {
         Contact { at: (x, y), mass, impulse: (0.0, 0.0), slides: false, yields: false }
     }
 
-    /// The body's velocity at the contact.
     fn velocity(&self, body: &Twist) -> (f64, f64) {
         let (x, y) = self.at;
         (body.x - body.turn * y, body.y + body.turn * x)
@@ -173,7 +170,6 @@ impl Contact {
         dx.abs().max(dy.abs())
     }
 
-    /// Applies an impulse to the body.
     fn act(&self, (px, py): (f64, f64), body: &mut Twist, of: &Yielding) {
         let (x, y) = self.at;
         body.x += px * of.per_mass;
@@ -237,7 +233,6 @@ mod tests {
         footing.push([demand; 4], body, DT)
     }
 
-    /// The motion after a step.
     fn after(body: Twist, push: Push) -> Twist {
         Twist {
             x: body.x + push.x * DT / MASS,

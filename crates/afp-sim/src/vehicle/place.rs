@@ -2,7 +2,6 @@
 
 use rapier2d::math::Pose as Isometry;
 
-/// A place and a direction in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     at: [f64; 2],

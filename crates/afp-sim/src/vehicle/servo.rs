@@ -21,7 +21,6 @@ impl Servo {
         }
     }
 
-    /// Stops in place.
     pub(crate) fn hold(&mut self) {
         self.target = self.position;
     }

@@ -25,7 +25,6 @@ const MOTOR_FORCE: f64 = 6.5;
 /// Below this speed, the gear holds a wheel that should stop, in metres a second.
 const HELD: f64 = 0.005;
 
-/// A wheel that steers and drives.
 #[derive(Clone, Debug)]
 pub(crate) struct Wheel {
     pub(super) y: f64,
@@ -88,12 +87,10 @@ impl Wheel {
         }
     }
 
-    /// Blocks the motor, or frees it.
     pub(super) fn set_stalled(&mut self, stalled: bool) {
         self.stalled = stalled;
     }
 
-    /// Stops immediately.
     pub(super) fn block(&mut self) {
         self.speed = 0.0;
     }

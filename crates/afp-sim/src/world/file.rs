@@ -92,7 +92,6 @@ pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
     Ok((world, own))
 }
 
-/// A file's tables as a `T`.
 fn tables<T: DeserializeOwned>(document: &Document<&str>) -> Result<T, WorldError> {
     T::deserialize(Deserializer::from(document.clone())).map_err(|error| wrong(&error))
 }

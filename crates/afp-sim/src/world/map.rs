@@ -16,7 +16,6 @@ use std::fmt::Write;
 
 /// The maximum number of boxes in a map of rooms.
 const MOST: usize = 50_000;
-/// The free space around the robot at its start, in metres.
 const ROOM: f64 = 0.05;
 
 impl World {

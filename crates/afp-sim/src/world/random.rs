@@ -56,13 +56,12 @@ fn made(seed: u64) -> (String, World) {
     }
 }
 
-/// A room during its creation.
 struct Room<'a> {
     noise: &'a mut Noise,
     size: [f64; 2],
     /// The position of a dividing wall with a doorway, if there is one.
     divided: Option<f64>,
-    /// The objects: middle and radius of the circle around them.
+    /// Objects as enclosing circles: middle and radius.
     taken: Vec<([f64; 2], f64)>,
     text: String,
 }
@@ -225,7 +224,6 @@ impl<'a> Room<'a> {
     }
 
     fn put(&mut self, text: std::fmt::Arguments<'_>) {
-        // Writing to a String cannot fail.
         let _ = self.text.write_fmt(text);
     }
 }

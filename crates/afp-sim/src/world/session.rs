@@ -59,7 +59,6 @@ impl World {
         }
     }
 
-    /// Its obstacles, and a robot's body.
     pub(super) fn scene_with(&self, robot: &Chassis) -> Vec<Shape> {
         let obstacles = self.obstacles.iter().enumerate();
         let body = Shape {
@@ -72,7 +71,6 @@ impl World {
         obstacles.map(|(index, obstacle)| shape(index, obstacle)).chain([body]).collect()
     }
 
-    /// Its drawing, with a robot's body.
     pub(super) fn drawing_with(&self, robot: &Chassis) -> Drawing {
         let patch =
             |patch: &super::Patch| Patch { corners: patch.corners.clone(), color: patch.color };
@@ -99,7 +97,6 @@ pub(crate) fn shape(index: usize, obstacle: &Obstacle) -> Shape {
     }
 }
 
-/// The drawing of an obstacle, next to a robot.
 fn thing(index: usize, obstacle: &Obstacle, robot: &Chassis) -> Thing {
     let Shape { id, outline, .. } = shape(index, obstacle);
     let count = outline.len() as f64;

@@ -58,7 +58,6 @@ const RANGER: RangeModel = RangeModel {
     lost: [0.01, 0.4],
 };
 
-/// The rover's body in its worlds.
 #[derive(Clone, Debug)]
 pub struct Round;
 
@@ -69,7 +68,7 @@ impl Body for Round {
     type Own = Docks;
 }
 
-/// The rover's charging places, which other robots do not have.
+/// Charging places, which only the rover has.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Docks {
     #[serde(default, rename = "dock")]
@@ -94,18 +93,15 @@ impl OwnTables for Docks {
     }
 }
 
-/// The drive in templates.
 pub trait Wheels {
     fn drive(&mut self, speed: f64, turn: f64);
 }
 
-/// The sensors in templates.
 pub trait Senses {
     fn bumper(&self) -> Reading<bool>;
     fn ranger(&self) -> Reading<Option<Length>>;
 }
 
-/// The robot in its world.
 pub struct Rover {
     stage: Stage,
     wheels: TwoWheels,
@@ -370,13 +366,11 @@ impl<E: Senses + ?Sized> Supervisor<templates::CheckRange, E> for CheckRange {
     }
 }
 
-/// The templates for the rover's plans.
 pub fn register(registry: &mut Registry<Rover>) {
     afp_std::templates::register(registry);
     templates::register(registry);
 }
 
-/// The graph of a plan for the rover.
 pub fn graph(plan: &str) -> Graph {
     let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     toolboxes.add(Source::new("rover.afp", templates::SOURCE), "rover");

@@ -42,7 +42,6 @@ fn the_box(middle: [f64; 2], size: [f64; 2], height: f64) -> String {
     )
 }
 
-/// Waits without commands.
 fn wait(sim: &mut Simulation, millis: u64) {
     sim.advance_to(sim.now() + Duration::from_millis(millis));
 }
@@ -56,7 +55,6 @@ fn drive(sim: &mut Simulation, speed: f64, turn: f64, millis: u64) {
     }
 }
 
-/// The instant this number of milliseconds after zero.
 fn at(millis: u64) -> Instant {
     Instant::ZERO + Duration::from_millis(millis)
 }

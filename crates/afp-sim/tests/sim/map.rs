@@ -116,7 +116,6 @@ fn errors_in_a_map_are_reported() {
     assert_eq!(message, "the map's picture is neither PGM nor PNG");
 }
 
-/// The number of walls in a row of greys.
 fn walls(settings: &str, greys: &[u8]) -> Vec<usize> {
     // The row of greys has free space for the robot around it, and a wall, because a map needs one.
     let mut rows = vec![[254; 40]; 40];

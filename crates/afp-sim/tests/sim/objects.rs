@@ -23,7 +23,6 @@ const RIGHT: f64 = 4.0 / 180.0 * std::f64::consts::PI;
 /// Between this number of pixels and [`SEEN`], finding an object is neither right nor wrong.
 const HINT: usize = 8;
 
-/// A picture of a room.
 struct View {
     sim: Simulation,
 }

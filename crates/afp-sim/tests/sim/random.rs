@@ -1,5 +1,3 @@
-//! Random rooms.
-
 use afp_sim::World;
 use afp_sim::world::Mobility;
 

@@ -51,7 +51,6 @@ fn expect(what: &str, world: &str, degrees: f64, nearest: f64, worst: f64) {
     assert!((nearest * (1.0 - NOISE)..worst * (1.0 + NOISE)).contains(&mean), "{what}: {mean}");
 }
 
-/// Asserts silence.
 fn expect_silence(world: &str, degrees: f64) {
     assert_eq!(listen(world, degrees).1, 0.0);
 }

@@ -14,7 +14,7 @@ fn look(sim: &mut Simulation, degrees: f64) -> Echo {
     sim.echo().value.expect("the sensor works")
 }
 
-/// The mean of the ranges of `count` pings and the number of heard pings.
+/// Mean range of `count` pings, and the number of heard pings.
 fn ranges(sim: &mut Simulation, degrees: f64, count: u32) -> (f64, u32) {
     look(sim, degrees);
     let (mut sum, mut heard) = (0.0, 0);

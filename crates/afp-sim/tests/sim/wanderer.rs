@@ -13,7 +13,7 @@ use rand_pcg::rand_core::Rng;
 pub(crate) struct Wanderer {
     pub(crate) robot: Simulation,
     random: Pcg32,
-    /// The end of the current motion, and the motion: metres and radians a second.
+    /// End and values of the current motion, in metres and radians a second.
     doing: (Instant, f64, f64),
     looks_left: bool,
 }

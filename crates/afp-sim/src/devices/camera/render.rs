@@ -66,7 +66,6 @@ impl Picture {
     }
 }
 
-/// One column of pixels.
 struct Column<'a> {
     picture: &'a mut Picture,
     x: usize,

@@ -7,7 +7,6 @@ use crate::vehicle::Place;
 /// An object is not hidden if it is nearer to the hiding object than this share of its distance.
 const SLACK: f64 = 0.02;
 
-/// The object in a pixel.
 struct Spot {
     /// The solid's index in the scene; `None` for the floor.
     solid: Option<usize>,
@@ -38,7 +37,6 @@ pub(crate) fn track(before: &Exposure, after: &Exposure, x: f64, y: f64) -> Opti
     (nearest > depth * (1.0 - SLACK)).then_some([column, row])
 }
 
-/// The direction of a pixel to the left and up, per metre ahead.
 fn slopes(x: f64, y: f64) -> (f64, f64) {
     let focus = lens().focus();
     ((middle(COLUMNS) - x) / focus, (middle(ROWS) - y) / focus)
@@ -48,7 +46,6 @@ fn middle(size: usize) -> f64 {
     size as f64 / 2.0 - 0.5
 }
 
-/// The nearest object in a pixel.
 fn look(exposure: &Exposure, x: f64, y: f64) -> Option<Spot> {
     let Exposure { scene, robot, .. } = exposure;
     let (left, up) = slopes(x, y);

@@ -9,13 +9,12 @@ const METRES: f64 = 0.005;
 const DEGREES: f64 = 0.5;
 const BINS: usize = 400;
 
-/// The errors so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Located {
     off: [u32; BINS],
     turned: [u32; BINS],
     count: u32,
-    /// The latest error, in metres and radians.
+    /// Metres and radians.
     last: [f64; 2],
     worst: f64,
 }

@@ -10,7 +10,6 @@ use afp_session::WorldError;
 const SAME: f64 = 1e-6;
 const FLAT: f64 = 1e-9;
 
-/// The path to a key of the file.
 #[derive(Clone)]
 pub(super) struct Key(Vec<String>);
 
@@ -19,20 +18,17 @@ impl Key {
         Key(Vec::new())
     }
 
-    /// A key of this table.
     pub(super) fn at(&self, name: &str) -> Self {
         let mut path = self.0.clone();
         path.push(name.to_owned());
         Key(path)
     }
 
-    /// The `i`-th table of an array in this table.
     pub(super) fn nth(&self, name: &str, i: usize) -> Self {
         self.at(name).at(&i.to_string())
     }
 }
 
-/// Checks values and reports them at their keys.
 pub(super) struct Check<'a> {
     text: &'a str,
 }
@@ -139,7 +135,6 @@ pub(super) fn number(value: f64) -> String {
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// Each corner's index, with the edges to it and from it.
 fn corners(points: &[[f64; 2]]) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
     let n = points.len();
     (1..=n).map(move |i| {

@@ -7,17 +7,14 @@ use toml_edit::{Item, TableLike, Value};
 
 use crate::world::WorldError;
 
-/// A key of a table.
 pub(super) struct Key {
     pub(super) name: &'static str,
     kind: Kind,
     /// Whether the key is required.
     needed: bool,
-    /// An example of its value.
     example: &'static str,
 }
 
-/// The kind of a key's value.
 enum Kind {
     Text,
     Truth,
@@ -28,9 +25,7 @@ enum Kind {
     Numbers(usize),
     /// Positions of two numbers.
     Places,
-    /// A table.
     One(&'static [Key]),
-    /// A list of tables.
     Many(&'static [Key]),
 }
 
@@ -126,7 +121,6 @@ pub(super) fn check(file: &dyn TableLike, own: &[&str]) -> Result<(), WorldError
     head.check(file, WORLD, own)
 }
 
-/// A table's name and place.
 struct Head<'a> {
     name: &'a str,
     span: Option<Range<usize>>,

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-/// A whole file. The other allowed keys depend on the robot.
+/// The other allowed keys depend on the robot.
 #[derive(Deserialize)]
 pub(super) struct File {
     pub(super) version: u32,

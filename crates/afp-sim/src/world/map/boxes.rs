@@ -49,7 +49,6 @@ impl Cells {
             && sum(bottom, right) + sum(top, left) == sum(top, right) + sum(bottom, left)
     }
 
-    /// Whether no cell is occupied.
     pub(super) fn is_empty(&self) -> bool {
         self.sums.last() == Some(&0)
     }

@@ -12,12 +12,10 @@ pub(super) struct Grid<T> {
     pub(super) values: Vec<T>,
 }
 
-/// A cell of a picture, from 0 black to 65535 white.
+/// From 0 black to 65535 white.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pixel {
-    /// Red, green and blue.
     pub(super) colors: [u16; 3],
-    /// The opacity, if the picture has it.
     pub(super) alpha: Option<u16>,
 }
 
@@ -63,7 +61,6 @@ fn cells(width: usize, height: usize) -> Option<usize> {
     width.checked_mul(height).filter(|cells| *cells <= MOST)
 }
 
-/// Numbers of a PGM, with comments between them.
 struct Numbers<'a> {
     bytes: &'a [u8],
     at: usize,

@@ -16,7 +16,6 @@ pub(super) struct Settings {
     origin: [f64; 2],
     /// The picture's rotation, in radians.
     pub(super) yaw: f64,
-    /// The interpretation of greys.
     mode: Mode,
     /// White is occupied.
     negate: bool,
@@ -28,7 +27,6 @@ pub(super) struct Settings {
     unknown_is_wall: bool,
 }
 
-/// The state of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cell {
     Occupied,
@@ -129,7 +127,6 @@ impl Settings {
     }
 }
 
-/// The keys of the file.
 struct Keys<'a, 'b> {
     text: &'a str,
     map: Option<&'a Yaml<'b>>,
