@@ -1,14 +1,14 @@
-//! Devices that one program has for itself: two programs that drive one robot contradict each other.
+//! Exclusive access to devices: two programs that drive one robot contradict each other.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::Path;
 
-/// Opens a device, or a lock file in place of one, for only this program, until all copies of the file are closed. The
-/// system releases it when the process ends, in any way.
+/// Opens a device, or a lock file, exclusively until all copies of the file are closed. The system
+/// also releases it when the process ends.
 ///
-/// The lock is advisory (`flock`). Other programs cannot open a serial line either, unless they run as root
-/// (`TIOCEXCL`).
+/// The lock is advisory (`flock`). Other programs cannot open a serial line either, unless they run
+/// as root (`TIOCEXCL`).
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -21,8 +21,8 @@ use std::path::Path;
 /// ```
 ///
 /// # Errors
-/// It cannot be opened. [`ResourceBusy`](io::ErrorKind::ResourceBusy) if another program has it; the message names the
-/// process, if the system tells.
+/// It cannot be opened. [`ResourceBusy`](io::ErrorKind::ResourceBusy) if another program has it;
+/// the message names the process, if known.
 pub fn open_device(options: &OpenOptions, path: impl AsRef<Path>) -> io::Result<File> {
     let path = path.as_ref();
     let file = options.open(path).map_err(|error| match error.kind() {
@@ -41,9 +41,9 @@ pub fn open_device(options: &OpenOptions, path: impl AsRef<Path>) -> io::Result<
     Ok(file)
 }
 
-/// Lets other programs open a serial line again, although somebody may keep it open.
+/// Lets other programs open a serial line again, even if a copy of the file stays open.
 pub fn release_device(file: &File) {
-    // A device that is gone needs no release.
+    // A removed device needs no release.
     let _ = file.unlock();
     #[cfg(unix)]
     if rustix::termios::isatty(file) {
@@ -62,7 +62,7 @@ fn busy(path: &Path) -> io::Error {
     )
 }
 
-/// The process that has locked a file, if the system tells.
+/// The process that has locked a file, if known.
 #[cfg(target_os = "linux")]
 fn owner(path: &Path) -> Option<u32> {
     use std::os::unix::fs::MetadataExt;

@@ -1,17 +1,17 @@
-//! A floor of square cells, drawn with letters: enough of a world for many a robot.
+//! A world of square cells, drawn with letters.
 //!
 //! ```text
 //! Hall
 //! cell 25 cm
 //!
 //! ##########
-//! #    *   #
-//! # >      #
+//! # * #
+//! # > #
 //! ##########
 //! ```
 //!
-//! A name, the side of a cell, then the drawing: `#` is a wall, a blank the floor, one of `>^<v` the robot and where it
-//! looks. What other letters mean is up to the robot.
+//! The text has a name, the side of a cell, and the drawing: `#` is a wall, a space is floor, one
+//! of `>^<v` is the robot with its heading. Robots define the meaning of other letters.
 
 use std::f64::consts::TAU;
 
@@ -19,46 +19,46 @@ use afp_session::{Drawing, Patch, Pose2, Shape, Thing, WorldError, frames};
 
 use crate::noise::Noise;
 
-/// The letter of a wall.
 const WALL: char = '#';
 const FLOOR: char = ' ';
-/// The letters of the start, with the heading in degrees.
+/// The letters of the robot's start, with the heading in degrees.
 const STARTS: [(char, f64); 4] = [('>', 0.0), ('^', 90.0), ('<', 180.0), ('v', -90.0)];
-/// How high walls are, metres.
+/// Height of walls, metres.
 const HEIGHT: f64 = 0.4;
-/// The most cells of a floor, those counted that short rows leave out: two kilometres a side with cells of a metre.
+/// Maximum number of cells, with missing cells of short rows: two kilometres a side with cells of a
+/// metre.
 const MOST: usize = 4 << 20;
-/// A body is drawn with so many corners.
+/// Number of corners of a drawn body.
 const CORNERS: u32 = 24;
 
-/// A floor.
+/// A world of square cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// What it is called.
+    /// The name.
     pub name: String,
-    /// Where the robot starts; the origin is the lower left corner, metres.
+    /// Start of the robot in metres; the origin is the lower left corner.
     pub start: Pose2,
-    /// The side of a cell, metres.
+    /// Side of a cell, metres.
     cell: f64,
     columns: usize,
     /// Row by row, the lowest first.
     cells: Vec<char>,
 }
 
-/// A wall that a round body reaches into.
+/// A wall that overlaps a round body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// From the body's middle towards the wall, a unit vector.
+    /// Unit vector from the body's middle towards the wall.
     pub towards: [f64; 2],
-    /// How far it reaches in, metres.
+    /// Depth of the overlap, metres.
     pub depth: f64,
 }
 
 impl Grid {
-    /// Reads a floor on which these letters stand for something, beside those of every floor.
+    /// Reads a world with these extra letters.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place.
+    /// The first error, with its place.
     pub fn read(text: &str, letters: &str) -> Result<Grid, WorldError> {
         let mut lines = lines(text);
         let (_, name) = lines.next().unwrap_or_default();
@@ -99,7 +99,8 @@ impl Grid {
         }
     }
 
-    /// The text of a floor made up from a seed, with walls around it and so many blocks of each letter in it.
+    /// The text of a random world from a seed, with walls around it and this many blocks of each
+    /// letter.
     pub fn made_up(seed: u64, columns: usize, rows: usize, blocks: &[(char, u32)]) -> String {
         let mut noise = Noise::new(seed, "floors");
         let mut below = |bound: usize| noise.below(bound as u32) as usize;
@@ -130,10 +131,10 @@ impl Grid {
         text
     }
 
-    /// The same floor with the robot, a disc of this radius, at another start.
+    /// The same world with the robot, a disc of this radius, at another start.
     ///
     /// # Errors
-    /// It would stand in a wall.
+    /// The start overlaps a wall.
     pub fn started_at(&self, start: Pose2, radius: f64) -> Result<Grid, WorldError> {
         match self.contacts(start.x, start.y, radius).next() {
             Some(_) => Err(WorldError::new(None, "the robot starts inside of a wall")),
@@ -141,12 +142,12 @@ impl Grid {
         }
     }
 
-    /// The letters of all cells, by number.
+    /// The letters of all cells, by index.
     pub fn letters(&self) -> &[char] {
         &self.cells
     }
 
-    /// The number of the cell at a point; none outside.
+    /// The index of the cell at a point; `None` outside.
     pub fn index(&self, x: f64, y: f64) -> Option<usize> {
         let [column, row] = [x, y].map(|along| libm::floor(along / self.cell));
         if column < 0.0 || row < 0.0 || column >= self.columns as f64 {
@@ -156,12 +157,12 @@ impl Grid {
         (index < self.cells.len()).then_some(index)
     }
 
-    /// The letter of the cell at a point; that of a wall outside.
+    /// The letter of the cell at a point; a wall outside.
     pub fn letter(&self, x: f64, y: f64) -> char {
         self.index(x, y).and_then(|index| self.cells.get(index)).copied().unwrap_or(WALL)
     }
 
-    /// The walls that a disc reaches into, cell by cell; none at a place that is none.
+    /// The walls that overlap a disc, cell by cell; none for a position that is not finite.
     pub fn contacts(&self, x: f64, y: f64, radius: f64) -> impl Iterator<Item = Contact> {
         let cell = self.cell;
         let reach = libm::ceil(radius / cell) as i32;
@@ -181,7 +182,7 @@ impl Grid {
         })
     }
 
-    /// Moves a disc out of the wall that it reaches into deepest.
+    /// Moves a disc out of the wall with the deepest overlap.
     pub fn push_out(&self, pose: &mut Pose2, radius: f64) {
         let contacts = self.contacts(pose.x, pose.y, radius);
         if let Some(deepest) = contacts.max_by(|one, two| one.depth.total_cmp(&two.depth)) {
@@ -190,7 +191,7 @@ impl Grid {
         }
     }
 
-    /// The walls and the body, a disc of this radius and height, as a scene shows them.
+    /// The walls and the body, a disc of this radius and height, for a scene.
     pub fn scene(&self, radius: f64, height: f64) -> Vec<Shape> {
         let wall = |(number, outline)| {
             let (id, color) = (format!("wall {number}"), [0.6, 0.6, 0.6, 0.9]);
@@ -201,7 +202,7 @@ impl Grid {
         self.outlines(WALL).enumerate().map(wall).chain([body]).collect()
     }
 
-    /// What a picture shows: the walls, patches for these letters in these colours, the body.
+    /// The walls, patches in these colours for these letters, and the body, for a picture.
     pub fn drawing(&self, radius: f64, colors: &[(char, [u8; 3])]) -> Drawing {
         let wall = |(number, outline)| Thing {
             id: format!("wall {number}"),
@@ -225,7 +226,7 @@ impl Grid {
         }
     }
 
-    /// The outlines of the cells of one letter; those side by side are one.
+    /// The outlines of one letter's cells; adjacent cells in a row are combined.
     fn outlines(&self, of: char) -> impl Iterator<Item = Vec<[f64; 2]>> {
         let rows = self.cells.chunks(self.columns.max(1)).enumerate();
         rows.flat_map(move |(y, row)| {
@@ -243,10 +244,10 @@ impl Grid {
     }
 }
 
-/// How many cells the longest row has.
+/// Number of cells of the longest row.
 ///
 /// # Errors
-/// With as many in each row there are too many.
+/// The whole grid would have too many cells.
 fn columns(rows: &[(usize, &str)]) -> Result<usize, WorldError> {
     let longest = rows.iter().map(|(at, row)| (row.chars().count(), *at, row.len())).max();
     let (columns, at, length) = longest.unwrap_or_default();
@@ -261,7 +262,7 @@ fn columns(rows: &[(usize, &str)]) -> Result<usize, WorldError> {
     }
 }
 
-/// The lines of a text without blanks at their ends, each with its place.
+/// The lines of a text without trailing spaces, each with its place.
 fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.split_inclusive('\n').scan(0, |next, line| {
         let at = *next;
@@ -270,7 +271,7 @@ fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Metres of `cell 25 cm`; none of anything else and of what is no side of a cell.
+/// Metres of `cell 25 cm`; `None` for another line or an invalid length.
 fn cell(line: &str) -> Option<f64> {
     let text = line.strip_prefix("cell")?.trim().strip_suffix("cm")?;
     let centimetres: f64 = text.trim().parse().ok()?;

@@ -1,9 +1,10 @@
-//! Parts for the author of a robot: [`RealTime`] and [`open_device`] for robots that exist, workers that compute the [`Job`]s of
-//! components, and for simulated robots a sensor's [`Line`] to the plan, [`Noise`], a [`VirtualClock`] and a [`Grid`] as a
-//! world.
+//! Parts for authors of robots: [`RealTime`] and [`open_device`] for real robots, workers for the
+//! [`Job`]s of components, and for simulated robots a sensor's [`Line`] to the plan, [`Noise`], a
+//! [`VirtualClock`] and a [`Grid`] as a world.
 //!
-//! A real robot implements [`Hardware`] and the traits that its templates ask for. `[robot.hardware]` of a project
-//! names it; `afpc run --robot hardware` and the programs of `afpc build` then drive it.
+//! A real robot implements [`Hardware`] and the traits that its templates need. A project names it
+//! in `[robot.hardware]`; then `afpc run --robot hardware` and the programs of `afpc build` drive
+//! it.
 //!
 //! ```
 //! use afp_core::{Environment, Instant, Platform};

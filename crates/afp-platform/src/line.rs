@@ -7,13 +7,13 @@ use afp_core::{Duration, Instant, Invalid, Reading};
 
 use crate::virtual_clock::VirtualClock;
 
-/// What the plan reads of one sensor, with the faults that every sensor has.
+/// The plan's reading of one sensor, with the faults of every sensor.
 #[derive(Clone, Debug)]
 pub struct Line<T> {
     defect: Option<Defect>,
-    /// What a broken line holds; none while it is sound.
+    /// The constant reading of a broken line; `None` while it works.
     held: Option<Reading<T>>,
-    /// What is under way, with when it arrives.
+    /// Delayed readings with their times of arrival.
     under_way: VecDeque<(Instant, Reading<T>)>,
 }
 
@@ -24,7 +24,7 @@ impl<T> Default for Line<T> {
 }
 
 impl<T: Clone> Line<T> {
-    /// Breaks or mends the line whose sensor says `raw` at the moment.
+    /// Breaks or repairs the line; `raw` is the sensor's current reading.
     pub fn set(&mut self, defect: Option<Defect>, raw: Reading<T>) {
         if self.defect == defect {
             return;
@@ -34,7 +34,8 @@ impl<T: Clone> Line<T> {
         self.defect = defect;
     }
 
-    /// Notes what the sensor says; to be called often, since a line that delays reads nothing else.
+    /// Records a sensor's reading. Call this often, because a delayed line only delivers recorded
+    /// readings.
     pub fn note(&mut self, raw: Reading<T>, now: Instant) {
         let Some(Defect::Delayed(delay)) = self.defect else { return };
         self.under_way.push_back((now + delay, raw));
@@ -43,13 +44,13 @@ impl<T: Clone> Line<T> {
         }
     }
 
-    /// What arrives of what the sensor says.
+    /// The reading that arrives for `raw`.
     pub fn read(&self, raw: Reading<T>) -> Reading<T> {
         let Reading { time, value } = self.look(&raw);
         Reading { time, value: value.cloned() }
     }
 
-    /// The same for a template: it takes the time that one use of the sensor costs.
+    /// [`Line::read`] for a template; also spends the time of one use of the sensor.
     pub fn sense(&self, raw: Reading<T>, now: Instant, clock: &VirtualClock) -> Reading<T> {
         if let Some(cost) = self.cost() {
             clock.spend(now, cost);
@@ -57,7 +58,7 @@ impl<T: Clone> Line<T> {
         self.read(raw)
     }
 
-    /// The same as [`Line::read`], without a copy.
+    /// [`Line::read`] without a copy.
     pub fn look<'a>(&'a self, raw: &'a Reading<T>) -> Reading<&'a T> {
         let of = |reading: &'a Reading<T>| reading.value.as_ref().map_err(|reason| *reason);
         let (time, value) = match (self.defect, &self.held) {
@@ -70,7 +71,7 @@ impl<T: Clone> Line<T> {
         Reading { time, value }
     }
 
-    /// What one use costs.
+    /// Time of one use.
     pub fn cost(&self) -> Option<Duration> {
         match self.defect {
             Some(Defect::Slow(cost)) => Some(cost),

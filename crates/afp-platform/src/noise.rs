@@ -1,6 +1,6 @@
-//! Noise in streams: one for each sensor and seed.
+//! Noise streams: one for each sensor and seed.
 //!
-//! A stream is not shared, so adding a sensor or reading one more often does not shift the others.
+//! Streams are independent, so adding a sensor or reading it more often does not shift the others.
 
 use afp_types::TextHash;
 use rand_pcg::Pcg32;
@@ -11,28 +11,28 @@ use rand_pcg::rand_core::Rng;
 pub struct Noise(Pcg32);
 
 impl Noise {
-    /// The stream of that name of a seed. Seed and name alone decide on the numbers, on every machine.
+    /// The stream with this name. Its numbers depend only on seed and name, on every machine.
     pub fn new(seed: u64, name: &str) -> Self {
         Noise::numbered(seed, TextHash::of(name).get())
     }
 
-    /// The stream of that number of a seed.
+    /// The stream with this number.
     pub fn numbered(seed: u64, stream: u64) -> Self {
         // An odd multiplier spreads neighbouring seeds over the generator's state.
         Noise(Pcg32::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15), stream))
     }
 
-    /// Uniform in 0 to 1, 1 excluded.
+    /// Uniform in 0 to 1, excluding 1.
     pub fn uniform(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / 4_294_967_296.0
     }
 
-    /// Uniform among the whole numbers from 0 to before `bound`; 0 for a bound of 0.
+    /// Uniform among the integers from 0 to before `bound`; 0 for a bound of 0.
     pub fn below(&mut self, bound: u32) -> u32 {
         ((u64::from(self.0.next_u32()) * u64::from(bound)) >> 32) as u32
     }
 
-    /// Mean 0, standard deviation 1, nothing beyond 3.5: four uniform numbers added up.
+    /// Mean 0, standard deviation 1, at most 3.5: the sum of four uniform numbers.
     pub fn normal(&mut self) -> f64 {
         let (a, b) = (self.0.next_u32(), self.0.next_u32());
         let sum = (a >> 16) + (a & 0xffff) + (b >> 16) + (b & 0xffff);

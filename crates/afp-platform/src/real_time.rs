@@ -1,29 +1,28 @@
-//! The monotonic clock of a robot that exists.
+//! The monotonic clock of a real robot.
 
 use std::thread;
 use std::time::Instant as Wall;
 
 use afp_core::{Clock, Duration, Instant};
 
-/// Time that passes by itself, from the moment at which it was made. It never goes back, whatever is done to the clock
-/// on the wall.
+/// Monotonic time since its creation, independent of changes to the system's clock.
 #[derive(Clone, Copy, Debug)]
 pub struct RealTime {
     began: Wall,
 }
 
 impl RealTime {
-    /// Begins to count, from zero.
+    /// Starts at zero.
     pub fn start() -> Self {
         RealTime { began: Wall::now() }
     }
 
-    /// How much has passed.
+    /// The time since the start.
     pub fn now(&self) -> Instant {
         Instant::ZERO + self.began.elapsed().into()
     }
 
-    /// Sleeps up to an instant; not at all where it has passed. It wakes late, by what the system needs, never early.
+    /// Sleeps until an instant; returns at once if it has passed. It may wake late, never early.
     pub fn sleep_until(&self, to: Instant) {
         loop {
             let left = to.since(self.now());

@@ -1,8 +1,8 @@
-//! Workers: who does the [`Job`]s of components, in virtual and in real time.
+//! Workers for the [`Job`]s of components, in virtual and in real time.
 //!
-//! [`VirtualWorker`] computes when it is asked and has the result ready after the declared time, so
-//! that a run is the same on every machine. [`ThreadWorker`] has a thread of its own and the result
-//! ready when it is. A component cannot tell them apart but by the time they take.
+//! [`VirtualWorker`] computes on demand and delivers the result after the declared time, so that a
+//! run is the same on every machine. [`ThreadWorker`] computes on its own thread. Components see a
+//! difference only in time.
 
 mod slots;
 mod thread;
@@ -14,8 +14,8 @@ pub use virtual_time::VirtualWorker;
 use afp_core::{Fault, Job};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Runs a job and turns a panic into a fault. Whoever gets [`Fault::JOB_PANICKED`] must not use the
-/// job's buffers again, which is why no invariant of theirs needs to hold.
+/// Runs a job and converts a panic to a fault. After [`Fault::JOB_PANICKED`] the job's buffers must
+/// not be used again, so their invariants do not matter.
 fn attempt<J: Job>(job: &mut J) -> Result<(), Fault> {
     catch_unwind(AssertUnwindSafe(|| job.run())).unwrap_or(Err(Fault::JOB_PANICKED))
 }

@@ -1,4 +1,4 @@
-//! A component whose work is a job: it polls, is interrupted, and sees what goes wrong.
+//! A component with a job: polls, interruption and failures.
 
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Ending, Line, Names, Record, Sink};
@@ -16,12 +16,12 @@ mod templates {
 
 afp_macros::plan!("tests/add.afp", toolboxes = { "tests/sums.afp" => crate });
 
-/// A sum. One of numbers up to 13 panics.
+/// A sum; a sum of numbers up to 13 panics.
 #[derive(Default)]
 struct Sum {
     limit: i64,
     sum: i64,
-    /// How slow the machine is.
+    /// Slowness of the machine.
     slow: Span,
 }
 
@@ -36,12 +36,11 @@ impl Job for Sum {
     }
 }
 
-/// A platform with a worker and a button.
 struct Bench {
     worker: VirtualWorker<Sum>,
     now: Instant,
     pressed: Instant,
-    /// What stops and cancels were heard, in order.
+    /// Stops and cancellations, in order.
     heard: Vec<&'static str>,
 }
 
@@ -130,7 +129,6 @@ impl Supervisor<templates::CheckButton, Bench> for CheckButton {
     }
 }
 
-/// The trace as text.
 struct Text<N> {
     names: N,
     lines: Vec<String>,
@@ -146,7 +144,7 @@ fn at(millis: u64) -> Instant {
     Instant::ZERO + Duration::from_millis(millis)
 }
 
-/// Runs the plan: when and how it ended, its sum, and its trace.
+/// Runs the plan; returns time and kind of its ending, its sum, and its trace.
 fn run(bench: &mut Bench, limit: i64) -> (Instant, Ending, Option<i64>, Vec<String>) {
     let mut plan = AddUp::new();
     plan.set_limit(limit);
@@ -172,7 +170,7 @@ fn an_interrupted_actor_cancels_its_job_and_the_next_has_its_own() {
     let mut bench = Bench::new(Span::ZERO, at(12));
     let (end, ending, sum, _) = run(&mut bench, 100);
     assert_eq!(bench.heard, ["cancel", "stop"]);
-    // The worker has been busy with the first until 25 ms; the second begins at 20 ms.
+    // The worker is busy with the first job until 25 ms; the second begins at 20 ms.
     assert_eq!((end, ending, sum), (at(50), Ending::Ok, Some(6)));
 }
 

@@ -1,6 +1,6 @@
-//! Handing jobs over and asking after them allocates nothing.
+//! Submitting and fetching jobs allocates nothing.
 //!
-//! A test binary of its own, because it counts in the global allocator.
+//! The test is a separate binary, because it counts in the global allocator.
 
 use afp_core::{Duration, Fault, Instant, Job, Poll, Worker};
 use afp_counting::{Counting, allocations};
@@ -20,10 +20,10 @@ impl Job for Reverse {
     }
 }
 
-/// A thread that has not done its jobs by then, on however busy a machine, does none.
+/// Timeout for a thread's jobs, on any machine.
 const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
-/// Keeps a worker busy until it has done so many jobs.
+/// Keeps a worker busy for this many jobs.
 fn keep_busy(worker: &mut dyn Worker<Reverse>, jobs: u32) {
     let begin = std::time::Instant::now();
     let (mut ticket, mut done) = (None, 0);

@@ -1,4 +1,4 @@
-//! What every worker promises, asked of both; and what each promises alone.
+//! Guarantees of every worker, and of each kind.
 
 use afp_core::{Duration, Fault, Instant, Job, Poll, Reason, Ticket, Worker};
 use afp_platform::{ThreadWorker, VirtualWorker};
@@ -7,13 +7,12 @@ use std::thread;
 
 const REFUSED: Fault = Fault::new(&Reason { code: "refused", text: "no even number" });
 
-/// Squares a number, unless it is told to misbehave.
+/// Squares a number, or misbehaves on request.
 #[derive(Default)]
 struct Square {
     number: u64,
     square: u64,
     task: Task,
-    /// What it waits for.
     gate: Option<Receiver<()>>,
 }
 
@@ -55,7 +54,7 @@ fn begin(worker: &mut dyn Worker<Square>, now: u64, number: u64, task: Task) -> 
     worker.begin(at(now), &mut prepare).expect("a slot is left that works")
 }
 
-/// Asks until the job is over, as a component does at its polls.
+/// Polls until the job is over, as a component does.
 fn fetch(worker: &mut dyn Worker<Square>, ticket: Ticket) -> Result<u64, Fault> {
     for tick in 1..10_000 {
         match worker.poll(ticket, at(1_000_000 + tick))? {
@@ -66,7 +65,7 @@ fn fetch(worker: &mut dyn Worker<Square>, ticket: Ticket) -> Result<u64, Fault> 
     panic!("the job never ends");
 }
 
-/// Runs a test with each kind of worker, with so many slots.
+/// Runs a test with each kind of worker.
 fn with_each(slots: usize, test: impl Fn(&mut dyn Worker<Square>)) {
     test(&mut VirtualWorker::new(squares(slots)));
     test(&mut ThreadWorker::new("squares", squares(slots)).expect("a thread"));

@@ -1,5 +1,3 @@
-//! Floors drawn with letters.
-
 use super::{Contact, Grid};
 use afp_session::Pose2;
 

@@ -1,49 +1,41 @@
-//! Which job is at which slot of a worker, for every kind of worker alike.
+//! The slots of a worker, for every kind of worker.
 
 use afp_core::{Duration, Fault, Instant, Poll, Ticket};
 
-/// A finished job is kept this long for whoever began it: longer than any component waits between two
-/// polls. After that its slot may be taken.
+/// A finished job is kept this long: longer than a component waits between two polls. Then its slot
+/// may be reused.
 const KEPT: Duration = Duration::from_secs(1);
 
-/// What goes on at a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// Nobody needs it.
     Free,
-    /// A job is under way.
     Busy,
-    /// A job is under way that nobody waits for any more.
+    /// A job is under way whose result is not needed.
     Cancelled,
-    /// A job is finished and waits to be fetched.
+    /// The result waits to be fetched.
     Finished(Result<(), Fault>),
-    /// A job has panicked here.
     Broken,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Slot {
     state: State,
-    /// Jobs that have been here.
+    /// Number of jobs so far.
     round: u64,
-    /// When the last one came to its end.
+    /// End of the last job.
     ended: Instant,
 }
 
 impl Slot {
-    /// Whether a job has panicked here.
     fn is_broken(&self) -> bool {
         self.state == State::Broken || self.state == State::Finished(Err(Fault::JOB_PANICKED))
     }
 }
 
-/// The slots of a worker.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots(Vec<Slot>);
 
 impl Slots {
-    /// So many free slots.
-    ///
     /// # Panics
     /// With more than 65536 slots.
     pub(crate) fn new(count: usize) -> Self {
@@ -51,8 +43,8 @@ impl Slots {
         Slots(vec![Slot { state: State::Free, round: 0, ended: Instant::ZERO }; count])
     }
 
-    /// Takes a slot: a free one, else one whose finished job nobody has fetched in [`KEPT`]. None
-    /// while there is none.
+    /// Takes a free slot, or else a slot whose finished job was not fetched within [`KEPT`]. `None`
+    /// if all are busy.
     ///
     /// # Errors
     /// All slots are broken.
@@ -73,7 +65,6 @@ impl Slots {
         Ok(Some(Ticket::new(index as u16, slot.round)))
     }
 
-    /// The job at a slot has come to its end.
     pub(crate) fn finish(&mut self, index: u16, result: Result<(), Fault>, now: Instant) {
         let Some(slot) = self.0.get_mut(usize::from(index)) else { return };
         slot.ended = now;
@@ -83,11 +74,11 @@ impl Slots {
         };
     }
 
-    /// The slot of a ticket's job, which is finished and gives up its slot; pending while it is
-    /// under way.
+    /// Frees the slot of a ticket's finished job and returns it; pending while the job is under
+    /// way.
     ///
     /// # Errors
-    /// The fault of the job; [`Fault::JOB_LOST`] if it is not here any more.
+    /// The fault of the job; [`Fault::JOB_LOST`] if it is no longer in the slot.
     pub(crate) fn fetch(&mut self, ticket: Ticket) -> Result<Poll<usize>, Fault> {
         let slot = self.of(ticket).ok_or(Fault::JOB_LOST)?;
         match slot.state {
@@ -100,7 +91,7 @@ impl Slots {
         }
     }
 
-    /// Nobody waits for a ticket's job any more.
+    /// The ticket's job is no longer needed.
     pub(crate) fn give_up(&mut self, ticket: Ticket) {
         let Some(slot) = self.of(ticket) else { return };
         slot.state = match slot.state {
@@ -110,7 +101,7 @@ impl Slots {
         };
     }
 
-    /// Whether somebody waits for the ticket's job, which is under way.
+    /// Whether the ticket's job is under way and needed.
     pub(crate) fn awaited(&mut self, ticket: Ticket) -> bool {
         self.of(ticket).is_some_and(|slot| slot.state == State::Busy)
     }
@@ -121,7 +112,7 @@ impl Slots {
     }
 }
 
-/// What becomes of a slot whose job nobody waits for any more.
+/// The state of a slot after a cancelled job.
 fn after(result: Result<(), Fault>) -> State {
     if result == Err(Fault::JOB_PANICKED) { State::Broken } else { State::Free }
 }

@@ -1,4 +1,4 @@
-//! A worker with a thread of its own.
+//! A worker with its own thread.
 
 use super::attempt;
 use super::slots::Slots;
@@ -8,40 +8,40 @@ use std::io;
 use std::thread::{self, Thread};
 use std::time::Instant as Wall;
 
-/// Does jobs on a thread of its own, one after the other. Handing one over and asking after it takes
-/// neither a lock nor an allocation.
+/// Runs jobs sequentially on its own thread. Submitting and fetching a job neither locks nor
+/// allocates.
 ///
-/// Make it before the thread that steps the plan gets its priority: on Linux a thread inherits that of
-/// the one which makes it. Dropping the worker lets the thread end after the job it is at; nobody
-/// waits for that.
+/// Create it before the thread that steps the plan gets its priority: on Linux a thread inherits
+/// the priority of its creator. After a drop the thread ends when its current job is done, and the
+/// drop does not wait.
 #[derive(Debug)]
 pub struct ThreadWorker<J> {
     slots: Slots,
-    /// The jobs that are here and not with the thread, by slot.
+    /// The jobs that are not with the thread, by slot.
     here: Vec<Option<Box<J>>>,
-    /// None once the worker is being dropped.
+    /// `None` during a drop.
     to_do: Option<Producer<Task<J>>>,
     done: Consumer<Task<J>>,
     thread: Thread,
     overruns: u64,
 }
 
-/// A job that is handed to the thread or back, with what came of it.
+/// A job on its way to the thread, or back with its result.
 #[derive(Debug)]
 struct Task<J> {
     slot: u16,
     job: Box<J>,
     result: Result<(), Fault>,
-    /// Whether it took longer than declared.
+    /// Whether it exceeded its declared time.
     overran: bool,
 }
 
 impl<J: Job> ThreadWorker<J> {
-    /// A worker with a slot for each of these jobs, whose buffers are used over and over. `name` is
-    /// what the system calls the thread.
+    /// Makes a worker with a slot for each of these jobs, whose buffers are reused. `name` is the
+    /// thread's name.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system cannot create a thread.
     ///
     /// # Panics
     /// With more than 65536 jobs.
@@ -55,12 +55,11 @@ impl<J: Job> ThreadWorker<J> {
         Ok(ThreadWorker { slots, here, to_do: Some(to_do), done, thread, overruns: 0 })
     }
 
-    /// How many jobs have taken longer than declared.
+    /// Number of jobs that exceeded their declared time.
     pub fn overruns(&self) -> u64 {
         self.overruns
     }
 
-    /// Takes back what is done.
     fn take_finished(&mut self, now: Instant) {
         while let Ok(Task { slot, job, result, overran }) = self.done.pop() {
             self.overruns += u64::from(overran);
@@ -113,7 +112,7 @@ impl<J> Drop for ThreadWorker<J> {
     }
 }
 
-/// What the thread does.
+/// The loop of the thread.
 fn work<J: Job>(mut to_do: Consumer<Task<J>>, mut done: Producer<Task<J>>) {
     loop {
         match to_do.pop() {
@@ -121,13 +120,13 @@ fn work<J: Job>(mut to_do: Consumer<Task<J>>, mut done: Producer<Task<J>>) {
                 let begun = Wall::now();
                 task.result = attempt(&mut *task.job);
                 task.overran = begun.elapsed() > J::TAKES.into();
-                // There is room for every job, so only a worker that was dropped refuses it.
+                // The queue has room for every job, so only a dropped worker rejects it.
                 if done.push(task).is_err() {
                     return;
                 }
             }
             Err(_) if to_do.is_abandoned() => return,
-            // A token that `unpark` leaves makes this return at once: nothing is overlooked.
+            // Returns at once after an earlier `unpark`, so no job is missed.
             Err(_) => thread::park(),
         }
     }

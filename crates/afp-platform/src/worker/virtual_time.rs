@@ -5,8 +5,8 @@ use super::slots::Slots;
 use afp_core::{Fault, Instant, Job, Poll, Ticket, Worker};
 use std::collections::VecDeque;
 
-/// Does jobs when somebody asks, and has each ready when its declared time has passed after those
-/// before it: a worker with one thread, as fast as declared on every machine.
+/// Runs jobs on demand and delivers each after its declared time, one after the other: like one
+/// thread that is as fast as declared on every machine.
 ///
 /// ```
 /// use afp_core::{Duration, Fault, Instant, Job, Poll, Worker};
@@ -33,14 +33,14 @@ use std::collections::VecDeque;
 pub struct VirtualWorker<J> {
     jobs: Vec<J>,
     slots: Slots,
-    /// What is under way, with when it will be ready; the first is that which is worked on.
+    /// Jobs under way with their times of completion; the first is current.
     under_way: VecDeque<(Instant, Ticket)>,
-    /// When everything that has been begun is done.
+    /// Completion time of all jobs.
     free: Instant,
 }
 
 impl<J: Job> VirtualWorker<J> {
-    /// A worker with a slot for each of these jobs, whose buffers are used over and over.
+    /// Makes a worker with a slot for each of these jobs, whose buffers are reused.
     ///
     /// # Panics
     /// With more than 65536 jobs.
@@ -54,7 +54,7 @@ impl<J: Job> VirtualWorker<J> {
         }
     }
 
-    /// Does what is due by now, in the order in which it was begun.
+    /// Runs the due jobs, in order of submission.
     fn run_due(&mut self, now: Instant) {
         while let Some((ready, ticket)) = self.under_way.pop_front_if(|(ready, _)| *ready <= now) {
             let job = self.jobs.get_mut(usize::from(ticket.slot()));
