@@ -21,7 +21,6 @@ enum Bond {
     Atom,
 }
 
-/// An expression and how tightly it binds.
 struct Expr(TokenStream, Bond);
 
 impl Expr {
@@ -38,7 +37,6 @@ fn atom(tokens: TokenStream) -> Expr {
 
 /// Writes the formulas of one component.
 pub struct Formulas<'a> {
-    /// The paths of types.
     pub type_paths: &'a TypePaths<'a>,
     /// The getters of the plan's entries, or the fields of the input ports.
     pub entries: &'a [Ident],
@@ -48,7 +46,6 @@ pub struct Formulas<'a> {
     pub scratch: Vec<Ident>,
 }
 
-/// The holder of the values that formulas read.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Reads {
     /// The configuration of a plan.
@@ -191,7 +188,7 @@ impl<'a> Formulas<'a> {
             Operator::Add => quote!(int_add(#a, #b)?),
             Operator::Sub => quote!(int_sub(#a, #b)?),
             Operator::Mul => quote!(int_mul(#a, #b)?),
-            // The checks turn both sides of `/` into floats.
+            // The checker converts both sides of `/` to floats.
             Operator::Rem | Operator::Div => quote!(int_rem(#a, #b)?),
         })
     }
@@ -312,7 +309,7 @@ fn borrowed_text(formulas: &Formulas<'_>, formula: Part<'_>) -> Option<TokenStre
     }
 }
 
-/// A converted value. A text is an `&str`, and a printed quantity is an operand of `.`.
+/// The conversion of a value. A string is an `&str`, and a printed quantity is an operand of `.`.
 pub fn convert(
     type_paths: &TypePaths<'_>,
     conversion: &Conversion,

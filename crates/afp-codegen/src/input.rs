@@ -52,8 +52,8 @@ impl Parse for MacroInput {
 }
 
 impl MacroInput {
-    /// The result, with spans at the file's name: errors in the Rust code next to the macro would
-    /// otherwise be reported inside of `afp`.
+    /// Returns the result with spans at the file's name; otherwise rustc would report errors in the
+    /// Rust code next to the macro inside of `afp`.
     ///
     /// # Errors
     /// No result could be made.

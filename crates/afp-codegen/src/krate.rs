@@ -12,7 +12,6 @@ use crate::plan::{Generated, plan};
 use afp_dsl::graph::Graph;
 use afp_syntax::source::Span;
 
-/// The surroundings of a generated crate.
 #[derive(Clone, Debug)]
 pub struct CrateOptions {
     /// The plan's file name from the caller.
@@ -24,33 +23,28 @@ pub struct CrateOptions {
     pub origin: Origin,
     /// Crates of toolboxes that are not built in.
     pub dependencies: Vec<Dependency>,
-    /// The path of the robot's type, whose crate is among the dependencies; the simulated Carbot if
-    /// `None`.
+    /// Path of the robot's type, whose crate is among the dependencies; defaults to the simulated
+    /// Carbot.
     pub robot: Option<String>,
-    /// The hardware robot, in addition to the simulated robot; its crate is among the dependencies,
-    /// too.
+    /// The hardware robot, in addition to the simulated robot; its crate is also a dependency.
     pub hardware: Option<Hardware>,
-    /// Features of the runtime: `live` lets others watch.
+    /// Features of the runtime, such as `live` for live clients.
     pub features: Vec<String>,
-    /// Whether only a library is wanted, without the program that runs it in simulation.
+    /// Whether to generate only a library, without the program that runs it in simulation.
     pub lib: bool,
 }
 
-/// The hardware robot.
 #[derive(Clone, Debug)]
 pub struct Hardware {
-    /// The path of its type.
     pub ty: String,
     /// The settings for opening it: name and value.
     pub settings: Vec<(String, String)>,
 }
 
-/// A file of a generated crate.
 #[derive(Clone, Debug)]
 pub struct CrateFile {
     /// Its path, relative to the crate's folder.
     pub path: String,
-    /// Its text.
     pub text: String,
     places: Places,
     whole: Span,
@@ -64,7 +58,6 @@ impl CrateFile {
     }
 }
 
-/// The files of a crate.
 pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
     let generated = plan(graph, &Options { core: quote!(afp::core), ..Options::default() });
     let dependencies = dependencies(graph, options);
@@ -122,7 +115,6 @@ fn cargo_toml(krate: &str, options: &CrateOptions, dependencies: Vec<Dependency>
     manifest(&made_by, &package, dependencies, profile)
 }
 
-/// The crates that a plan needs: those of its toolboxes, `afp` and the runtime.
 fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let origin = &options.origin;
     let mut all = vec![Dependency::ours("afp", origin).with_only(&[])];
@@ -220,7 +212,6 @@ fn program(
     }
 }
 
-/// The last part of a path of either kind.
 fn base_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }

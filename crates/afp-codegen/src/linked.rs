@@ -10,7 +10,6 @@ use crate::layout::file;
 use crate::manifest::{Dependency, Origin, manifest, quoted};
 use crate::toolbox::{Support, register_supported};
 
-/// The linked parts.
 #[derive(Clone, Debug)]
 pub struct LinkOptions {
     /// The name of the package and of its program.
@@ -114,7 +113,6 @@ fn profile<'l>(
     profile
 }
 
-/// The dependencies of the crate, in addition to the main one.
 fn dependencies(options: &LinkOptions, ours: Dependency) -> Vec<Dependency> {
     let mut dependencies = options.dependencies.clone();
     dependencies.push(ours);
@@ -137,9 +135,7 @@ struct Registering<'a> {
     options: &'a LinkOptions,
     /// The toolboxes' declarations, in their order.
     declared: &'a [&'a Toolbox],
-    /// The path of `afp_core`.
     core: TokenStream,
-    /// The path of the Carbot's type.
     carbot: TokenStream,
 }
 
@@ -256,7 +252,6 @@ fn build_script() -> String {
     })
 }
 
-/// The tokens of a path in Rust.
 fn tokens(path: &str) -> Result<TokenStream, String> {
     path.parse().map_err(|_| path.to_owned())
 }

@@ -16,7 +16,6 @@ pub enum Origin {
     Version(String),
 }
 
-/// A dependency in a manifest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dependency {
     /// The name in the manifest; with `_` for `-` the name in Rust.
@@ -25,16 +24,12 @@ pub struct Dependency {
     pub package: String,
     /// The source of the crate; a path is that of the package.
     pub origin: Origin,
-    /// Its features.
     pub features: Features,
 }
 
-/// Features of a package.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Features {
-    /// The default features.
     Default,
-    /// Only these features.
     Only(Vec<String>),
 }
 
@@ -106,7 +101,6 @@ pub(super) fn manifest(
     )
 }
 
-/// A text as a basic string of TOML.
 pub(super) fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for letter in text.chars() {

@@ -14,8 +14,8 @@ const KEYWORDS: &[&str] = &[
     "virtual", "where", "while", "yield",
 ];
 
-/// Rust's words that cannot be names at all. The checks reject them, except for `self_`, which the
-/// change of case turns into `self`.
+/// Rust's words that cannot be names. The checker rejects them, except `self_`, which becomes
+/// `self` by the change of case.
 pub const NEVER: &[&str] = &["self", "Self", "super", "crate"];
 
 /// Rust's lower-case types: a module of that name hides the type from its neighbours.
@@ -44,7 +44,6 @@ pub fn path(text: &str) -> TokenStream {
     quote!(#(#parts)::*)
 }
 
-/// The static of the units of a dimension.
 pub fn units_name(dimension: Dimension) -> Ident {
     let name = dimension.name().replace('/', "_PER_").replace('-', "_MINUS_");
     let name = name.replace('*', "_").replace('^', "").to_uppercase();

@@ -41,18 +41,13 @@ pub struct Generated {
     pub plan: Ident,
 }
 
-/// One module of generated code.
 #[derive(Clone, Debug)]
 pub struct Module {
-    /// Its name.
     pub name: Ident,
     /// Its help, without slashes.
     pub doc: String,
-    /// Its `use` items.
     pub imports: TokenStream,
-    /// Its sections, each with its title.
     pub sections: Vec<(&'static str, TokenStream)>,
-    /// The source plan.
     pub span: Span,
 }
 

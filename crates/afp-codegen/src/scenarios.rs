@@ -25,7 +25,6 @@ pub struct ScenarioTests<'a> {
 pub struct ScenarioSetting {
     /// The file or folder, as in the source.
     pub path: String,
-    /// The type of the robot; the Carbot if `None`.
     robot: Option<TokenStream>,
     /// The paths of functions that register templates.
     register: Vec<TokenStream>,
@@ -85,7 +84,6 @@ impl<'a> ScenarioTests<'a> {
         });
     }
 
-    /// The modules; `None` if there are none.
     pub fn modules(self) -> Option<TokenStream> {
         (!self.modules.is_empty()).then_some(self.modules)
     }
@@ -99,7 +97,6 @@ impl<'a> ScenarioTests<'a> {
         }
     }
 
-    /// The expression of the robot with the available templates.
     fn robot(&self, plan: &Graph) -> TokenStream {
         let register = &self.setting.register;
         let Some(robot) = &self.setting.robot else {

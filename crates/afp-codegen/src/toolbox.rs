@@ -56,7 +56,6 @@ fn implemented(toolbox: &Toolbox) -> impl Iterator<Item = &Template> {
     all.filter(|template| template.reads_table.is_none() && template.cases.is_none())
 }
 
-/// The Rust names for templates of one kind.
 struct Words {
     template: Ident,
     component: Ident,
@@ -209,7 +208,6 @@ impl Parameters {
         all
     }
 
-    /// `<'a, V>` for a borrowing type.
     fn arguments(self) -> TokenStream {
         match (self.borrows, self.generic) {
             (true, true) => quote!(<'a, V>),
@@ -219,7 +217,6 @@ impl Parameters {
         }
     }
 
-    /// `<V>` for an owning type.
     fn owned_arguments(self) -> TokenStream {
         if self.generic { quote!(<V>) } else { TokenStream::new() }
     }

@@ -16,7 +16,6 @@ pub fn compile_errors(diags: &Diagnostics, sources: &Sources) -> TokenStream {
     errors.collect()
 }
 
-/// A compile error with this message.
 pub fn compile_error(text: &str) -> TokenStream {
     let text = format!("\n{text}");
     quote!(::core::compile_error! { #text })

@@ -54,7 +54,6 @@ fn generate(path: &Path) -> String {
     texts.collect::<Vec<_>>().join("\n")
 }
 
-/// The text of a module, or of the named sections.
 fn show(module: &Module, sections: Option<&str>) -> Option<String> {
     let Some(sections) = sections else { return Some(afp_codegen::file(module.tokens())) };
     let named = |title: &str| sections.split(", ").any(|section| section == title);

@@ -26,7 +26,6 @@ pub struct Bound<'a> {
     pub span: Span,
 }
 
-/// A function of inputs or outputs.
 pub struct Function {
     /// Its item; empty if it would do nothing.
     pub item: TokenStream,

@@ -1,4 +1,5 @@
-//! Computations that plan files declare, in the shape that `toolbox!` gives the computations of a toolbox.
+//! Computations declared in plan files, in the form that `toolbox!` gives the computations of a
+//! toolbox.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -13,13 +14,13 @@ use afp_dsl::graph::{Component, Graph, ToolboxId};
 use afp_dsl::toolbox::{Case, Template};
 use afp_dsl::types::{Enum, Type};
 
-/// The computations of one file that some plan uses, and their module.
+/// The used computations of one file, and their module.
 pub struct FileComputations {
-    /// Which of the graph's toolboxes has them.
+    /// Their toolbox in the graph.
     pub toolbox: ToolboxId,
     /// Their module.
     pub module: Ident,
-    /// The templates, named so that no enum of the module has the same name.
+    /// The templates, with names that differ from the module's enums.
     pub templates: Vec<Template>,
 }
 

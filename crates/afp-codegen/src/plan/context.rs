@@ -31,19 +31,15 @@ pub struct Context<'a> {
     pub shared: &'a Shared,
     pub plan: &'a Plan,
     pub rows: &'a Rows,
-    /// The module.
     pub module: Ident,
-    /// The plan's type.
     pub ty: Ident,
     /// Getters and fields of the entries.
     pub entries: Vec<Ident>,
-    /// The elements.
     pub elements: Vec<ComponentNames>,
-    /// The supervisors.
     pub supervisors: Vec<ComponentNames>,
-    /// Whether a formula of the plan reads the entry.
+    /// Whether a formula reads the entry.
     pub read: Vec<bool>,
-    /// Whether an output or a writer from outside can write the entry.
+    /// Whether an output or an external writer can write the entry.
     pub written: Vec<bool>,
 }
 
@@ -92,7 +88,6 @@ impl Shared {
 }
 
 impl<'a> Context<'a> {
-    /// Names all parts of a plan.
     pub fn new(graph: &'a Graph, shared: &'a Shared, id: PlanId) -> Self {
         let (plan, rows) = (graph.plan(id), graph.rows(id));
         let mut namer = Namer::new();
@@ -125,7 +120,6 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A template by index.
     pub fn template(&self, id: TemplateId) -> &'a Template {
         self.graph.template(id)
     }
@@ -152,7 +146,7 @@ impl<'a> Context<'a> {
             quote!(<#ty>)
         });
         let marker = quote!(#module::#name #generic);
-        // A declared computation is its own implementation.
+        // A declared computation implements itself.
         let implementation = match template.cases {
             Some(_) => marker.clone(),
             None => {
@@ -187,7 +181,6 @@ impl<'a> Context<'a> {
         run(&TypePaths { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
     }
 
-    /// The Rust type of a value.
     pub fn value_type(&self, ty: &Type) -> TokenStream {
         self.with_type_paths(|type_paths| type_paths.value(ty))
     }
@@ -216,7 +209,6 @@ pub fn entry_names(plan: &Plan) -> Vec<Ident> {
     plan.entries.iter().map(|entry| ident(&names.unique(snake(&entry.name)))).collect()
 }
 
-/// The Rust paths of one template.
 pub struct Paths {
     pub marker: TokenStream,
     pub module: TokenStream,

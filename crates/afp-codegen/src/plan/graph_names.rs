@@ -10,7 +10,6 @@ use crate::names::{PRIMITIVES, UniqueNames, camel, ident, snake};
 use afp_dsl::graph::{Graph, PlanId};
 use afp_dsl::toolbox::Toolbox;
 
-/// The names of plans and toolboxes.
 pub struct GraphNames {
     /// The module and the type of each plan.
     pub plans: Vec<(Ident, Ident)>,
@@ -67,7 +66,6 @@ impl GraphNames {
         GraphNames { plans: plans.collect(), toolboxes: toolboxes(&graph.toolboxes) }
     }
 
-    /// The module and the type of a plan.
     pub fn plan(&self, id: PlanId) -> (Ident, Ident) {
         self.plans[usize::from(id.0)].clone()
     }

@@ -146,7 +146,6 @@ pub fn imports(
     }
 }
 
-/// The items for the names of `afp_core` in the sections.
 pub fn of_core(core: &TokenStream, sections: &[(&'static str, TokenStream)]) -> TokenStream {
     let used = used(sections);
     let groups = [

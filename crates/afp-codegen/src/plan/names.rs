@@ -13,7 +13,6 @@ use afp_dsl::unfold::{
     ComponentKind, ComponentNames, EntryNames, PlanTexts, PortNames, Reaction, TextPlace, unfold,
 };
 
-/// The table of names, and access by name.
 pub fn names(context: &Context<'_>, id: PlanId) -> TokenStream {
     let all = unfold(&Graph { main: id, ..context.graph.clone() });
     let components = all.components.iter().map(|names| component(names, &all.texts));
@@ -37,7 +36,6 @@ pub fn names(context: &Context<'_>, id: PlanId) -> TokenStream {
     }
 }
 
-/// The units for the values of entries in texts.
 fn access(context: &Context<'_>) -> TokenStream {
     let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
     let units: Vec<_> = entries()

@@ -68,7 +68,6 @@ pub fn entry_doc(entry: &Entry) -> TokenStream {
     }
 }
 
-/// The getter for formulas.
 fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
     let value = context.value_type(&entry.ty);
     let help = doc("", &format!("The value of `{}`.", entry.name));
@@ -86,7 +85,6 @@ fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
     }
 }
 
-/// A number as a pattern in a `match`.
 fn number(index: usize) -> Literal {
     Literal::usize_unsuffixed(index)
 }
@@ -106,7 +104,6 @@ fn commits(context: &Context<'_>) -> Vec<TokenStream> {
     commits.collect()
 }
 
-/// The value of an entry.
 fn value(context: &Context<'_>) -> TokenStream {
     if context.entries.is_empty() {
         return quote! {
@@ -126,7 +123,6 @@ fn value(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// The first input without a value.
 fn missing_input(context: &Context<'_>) -> TokenStream {
     let entries = context.plan.entries.iter().zip(&context.entries).enumerate();
     let missing =
@@ -143,7 +139,6 @@ fn missing_input(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// The plan without its platform.
 pub fn plan_state(context: &Context<'_>) -> TokenStream {
     let ty = &context.ty;
     let slots = number(slots(context));
@@ -289,7 +284,6 @@ fn accepts(context: &Context<'_>) -> Vec<TokenStream> {
     accepts.collect()
 }
 
-/// The rights of external writers.
 fn outside(context: &Context<'_>) -> TokenStream {
     let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
     let accepts = accepts(context);

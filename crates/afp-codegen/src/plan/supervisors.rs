@@ -41,7 +41,6 @@ pub fn supervisors(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// A supervisor for its bindings.
 pub fn bound<'a>(
     context: &'a Context<'a>,
     supervisor: &'a Supervisor,

@@ -79,7 +79,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A value that is only looked at.
+    /// A value that is only read.
     fn operand(&self, formula: &Formula) -> TokenStream {
         let name = match formula.op() {
             Op::Entry(port) => self.formulas.entries.get(port.index()),
@@ -107,7 +107,7 @@ fn sign(comparison: Comparison) -> TokenStream {
     }
 }
 
-/// The method of an order that holds with a comparison.
+/// The method of an ordering for a comparison.
 fn is(comparison: Comparison) -> Ident {
     ident(match comparison {
         Comparison::Equal => "is_eq",

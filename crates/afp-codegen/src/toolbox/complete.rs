@@ -19,7 +19,6 @@ pub enum Asked {
 }
 
 impl Asked {
-    /// The names of the traits, without their paths.
     fn names(&self) -> Vec<String> {
         let Asked::Traits(traits) = self else { return Vec::new() };
         let bounds = Punctuated::<TypeParamBound, Token![+]>::parse_terminated;
@@ -35,8 +34,8 @@ impl Asked {
 /// A function that compiles if the Rust code implements every template for such a robot, and the
 /// names of the required traits.
 ///
-/// Generic code is compiled before it has a robot. Without this function, a missing implementation
-/// would only be found in the build of a plan.
+/// Generic code is compiled before its robot is known. Without this function, a missing
+/// implementation would only appear when a plan is built.
 pub fn complete(core: &TokenStream, toolbox: &Toolbox, asked: &Asked) -> TokenStream {
     let robot = match asked {
         Asked::Traits(_) => quote!(Robot),

@@ -5,10 +5,10 @@ use afp_dsl::toolbox::{Template, Toolbox};
 use afp_syntax::source::Span;
 
 /// The declaration for an error of the Rust compiler: a state, an event or a port of a template, or
-/// else the template; `None` if there is no such declaration.
+/// else the template; `None` without such a declaration.
 ///
-/// `said` are the names in the error's text, `line` the names in the line of Rust that it points
-/// at, `around` the names in the head of the item around that line.
+/// `said` are the names in the error's text, `line` the names in the marked line of Rust, `around`
+/// the names in the head of the surrounding item.
 pub fn declaration(
     toolbox: &Toolbox,
     said: &[&str],
@@ -23,7 +23,7 @@ pub fn declaration(
     let outcomes = template.outcomes.iter().map(|outcome| (&outcome.name, outcome.span));
     let outputs = template.outputs.iter().map(|port| (&port.name, port.span));
     let inputs = template.inputs.iter().map(|port| (&port.name, port.span));
-    // A line with a value of the wrong type names its state, too; the port is more exact.
+    // A line with a value of the wrong type also names its state; the port is more exact.
     let parts: Vec<_> = outputs.chain(inputs).chain(outcomes).collect();
     // For an undeclared state, its ports are irrelevant.
     let of_outcomes = said.contains(&"State") || said.contains(&"Event");

@@ -53,7 +53,6 @@ fn joined(device: &Device, name: &str) -> String {
     if device.name == ROBOT || device_name == own { own } else { format!("{device_name}_{own}") }
 }
 
-/// Distinct names.
 fn unique(names: &mut UniqueNames, name: String, spell: fn(&str) -> String) -> Ident {
     ident(&spell(&names.unique(name)))
 }
@@ -215,7 +214,6 @@ fn numbers(count: usize) -> Vec<Literal> {
     (0..count).map(Literal::usize_unsuffixed).collect()
 }
 
-/// The numbers of the signals.
 fn signals(core: &TokenStream, devices: &[Device]) -> TokenStream {
     let mut names = UniqueNames::default();
     let all = devices.iter().flat_map(|device| device.signals.iter().map(move |it| (device, it)));
@@ -234,7 +232,6 @@ fn signals(core: &TokenStream, devices: &[Device]) -> TokenStream {
     }
 }
 
-/// A device as a row of the table.
 fn row(core: &TokenStream, device: &Device) -> TokenStream {
     let devices = quote!(#core::devices);
     let Device { name, controls, faults, signals, .. } = device;
@@ -295,8 +292,7 @@ fn number(value: f64) -> TokenStream {
     }
 }
 
-/// Help in one line for tables: in small letters if it begins with one word of prose, without a
-/// full stop.
+/// Help as one line for tables: lower case if it begins with an ordinary word, without a period.
 fn help(text: &str) -> String {
     let line = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
     let line = line.trim_end_matches('.');

@@ -9,7 +9,6 @@ use crate::names::{camel, ident, snake};
 use afp_dsl::toolbox::{OutPort, Template};
 use afp_dsl::types::{Dimension, Type};
 
-/// The enum, and the access to its outputs.
 pub fn outcomes(core: &TokenStream, template: &Template) -> TokenStream {
     if template.states_of.is_some() {
         return positions(core);

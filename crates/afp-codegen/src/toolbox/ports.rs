@@ -10,13 +10,11 @@ use crate::rust_type::{degrees, int};
 use afp_dsl::toolbox::{Constant, InPort, Template};
 use afp_dsl::types::{Dimension, Type};
 
-/// The inputs before the start.
 pub fn inputs(core: &TokenStream, template: &Template) -> TokenStream {
     let ports: Vec<_> = read_once(template).collect();
     structure(core, template, "Inputs", "The inputs that are read before the start.", &ports)
 }
 
-/// The inputs at every poll.
 pub fn live(core: &TokenStream, template: &Template) -> TokenStream {
     let ports: Vec<_> = read_live(template).collect();
     structure(core, template, "Live", "The inputs that are read again at every poll.", &ports)

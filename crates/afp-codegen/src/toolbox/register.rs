@@ -12,7 +12,6 @@ use crate::layout::doc;
 use crate::names::{camel, ident, snake};
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox};
 
-/// `register`, for every platform that all components of the toolbox accept.
 pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let about = doc("", "Names the Rust type of every template and object to a registry.");
     let bounds = implemented(toolbox).filter(|t| t.kind != TemplateKind::Computation);
@@ -48,7 +47,6 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
 /// A platform, and the parts for registering a toolbox with it. Written as `path of core, "file",
 /// path of the implementation, registry, platform, [traits]`.
 pub struct Support {
-    /// The path of `afp_core`.
     pub core: TokenStream,
     /// The file of the toolbox, as in the source.
     pub file: String,
@@ -135,8 +133,8 @@ pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
 
 /// An expression: the name of a trait that the platform does not implement; empty if it does.
 ///
-/// A constant of the type itself, which exists if the trait is implemented, has precedence over a
-/// trait's constant.
+/// An inherent constant, which exists if the trait is implemented, has precedence over a trait's
+/// constant.
 fn missing(platform: &TokenStream, path: &TokenStream) -> TokenStream {
     let name = path.to_string();
     let name = name.rsplit(':').next().unwrap_or("").trim();
