@@ -17,7 +17,6 @@ pub struct Action {
     pub edits: Vec<TextEdit>,
 }
 
-/// The kind of an [`Action`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ActionKind {
     Fix,

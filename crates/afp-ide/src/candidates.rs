@@ -145,7 +145,6 @@ fn of_input(entries: &[Entry], input: &Input) -> PortCandidates {
     }
 }
 
-/// The SI value of a unit.
 fn worth(unit: &str) -> f64 {
     let one = Literal::parse(&format!("1 {unit}")).and_then(|literal| literal.value());
     one.filter(|one| *one > 0.0).unwrap_or(1.0)

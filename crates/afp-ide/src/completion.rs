@@ -39,21 +39,17 @@ pub struct Completion {
     pub rank: u8,
 }
 
-/// The kind of a [`Completion`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CompletionKind {
     Keyword,
-    /// A declared name.
     Definition(DefinitionKind),
-    /// A built-in type.
     Type,
     Unit,
-    /// A literal.
     Value,
     Function,
 }
 
-/// Returns all completions at a byte offset, best first; a word that ends there counts as a prefix.
+/// Returns all completions at a byte offset, best first; the word before it counts as a prefix.
 pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
     let context = Context::at(view, offset);
     let mut list = List { view, replaces: context.word, all: Vec::new(), uses: BTreeMap::new() };
@@ -144,13 +140,11 @@ impl List<'_, '_> {
         ids.into_iter().for_each(|id| self.definition(id, rank));
     }
 
-    /// Adds a declared name.
     fn definition(&mut self, id: DefinitionId, rank: u8) {
         let name = self.view.name_of(id).to_owned();
         self.definition_as(id, &name, plain(&name), rank);
     }
 
-    /// Adds a declared name with a label and a text.
     fn definition_as(&mut self, id: DefinitionId, label: &str, insert: Vec<Piece>, rank: u8) {
         let definition = self.view.index().definition(id);
         self.all.push(Completion {

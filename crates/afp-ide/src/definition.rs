@@ -4,7 +4,6 @@ use crate::View;
 use afp_dsl::index::{DefinitionId, DefinitionKind, Meaning};
 use afp_syntax::source::Span;
 
-/// A declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
     /// Its name; for a whole file, its first byte.
@@ -12,7 +11,6 @@ pub struct Target {
     pub span: Span,
 }
 
-/// A name and its declarations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definitions {
     /// The name at the cursor.

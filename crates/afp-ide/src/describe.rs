@@ -72,7 +72,6 @@ fn entry_line(view: &View, entry: &Entry) -> String {
     line
 }
 
-/// The part before a body.
 fn head(line: &str) -> String {
     line.split('{').next().unwrap_or_default().trim_end().to_owned()
 }
@@ -109,7 +108,6 @@ pub(crate) fn units(dimension: Dimension) -> Vec<String> {
     usual.iter().cloned().chain(others.map(str::to_owned)).collect()
 }
 
-/// A bound as a literal.
 pub(crate) fn bound(value: f64, ty: Option<&Type>) -> String {
     match ty {
         Some(Type::Quantity(dimension)) => quantity(value, *dimension),
@@ -117,7 +115,6 @@ pub(crate) fn bound(value: f64, ty: Option<&Type>) -> String {
     }
 }
 
-/// The description of a built-in name.
 pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
     let Meaning::Word(word) = meaning else { return None };
     Some(match word {

@@ -54,9 +54,9 @@ pub use wire::{item, path};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Binding {
-    /// `port = formula`
+    /// An input: `port = formula`.
     In(String),
-    /// `port => entry`
+    /// An output: `port => entry`.
     Out(String),
 }
 
@@ -75,7 +75,6 @@ pub enum Change {
     },
     /// Adds plans, given as text, after the last plan.
     AddPlan {
-        /// The text of one or more plans.
         text: String,
     },
     /// Adds entries, elements or supervisors, given as text.
@@ -84,7 +83,6 @@ pub enum Change {
         plan: String,
         /// The element, for supervisors.
         owner: Option<String>,
-        /// The text of one or more items.
         text: String,
         /// The next item; by default items follow the last item of their kind.
         before: Option<String>,
@@ -120,7 +118,6 @@ pub enum Change {
         from: Item,
         outcome: String,
     },
-    /// Sets the first element of a plan.
     SetStart { plan: String, to: String },
     /// Moves an item before another one of its list, or after the last of its kind.
     Reorder {
@@ -185,7 +182,7 @@ pub enum Change {
     SetNote {
         #[serde(with = "wire")]
         item: Item,
-        /// Its lines without slashes; empty to remove them.
+        /// Lines without slashes; empty to remove them.
         text: String,
     },
     /// Moves an entry, element or supervisor to another plan, or a supervisor to another owner.
@@ -206,14 +203,13 @@ pub enum Change {
         plan: String,
         elements: Vec<String>,
         new_plan: String,
-        /// The name of the sub-plan in the old plan.
+        /// Name of the sub-plan in the old plan.
         element: String,
     },
     /// Replaces a sub-plan by its elements. Its plan stays, and may be in a different file. New
     /// `use` lines import the names of the elements.
     Inline {
         plan: String,
-        /// The sub-plan.
         element: String,
     },
 }
@@ -344,7 +340,6 @@ fn in_form(
     Ok(())
 }
 
-/// Makes a change of one file.
 fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
     match change {
         Change::AddUse { toolbox, alias } => add::line_of_use(buffer, toolbox, alias.as_deref()),

@@ -6,7 +6,6 @@ use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 use afp_syntax::{Node, Token};
 
-/// A range of several lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Fold {
     /// From the first hidden byte to the last.
@@ -16,10 +15,8 @@ pub struct Fold {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FoldKind {
-    /// The contents of brackets.
     Body,
     Comment,
-    /// `use` lines.
     Uses,
 }
 
@@ -34,7 +31,6 @@ pub fn folds(view: &View) -> Vec<Fold> {
     folds
 }
 
-/// The contents of a node's brackets.
 fn body(view: &View, node: &Node) -> Option<Fold> {
     let pairs = [
         (Kind::OpenBrace, Kind::CloseBrace),
@@ -74,7 +70,6 @@ fn begins_line(token: &Token) -> bool {
     token.prev_token().is_none_or(|before| before.text().contains('\n'))
 }
 
-/// Consecutive `use` lines.
 fn uses(view: &View) -> Vec<Fold> {
     let mut blocks: Vec<Span> = Vec::new();
     let mut open = false;

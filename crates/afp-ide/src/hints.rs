@@ -11,7 +11,6 @@ use afp_syntax::source::Span;
 pub struct Hint {
     /// The empty span before it.
     pub at: Span,
-    /// The text.
     pub label: String,
     /// The parts of the bound.
     pub why: String,
@@ -32,7 +31,6 @@ pub fn hints(view: &View) -> Vec<Hint> {
     hints
 }
 
-/// The part before the body.
 fn head(supervisor: &Component) -> Option<Span> {
     let times = supervisor.times.iter().flat_map(|times| [times.every_span, times.deadline_span]);
     let template = supervisor.template.as_ref()?.span;

@@ -21,8 +21,7 @@ pub struct Hover {
 }
 
 impl Hover {
-    /// All of it as Markdown. Help texts come from plans and toolboxes, so do not render HTML in
-    /// it.
+    /// Renders Markdown. Help texts come from plans and toolboxes, so do not render HTML in it.
     pub fn markdown(&self) -> String {
         let code = match self.declaration.is_empty() {
             true => String::new(),
@@ -121,7 +120,6 @@ fn members(view: &View, id: DefinitionId) -> Vec<String> {
     members.map(line).collect()
 }
 
-/// The type of a port, a column or an entry.
 fn ty(view: &View, definition: &Definition) -> Option<Type> {
     if let Some(entry) = entry(view, definition) {
         return entry.ty.clone();

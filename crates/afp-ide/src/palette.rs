@@ -24,9 +24,9 @@ pub struct Offer {
     pub missing_use: Option<String>,
 }
 
-/// Returns all offers whose name or help contains a text, best first: visible ones before others,
-/// then prefixes of names before other matches in names before matches in help. Another robot's
-/// templates are offered only if the file uses its toolbox.
+/// Returns all offers whose name or help contains `query`, best first: visible offers before
+/// others, prefixes of names before other matches in names before matches in help. Templates of
+/// another robot are offered only if the file uses its toolbox.
 pub fn palette(view: &View, query: &str) -> Vec<Offer> {
     let query = query.to_lowercase();
     let is_offered = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
@@ -114,7 +114,7 @@ mod tests {
 
     const VACUUM: &str = include_str!("../../../examples/vacuum/vacuum.afp");
 
-    /// Previously a vacuum cleaner was offered a camera template.
+    /// A vacuum cleaner must not get a camera template.
     #[test]
     fn another_robots_templates_are_offered_only_if_they_are_used() {
         let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();

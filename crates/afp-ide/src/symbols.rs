@@ -5,7 +5,6 @@ use crate::describe::declaration;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_syntax::source::Span;
 
-/// A named item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
     /// Its name; for a scenario without the quotes.
@@ -13,10 +12,8 @@ pub struct Symbol {
     pub kind: DefinitionKind,
     /// Its declaration in one line.
     pub detail: String,
-    /// Its whole span, with all its children.
     pub span: Span,
     pub name_span: Span,
-    /// Its children in source order.
     pub children: Vec<Symbol>,
 }
 

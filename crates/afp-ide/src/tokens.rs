@@ -26,7 +26,6 @@ macro_rules! kinds {
         }
 
         impl ColourKind {
-            /// All kinds in order.
             pub const ALL: &'static [ColourKind] = &[$(ColourKind::$kind),*];
 
             pub fn name(self) -> &'static str {

@@ -99,7 +99,6 @@ impl<'a> View<'a> {
         self.outline().plans.iter().filter(move |plan| plan.file() == file)
     }
 
-    /// The element or supervisor of a node.
     pub(crate) fn component(&self, node: &Node) -> Option<&'a Component> {
         let span = self.node_span(node);
         let plan = self.plan_at(span.start)?;

@@ -14,7 +14,6 @@ pub enum Piece {
     Hole(String),
 }
 
-/// Text without placeholders.
 pub fn plain(text: &str) -> Vec<Piece> {
     vec![Piece::Text(text.to_owned())]
 }
@@ -42,7 +41,6 @@ pub(crate) fn component(
     pieces
 }
 
-/// Required bindings, and exits.
 struct Parts<'a> {
     required: Vec<&'a str>,
     exits: Vec<&'a str>,

@@ -7,7 +7,6 @@ use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 use afp_syntax::{Node, Token};
 
-/// A grammatical context and the word at it.
 #[derive(Debug)]
 pub(super) struct Context {
     /// The whole word; empty if none has begun.
@@ -24,7 +23,6 @@ pub(super) enum Origin {
     Other,
 }
 
-/// A grammatical context.
 #[derive(Debug)]
 pub(super) enum Place {
     Nothing,
@@ -41,7 +39,6 @@ pub(super) enum Place {
     Reactions(Node),
     /// The template of an element or supervisor; after a `.`, one of that toolbox.
     Made(Node, Option<DefinitionId>),
-    /// Times after the template of a supervisor.
     Times,
     /// Ports of an element or supervisor.
     Ports(Node),
@@ -76,7 +73,6 @@ pub(super) enum Place {
     Toolbox(Kind),
 }
 
-/// The use of a value.
 #[derive(Debug)]
 pub(super) enum Wanted {
     /// A port of an element or supervisor.
@@ -85,7 +81,6 @@ pub(super) enum Wanted {
     /// The entry named by a path of a scenario.
     Named(Node),
     Time,
-    /// Something else.
     Unknown,
 }
 
@@ -290,7 +285,6 @@ fn in_brackets(token: &Token) -> bool {
     nearest.is_some_and(|node| node.kind() == Kind::Brackets)
 }
 
-/// The use of a value after a token.
 fn wanted(token: &Token) -> Wanted {
     let Some(node) = ancestor(
         token,
@@ -323,7 +317,6 @@ fn wanted(token: &Token) -> Wanted {
     }
 }
 
-/// Whether a keyword is a child of a node.
 fn has_word(node: &Node, word: &str) -> bool {
     tokens(node).any(|token| token.kind() == Kind::Keyword && token.text() == word)
 }
@@ -332,7 +325,6 @@ fn first_name(node: &Node) -> String {
     token(node, Kind::Name).map(|token| token.text().to_owned()).unwrap_or_default()
 }
 
-/// The nearest enclosing node of some kinds.
 fn ancestor(token: &Token, kinds: &[Kind]) -> Option<Node> {
     token.parent_ancestors().find(|node| kinds.contains(&node.kind()))
 }

@@ -13,7 +13,6 @@ use afp_dsl::toolbox::{Template, Toolbox};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Items of a plan file.
 pub(super) fn of_file(list: &mut List) {
     list.keyword("use", plain("use "), 0);
     list.keyword("plan", with_holes("plan ‹Name› {\n    start ‹›\n}"), 0);
@@ -25,7 +24,6 @@ pub(super) fn of_file(list: &mut List) {
     list.keyword("scenario", with_holes(&format!("{head} {{\n    {body}\n}}")), 1);
 }
 
-/// Toolboxes after `use`.
 pub(super) fn uses(list: &mut List) {
     let all = list.view.index().definitions();
     let all = all.filter(|(_, known)| known.kind == DefinitionKind::Toolbox);
@@ -153,7 +151,6 @@ pub(super) fn templates(list: &mut List, node: &Node, home: Option<DefinitionId>
     }
 }
 
-/// Times after the template of a supervisor.
 pub(super) fn times(list: &mut List) {
     list.keywords(&["every", "deadline"], 0);
 }

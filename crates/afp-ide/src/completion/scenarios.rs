@@ -110,7 +110,6 @@ fn of_plan(list: &mut List, offset: u32, fits: fn(DefinitionKind) -> bool) {
     }
 }
 
-/// The parts of all toolboxes' devices.
 fn devices(list: &mut List, kinds: &[DefinitionKind]) {
     let all = list.view.index().definitions();
     let all = all.filter(|(_, known)| kinds.contains(&known.kind));

@@ -16,7 +16,6 @@ pub(super) fn of_file(list: &mut List) {
     list.keyword("robot", with_holes("robot {\n    truth ‹pose: pose›\n}"), 1);
 }
 
-/// Parts of a template or device.
 pub(super) fn parts(list: &mut List, within: Kind) {
     if within == Kind::Device {
         return list.keywords(&["press", "stop", "fault", "signal", "truth"], 0);

@@ -15,7 +15,6 @@ use afp_syntax::Node;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
-/// The requirements of a value.
 pub(super) struct Expected {
     ty: Type,
     default: Option<Constant>,

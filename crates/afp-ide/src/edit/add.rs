@@ -74,7 +74,6 @@ pub(super) fn splice_of_line(page: &Page<'_>, line: &str) -> Result<Option<Splic
     page.insert_lines(root, place, line, apart).map(Some)
 }
 
-/// Adds plans after the last one.
 pub(super) fn plans(buffer: &mut TextBuffer, text: &str) -> Result<(), Refused> {
     let (lines, nodes) = fragment::plans(text)?;
     let root = buffer.root();

@@ -21,7 +21,6 @@ pub(super) fn edge(buffer: &TextBuffer, component: &Node, outcome: &str) -> Opti
     })
 }
 
-/// The state of an edge that names none.
 fn state_of(buffer: &TextBuffer, component: &Node, edge: &Node) -> Option<String> {
     if tree::is_subplan(component) {
         return Some("OK".to_owned());

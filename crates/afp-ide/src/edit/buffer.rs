@@ -11,7 +11,6 @@ use afp_syntax::diagnostics::{Diagnostics, Edit, Severity};
 use afp_syntax::source::Span;
 use afp_syntax::{Node, parse};
 
-/// A replacement of a byte range.
 pub(super) type Splice = (Range<usize>, String);
 
 /// A text during a change.
@@ -60,12 +59,10 @@ impl TextBuffer {
         &self.text
     }
 
-    /// The tree of the current text.
     pub fn root(&self) -> Node {
         self.root.clone()
     }
 
-    /// The number of syntax errors in the current text.
     pub fn syntax_errors(&self) -> usize {
         self.syntax_errors
     }
@@ -105,7 +102,6 @@ impl TextBuffer {
         self.pieces = before;
     }
 
-    /// Whether the current text is in canonical form.
     pub fn is_canonical(&self) -> bool {
         afp_format::format(&self.text).is_ok_and(|formatted| formatted == self.text)
     }

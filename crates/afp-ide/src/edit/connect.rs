@@ -8,7 +8,6 @@ use super::{Item, Refused, add, name};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Connects a state or event, or changes its target.
 pub(super) fn connect(
     buffer: &mut TextBuffer,
     from: &Item,
@@ -95,7 +94,6 @@ fn is_text(text: &str) -> bool {
     })
 }
 
-/// Removes the edge of a state or event.
 pub(super) fn disconnect(
     buffer: &mut TextBuffer,
     from: &Item,
@@ -115,7 +113,6 @@ pub(super) fn disconnect(
     Ok(())
 }
 
-/// Sets the first element of a plan.
 pub(super) fn start(buffer: &mut TextBuffer, plan: &str, to: &str) -> Result<(), Refused> {
     let root = buffer.root();
     tree::element(&root, plan, to)?;

@@ -55,7 +55,6 @@ pub(super) fn set_type(
     set_part(buffer, old, name.end, ":", " ", ty)
 }
 
-/// Sets or removes the initial value.
 pub(super) fn set_value(
     buffer: &mut TextBuffer,
     entry: &Item,

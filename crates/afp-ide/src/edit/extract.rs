@@ -21,7 +21,6 @@ pub(super) use data::type_of;
 use data::Data;
 use flow::Flow;
 
-/// Elements to move into a new plan.
 pub(super) struct Selection {
     pub plan: Node,
     pub elements: Vec<Node>,

@@ -15,7 +15,6 @@ pub(super) fn formula(text: &str) -> Result<(), Refused> {
     })
 }
 
-/// Checks a type.
 pub(super) fn ty(text: &str) -> Result<(), Refused> {
     read("plan P { var x: ", text, " }", "a type", |item| children(item, Kind::Type).next())
 }

@@ -16,14 +16,12 @@ use afp_syntax::{Node, Token};
 
 use data::Data;
 
-/// A sub-plan to replace by its elements.
 struct Call {
     project: Project,
     /// The file of the inner plan.
     from: usize,
     /// The plan around it.
     outer: Node,
-    /// The sub-plan.
     element: Node,
     /// Its plan.
     inner: Node,
@@ -39,7 +37,6 @@ struct Call {
     first: String,
 }
 
-/// Replaces a sub-plan by its elements.
 pub(super) fn run(workspace: &mut Workspace, plan: &str, element: &str) -> Result<(), Refused> {
     workspace.check_inside(&Item::inner(plan, element))?;
     let call = Call::of(workspace.project(), workspace.home, plan, element)?;

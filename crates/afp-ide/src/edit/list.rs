@@ -8,7 +8,6 @@ use super::tree::{is_comment, own_range, range, solid_after, solid_before};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// The place of a new item.
 pub(super) enum Place {
     After(Node),
     Before(Node),
@@ -163,7 +162,6 @@ impl Page<'_> {
         }
     }
 
-    /// Removes an item and its comments from its list.
     pub fn remove(&self, node: &Node) -> Splice {
         let own = own_range(node);
         if self.begins_line(own.start) && self.ends_line(own.end) {
@@ -236,7 +234,6 @@ impl Page<'_> {
     }
 }
 
-/// Indents every line that is not empty.
 pub(super) fn indented(lines: &str, indent: &str) -> String {
     let line = |line: &str| if line.is_empty() { String::new() } else { format!("{indent}{line}") };
     lines.lines().map(line).collect::<Vec<_>>().join("\n")

@@ -8,7 +8,6 @@ use super::tree::Scope;
 /// Words that are never names.
 const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false", "repeat"];
 
-/// Checks that a word can be a name.
 pub(super) fn check(name: &str) -> Result<(), Refused> {
     let mut letters = name.chars();
     let first = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');

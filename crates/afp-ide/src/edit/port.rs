@@ -134,7 +134,6 @@ pub(super) fn set_template(
     Ok(())
 }
 
-/// Sets or removes `every` or `deadline` of a supervisor.
 pub(super) fn set_timing(
     buffer: &mut TextBuffer,
     supervisor: &Item,

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-/// The reason why a change is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refused {
     /// Lower case, no final period, names in single quotes.

@@ -17,7 +17,6 @@ use afp_syntax::source::Source;
 
 pub use given::Given;
 
-/// The result of several changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Made {
     /// The edits, file by file, in order and without overlaps.

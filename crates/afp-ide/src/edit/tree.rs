@@ -86,7 +86,6 @@ pub(super) fn find(root: &Node, item: &Item) -> Result<Node, Refused> {
     }
 }
 
-/// The node of an element or supervisor.
 pub(super) fn component(root: &Node, item: &Item) -> Result<Node, Refused> {
     let node = find(root, item)?;
     match node.kind() {
@@ -111,7 +110,6 @@ fn pick(mut nodes: impl Iterator<Item = Node>, name: &str) -> Option<Node> {
     nodes.filter(|node| name_of(node).unwrap_or_default() == text).nth(index)
 }
 
-/// The token that names an item or edge.
 pub(super) fn name_token(node: &Node) -> Option<Token> {
     match node.kind() {
         Kind::BindSame => children(node, Kind::Ref).find_map(|name| single(&name)),
@@ -119,12 +117,10 @@ pub(super) fn name_token(node: &Node) -> Option<Token> {
     }
 }
 
-/// The name of an item or edge.
 pub(super) fn name_of(node: &Node) -> Option<String> {
     name_token(node).map(|token| token.text().to_owned())
 }
 
-/// Whether an item or edge has that name.
 pub(super) fn is_named(node: &Node, name: &str) -> bool {
     name_token(node).is_some_and(|token| token.text() == name)
 }
@@ -150,7 +146,6 @@ pub(super) fn keyword(node: &Node) -> Option<Token> {
     tokens(node, Kind::Keyword).next()
 }
 
-/// Whether an element is a sub-plan.
 pub(super) fn is_subplan(element: &Node) -> bool {
     keyword(element).is_some_and(|token| token.text() == "subplan")
 }
@@ -199,7 +194,6 @@ pub(super) fn nameless(component: &Node) -> Option<Node> {
     edges(component).find(|edge| name_token(edge).is_none())
 }
 
-/// The states or events of an edge.
 pub(super) fn outcomes(edge: &Node) -> impl Iterator<Item = Token> {
     tokens(edge, Kind::Name)
 }

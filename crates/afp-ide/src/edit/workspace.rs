@@ -19,7 +19,6 @@ pub(super) struct Workspace {
 }
 
 impl Workspace {
-    /// A workspace with files, one of which is `home`.
     pub fn new(files: &[Source], toolboxes: &Rc<Toolboxes>, home: usize) -> Workspace {
         let paths = files.iter().map(|file| normalised(&file.name)).collect();
         let buffers =
@@ -27,12 +26,10 @@ impl Workspace {
         Workspace { paths, buffers, home }
     }
 
-    /// The buffer of the home file.
     pub fn buffer(&mut self) -> &mut TextBuffer {
         &mut self.buffers[self.home]
     }
 
-    /// The number of syntax errors in all files.
     pub fn syntax_errors(&self) -> usize {
         self.buffers.iter().map(TextBuffer::syntax_errors).sum()
     }

@@ -9,7 +9,7 @@ use crate::model::{Model, Place, Plan};
 /// A random choice: change, plan, component, part of it, other component.
 pub type Pick = (u8, Index, Index, Index, Index);
 
-/// A change and the file after it; the inner `None` means a refused change, the outer one an
+/// A change and the resulting file; the inner `None` is a refused change, the outer one an
 /// impossible choice.
 pub fn change(model: &Model, pick: &Pick) -> Option<(Change, Option<Model>)> {
     let (which, plan, component, part, other) = pick;
@@ -35,7 +35,6 @@ pub fn change(model: &Model, pick: &Pick) -> Option<(Change, Option<Model>)> {
     }
 }
 
-/// The elements and supervisors of a plan.
 fn items(plan: &Plan) -> Vec<Item> {
     let mut items = Vec::new();
     for element in &plan.elements {
@@ -97,7 +96,6 @@ fn unbind(after: &mut Model, item: Item, part: &Index) -> Pair {
     Some((Change::Unbind { component: item, port }, Some(after.clone())))
 }
 
-/// Renames an element or supervisor, or an entry.
 fn rename(after: &mut Model, plan: &Plan, item: Item) -> Pair {
     let to = "renamed".to_owned();
     let is_element = plan.elements.iter().any(|element| element.name == item.name());

@@ -46,8 +46,8 @@ fn there_and_back(text: &str, change: &Change, inverse: &Change) {
     assert_eq!(alone(&changed(&after, inverse)), alone(text), "{change:?} and back");
 }
 
-/// The text with `goal` for `goal = goal` and `goal => goal`, since an inverse does not restore the
-/// long form.
+/// Replaces `goal = goal` and `goal => goal` by `goal`, since an inverse does not restore the long
+/// form.
 fn alone(text: &str) -> String {
     let mut short = text.to_owned();
     for sign in [" = ", " => "] {

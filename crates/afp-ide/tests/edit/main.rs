@@ -20,7 +20,6 @@ use proptest::prelude::*;
 use changes::{Pick, change};
 use model::{Model, comments};
 
-/// The built-in toolboxes.
 static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(|| afp_toolboxes::sources().collect());
 
 /// The edits of a file without a project.

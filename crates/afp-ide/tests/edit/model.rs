@@ -9,7 +9,6 @@ use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 use afp_syntax::{kind::Kind, parse};
 
-/// A file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub plans: Vec<Plan>,

@@ -44,7 +44,6 @@ fn ask(compiled: &Compiled, toolboxes: &Toolboxes, file: u16, at: u32) {
     }
 }
 
-/// Makes all queries about a file.
 fn ask_all(compiled: &Compiled, toolboxes: &Toolboxes, file: u16) {
     let view = View::new(compiled, toolboxes, file);
     let text = view.text();
@@ -71,7 +70,7 @@ fn borders(text: &str) -> Vec<usize> {
         .collect()
 }
 
-/// By day the test samples one prefix in so many; `AFP_BY_NIGHT` tests all.
+/// The test samples one prefix per step; `AFP_BY_NIGHT` tests all.
 const STEP: usize = 23;
 
 #[test]

@@ -11,7 +11,6 @@ use afp_ide::edit::apply;
 use afp_ide::{View, actions};
 use afp_syntax::source::{Source, Span};
 
-/// Collects the plan files below a folder.
 fn plans(folder: &Path, to: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -74,7 +74,6 @@ impl Data {
         Ok(data)
     }
 
-    /// The entries of the new plan as texts.
     pub fn entries(&self) -> Vec<String> {
         let inputs = self.used.iter().filter_map(|used| {
             let input = used.input.as_ref()?;
@@ -87,7 +86,6 @@ impl Data {
         inputs.chain(outputs).chain(self.consts.iter().cloned()).collect()
     }
 
-    /// The bindings of the sub-plan.
     pub fn ports(&self) -> Vec<String> {
         let inputs = self.used.iter().filter_map(|used| {
             let input = used.input.as_ref()?;

@@ -40,11 +40,9 @@ fn claim_of(token: &Token) -> Option<Node> {
     token.parent()?.parent().filter(|node| node.kind() == Kind::Claim)
 }
 
-/// Reads claims.
 struct Reader<'a> {
     project: &'a Project,
     file: usize,
-    /// The name of the sub-plan.
     element: &'a str,
     /// Names in scenarios that mean selected elements.
     inside: &'a [Token],

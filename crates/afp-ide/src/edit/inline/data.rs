@@ -12,7 +12,6 @@ use crate::edit::{Refused, name};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Replacements of the inner plan's entries.
 pub(super) struct Data {
     read: BTreeMap<String, String>,
     /// After `=>`.

@@ -49,7 +49,6 @@ fn check(
     Ok(())
 }
 
-/// The toolboxes that a file uses, with their aliases.
 fn toolboxes(root: &Node) -> Vec<(String, Option<String>)> {
     let name = |line: &Node| tree::tokens(line, Kind::Name).next().map(|t| t.text().to_owned());
     let alias = |line: &Node| children(line, Kind::Alias).next().as_ref().and_then(name);

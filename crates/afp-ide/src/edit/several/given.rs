@@ -13,7 +13,6 @@ pub struct Given {
     all: Vec<(String, String)>,
 }
 
-/// The name of a new item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Name {
     given: String,
