@@ -75,7 +75,6 @@ fn truths(sim: &mut Simulation) -> Result<Vec<Arrow>, Box<dyn Error>> {
 struct Drawing {
     width: usize,
     height: usize,
-    /// The left border of the second picture.
     second: usize,
     rgb: Vec<u8>,
 }

@@ -29,7 +29,7 @@ fn field() -> (EchoField, Beam) {
     (EchoField::new(Map::new(walls.into_iter().chain(sides).chain(furniture)), &beam), beam)
 }
 
-/// A robot on a circle that looks around. Its odometry counts 2 % too much.
+/// A robot on a circle that looks around; its odometry counts 2 % too much.
 struct Robot {
     place: Pose2,
     odometry: Pose2,

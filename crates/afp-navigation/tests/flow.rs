@@ -49,7 +49,6 @@ const MOTIONS: [(&str, f64, f64); 4] = [
 /// Pairs of pictures from one motion.
 const PAIRS: usize = 40;
 
-/// The results of one method and one motion.
 #[derive(Debug)]
 struct Figures {
     method: &'static str,
@@ -60,7 +59,6 @@ struct Figures {
     places: usize,
     /// The lengths of the true flow, in pixels, smallest first.
     ways: Vec<f64>,
-    /// The time of one pair of pictures.
     nanos: u128,
 }
 

@@ -1,12 +1,9 @@
-//! Flow by OpenCV's pyramidal Lucas-Kanade.
-
 use super::{BAD_PICTURES, DULL, LEVELS, OpticalFlow, Picture, RETURN, STEPS, WINDOW};
 use afp_carbot::devices::{Grid, Shift};
 use afp_core::{Fault, Reason};
 use opencv::core::{Mat, MatTraitConst, Point2f, Size, TermCriteria, TermCriteria_Type, Vector};
 use opencv::video::{OPTFLOW_USE_INITIAL_FLOW, calc_optical_flow_pyr_lk};
 
-/// OpenCV has failed.
 pub const OPENCV_FAILED: Fault =
     Fault::new(&Reason { code: "opencv-failed", text: "OpenCV refused to compute the flow" });
 
@@ -22,7 +19,6 @@ pub struct OpenCv {
     back: Tracked,
 }
 
-/// The tracked points.
 #[derive(Debug, Default)]
 struct Tracked {
     points: Vector<Point2f>,
@@ -43,7 +39,6 @@ impl OpenCv {
         self.back.track(after, before, &self.there.points)
     }
 
-    /// The `n`-th point's shift, if it returned to its start.
     fn shift(&self, n: usize) -> Option<Shift> {
         let found = self.there.found.get(n).ok()? & self.back.found.get(n).ok()? != 0;
         let [from, there, back] = [&self.from, &self.there.points, &self.back.points]
@@ -100,7 +95,6 @@ impl OpticalFlow for OpenCv {
     }
 }
 
-/// A copy of a picture for OpenCV.
 fn mat(picture: &Picture) -> Result<Mat, Fault> {
     let refused = |_| OPENCV_FAILED;
     let row = Mat::from_slice(picture.grey()).map_err(refused)?;

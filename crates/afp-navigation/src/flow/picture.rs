@@ -1,5 +1,3 @@
-//! A picture in grey.
-
 use afp_carbot::devices::Frame;
 
 /// Brightness by pixel, row by row from the top left.

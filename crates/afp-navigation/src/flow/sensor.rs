@@ -22,7 +22,6 @@ pub struct FlowSensor<M, W> {
     method: PhantomData<fn() -> M>,
 }
 
-/// A picture with its number and time.
 #[derive(Clone, Debug, Default)]
 struct Seen {
     picture: Picture,
@@ -31,7 +30,6 @@ struct Seen {
     time: Instant,
 }
 
-/// The comparison on the worker.
 #[derive(Clone, Copy, Debug)]
 struct UnderWay {
     ticket: Ticket,
@@ -39,7 +37,6 @@ struct UnderWay {
     span: Duration,
 }
 
-/// The latest flow.
 #[derive(Clone, Debug)]
 struct Latest {
     /// The number of the last compared picture, even without a result.

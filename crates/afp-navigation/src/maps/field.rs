@@ -61,7 +61,6 @@ pub struct EchoField {
 #[derive(Clone, Copy, Debug)]
 struct Coding {
     shift: u32,
-    /// The number of parts in a metre.
     parts: f64,
 }
 
@@ -119,7 +118,7 @@ impl EchoField {
         Arc::ptr_eq(&self.cells, &other.cells)
     }
 
-    /// The map.
+    /// The map of the field.
     pub fn map(&self) -> &Map {
         &self.map
     }

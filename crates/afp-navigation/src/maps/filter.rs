@@ -65,7 +65,7 @@ pub struct Filter {
 }
 
 impl Filter {
-    /// A filter for a robot that knows its start to within a decimetre and a few degrees, at the
+    /// A filter for a robot that knows its start to a decimetre and a few degrees, at the
     /// odometry's zero. `seed` determines the particles.
     pub fn new(field: EchoField, beam: &Beam, start: Pose2, seed: u64) -> Self {
         let mut noise = Noise::new(seed, "particles");

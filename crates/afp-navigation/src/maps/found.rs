@@ -31,7 +31,6 @@ const REMEMBERED: Duration = Duration::from_secs(60);
 const AHEAD: f64 = 0.04;
 const INSIDE: f64 = 0.025;
 
-/// The place of an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Found {
     place: [f64; 2],
@@ -48,7 +47,6 @@ impl Found {
     }
 }
 
-/// The found obstacles, in the frame of the map.
 #[derive(Clone, Debug)]
 pub(crate) struct Finds {
     found: Vec<Found>,
@@ -61,14 +59,11 @@ pub(crate) struct Finds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Heard {
     pub(crate) sensor: [f64; 2],
-    /// Its direction, against the x axis.
     pub(crate) direction: f64,
-    /// Its distance, in metres.
     pub(crate) distance: f64,
 }
 
 impl Finds {
-    /// An empty list, for a robot with this body.
     pub(crate) fn new(body: &Body) -> Self {
         let bumper = [body.front.si() + AHEAD, body.half_width.si() - INSIDE];
         Finds { found: Vec::with_capacity(MOST), bumper }

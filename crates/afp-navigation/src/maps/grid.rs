@@ -50,7 +50,6 @@ impl Grid {
         (inside && column < self.columns && row < self.rows).then(|| row * self.columns + column)
     }
 
-    /// The middle of a cell.
     pub(crate) fn place(&self, index: usize) -> [f64; 2] {
         let (column, row) = (index % self.columns, index / self.columns);
         let at = |low: f64, n: usize| low + (n as f64 + 0.5) * self.cell;

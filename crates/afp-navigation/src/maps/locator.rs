@@ -47,7 +47,6 @@ pub struct Locator<W> {
     heard: Option<Instant>,
     waiting: Vec<Ping>,
     under_way: Option<(Ticket, Pose)>,
-    /// The fault of the job.
     failed: Option<Fault>,
     /// The last belief, and its odometry.
     believed: (Belief, Pose),

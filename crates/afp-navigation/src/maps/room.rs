@@ -25,7 +25,6 @@ pub(crate) struct Room {
 }
 
 impl Room {
-    /// The space for a robot with this body.
     pub(crate) fn of(body: &Body) -> Self {
         let fits = libm::ceil(100.0 * body.radius().si() + KEPT);
         let metres = |centimetres: f64| centimetres / 100.0;

@@ -166,7 +166,6 @@ mod tests {
         Grid::new(&map, Room::of(body))
     }
 
-    /// The rooms for the Carbot.
     fn rooms(width: f64) -> Grid {
         rooms_of(&carbot(), width)
     }

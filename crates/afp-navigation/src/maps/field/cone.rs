@@ -17,26 +17,23 @@ const HEARS: f64 = 4.0;
 /// A ray at the cone's edge is fainter: its maximum slant is smaller by this.
 const SLANT_LOST_AT_EDGE: f64 = 0.1;
 
-/// The listening area of a sensor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
     /// Rays to either side of its axis, a direction apart.
     pub(super) side: usize,
-    /// Their length, in metres.
+    /// Length of the rays, metres.
     pub(super) range: f64,
     /// The decrease of the maximum slant per metre, in radians.
     slant_lost: f64,
 }
 
-/// The hit of a ray.
 #[derive(Clone, Copy, Debug)]
 struct Met {
     range: f64,
-    /// The cosine of the slant at the hit.
+    /// Cosine of the slant.
     cos: f64,
 }
 
-/// An echo.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heard {
     pub(super) range: f64,

@@ -1,5 +1,3 @@
-//! The particles.
-
 use super::sonar::likelihood;
 use super::{Ping, wrap};
 use crate::maps::field::EchoField;
@@ -8,7 +6,6 @@ use afp_session::Pose2;
 use nalgebra::{Vector2, Vector3};
 use std::mem;
 
-/// The number of particles.
 const COUNT: usize = 400;
 /// The uncertainty of the start: standard deviations, in metres and radians.
 const START: [f64; 2] = [0.05, 0.04];
@@ -34,7 +31,7 @@ const MORE: f64 = 1.3;
 #[derive(Clone, Copy, Debug)]
 struct Particle {
     pose: Pose2,
-    /// Cosine and sine of its heading.
+    /// Cosine and sine of the heading.
     towards: [f64; 2],
     weight: f64,
 }
@@ -55,7 +52,7 @@ impl Particle {
 #[derive(Clone, Debug)]
 pub(super) struct Cloud {
     particles: Vec<Particle>,
-    /// A buffer for resampling.
+    /// Buffer for resampling.
     drawn: Vec<Particle>,
 }
 

@@ -81,7 +81,6 @@ fn summed<'e>(
 pub(super) struct Rival(Option<Pose2>);
 
 impl Rival {
-    /// Moves with the robot.
     pub(super) fn drive(&mut self, moved: Pose2) {
         self.0 = self.0.map(|place| place.beyond(moved));
     }

@@ -39,7 +39,6 @@ pub(super) fn likelihood(expected: Expected, heard: Option<f64>) -> f64 {
     }
 }
 
-/// The likelihood of a reading that an unknown object may explain.
 const EXCUSED: f64 = 0.95;
 
 /// The likelihood at a believed place: an unknown object may be before the map's object.
