@@ -1,4 +1,5 @@
-// Makes the page (`dist/`) or, with `--tests`, its tests (`built/`); `--watch` makes the page anew at each change.
+// Builds the page (`dist/`) or, with `--tests`, its tests (`built/`); `--watch` rebuilds the page
+// at each change.
 import { cp, mkdir, readdir, rm } from "node:fs/promises";
 import * as esbuild from "esbuild";
 

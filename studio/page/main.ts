@@ -1,4 +1,4 @@
-// Begins the page: the connection, then the screen, then what was open.
+// Starts the page: connection, screen, open file.
 import { effect } from "@preact/signals";
 import { h, render } from "preact";
 import { register } from "./screen/actions";
@@ -60,7 +60,7 @@ effect(() => {
 });
 const begun = hello.subscribe((said) => {
   if (!said) return;
-  // Once `subscribe` has given what ends it.
+  // After `subscribe` has returned its end function.
   queueMicrotask(() => {
     begun();
     void showFirst().then(() => {

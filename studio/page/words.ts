@@ -1,4 +1,4 @@
-// All words of the page. Messages, help and labels of edits come from the engine.
+// Texts of the page. Messages, help and labels of edits come from the engine.
 
 const count = (number: number, one: string, many: string): string => `${number} ${number === 1 ? one : many}`;
 
@@ -281,7 +281,7 @@ export const words = {
   emptyPlan: "Empty plan",
   emptyPlanBody: "A blank drawing.",
   examplesBody: "Finished plans to look at, run and change. The studio copies your choice into the folder, with its world.",
-  /** `find_infrared.afp` as people read it. */
+  /** Formats the name `find_infrared.afp`. */
   exampleOf: (name: string) => name.replace(/\.afp$/, "").replaceAll("_", " ").replace(/^./, (first) => first.toUpperCase()),
 
   guide: "Your first plan, step by step",
@@ -299,5 +299,5 @@ export const words = {
   },
 };
 
-/** The text of a new plan; it is a file, not a message. */
+/** The text of a new plan file. */
 export const planText = (name: string): string => `use carbot\n\nplan ${name} {\n}\n`;

@@ -1,21 +1,21 @@
-// Places that differ from the world's in the next run, set by hand.
+// Initial poses set by hand, for the next run.
 import { signal } from "@preact/signals";
 import type { Pose } from "../world/geometry";
 
-/** Where things are put, by their ids. */
+/** Poses by id. */
 export type Moves = Readonly<Record<string, Pose>>;
 
-/** Where the robot starts; null leaves it to the world. */
+/** Start of the robot; null for the world's start. */
 export const start = signal<Pose | null>(null);
 export const things = signal<Moves>({});
 export const drops = signal<readonly { shape: string; at: Pose }[]>([]);
 
-/** Resets all places to the world's. */
+/** Resets all poses to the world's. */
 export function putBack(): void {
   [start.value, things.value, drops.value] = [null, {}, []];
 }
 
-/** The requests of a run before its first step. */
+/** Requests that a run needs before its first step. */
 export const requests = (): { command: string; args: object }[] => [
   ...Object.entries(things.peek()).map(([thing, to]) => ({ command: "afp/move", args: { thing, to } })),
   ...drops.peek().map(({ shape, at }) => ({ command: "afp/drop", args: { shape, to: at } })),

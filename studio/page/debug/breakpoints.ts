@@ -1,5 +1,5 @@
-// Where a run stops: lines of the text, which are elements, exits, supervisors and entries of the drawing; they move with the
-// text and are remembered.
+// Breakpoints and logpoints. They are lines of text (elements, exits, supervisors, entries), follow
+// edits and are stored.
 import { effect, signal } from "@preact/signals";
 import { current, onText, text, type Told } from "../documents/documents";
 import { drawing } from "../drawing/model";
@@ -10,24 +10,23 @@ import { selected } from "../plan/selection";
 
 const KEY = "afp-studio-breakpoints";
 
-/** A place where a run stops, or says something. */
+/** A breakpoint or logpoint. */
 export interface Stop {
-  /** From 0. */
+  /** Line, from 0. */
   line: number;
   off?: boolean;
-  /** A formula: it stops only while this is true. */
+  /** Condition, as a formula. */
   condition?: string;
-  /** A message instead of a stop, with formulas in braces. */
+  /** Logpoint message, with formulas in braces. */
   log?: string;
 }
 
-/** Stops by document, by line. */
+/** Breakpoints by document and line. */
 export const breakpoints = signal<Readonly<Record<string, readonly Stop[]>>>({});
-/** The parts of the drawing that they stand at. */
+/** Breakpoints by part of the drawing. */
 export const stops = signal<readonly { part: Part; stop: Stop }[]>([]);
-/** The exceptions that stop a run. */
+/** Exceptions that stop a run. */
 export const filters = signal<readonly string[]>([]);
-/** The available exceptions. */
 export const FILTERS = ["fault", "deadlineMissed", "interruption"] as const;
 
 export const stopsOf = (uri: string): readonly Stop[] => breakpoints.value[uri] ?? [];
@@ -41,22 +40,22 @@ export function toggle(uri: string, line: number): void {
   put(uri, all.some((each) => each.line === line) ? all.filter((each) => each.line !== line) : [...all, { line }]);
 }
 
-/** Changes one that is there. */
+/** Changes an existing breakpoint. */
 export function change(uri: string, line: number, more: Partial<Stop>): void {
   put(uri, stopsOf(uri).map((each) => (each.line === line ? { ...each, ...more } : each)));
 }
 
-/** Sets or takes away a breakpoint at what is selected. */
+/** Toggles a breakpoint at the selection. */
 export async function toggleSelected(): Promise<void> {
   const [uri, last] = [current.value, selected.value.at(-1)];
   const place = last && (await spanOf(uri, last));
   if (place) toggle(uri, place.start.line);
 }
 
-/** Where lines are after a change of a text; those whose line is gone are gone. */
+/** Adapts lines to a change of the text; drops deleted lines. */
 export function moved(all: readonly Stop[], { range: { start, end }, text }: Told): Stop[] {
   const more = text.split("\n").length - 1 - (end.line - start.line);
-  // Lines after the change move with it, also a line before which a whole one is inserted.
+  // Lines after the change move, as well as a line before which a whole line is inserted.
   const behind = (line: number): boolean => line > end.line || (line === end.line && end.character === 0 && (start.line < end.line || text.endsWith("\n")));
   const to = (line: number): number | null => (behind(line) ? line + more : line <= start.line ? line : line === end.line ? start.line : null);
   const found = new Map<number, Stop>();
@@ -67,7 +66,7 @@ export function moved(all: readonly Stop[], { range: { start, end }, text }: Tol
   return [...found.values()];
 }
 
-/** The valid part of the stored value; older versions stored only lines. */
+/** The valid part of a stored value; older versions stored only lines. */
 function sound(kept: unknown): Record<string, Stop[]> {
   if (typeof kept !== "object" || kept === null) return {};
   const one = (stop: any): Stop[] => {
@@ -79,7 +78,7 @@ function sound(kept: unknown): Record<string, Stop[]> {
   return Object.fromEntries(Object.entries(kept).flatMap(([uri, all]) => (Array.isArray(all) ? [[uri, all.flatMap(one)]] : [])));
 }
 
-/** Begins to move them with the texts, to remember them, and to find their items. */
+/** Starts to track text changes, to store breakpoints and to find their items. */
 export function begin(storage: Storage): void {
   try {
     breakpoints.value = sound(JSON.parse(storage.getItem(KEY) ?? "{}"));
@@ -93,7 +92,7 @@ export function begin(storage: Storage): void {
   });
   effect(() => storage.setItem(KEY, JSON.stringify(breakpoints.value)));
   effect(() => {
-    // A drawing that has changed may have other names.
+    // A changed drawing may have other names.
     void drawing.value;
     void find(current.value, stopsOf(current.value));
   });
@@ -112,6 +111,6 @@ async function find(uri: string, all: readonly Stop[]): Promise<void> {
   stops.value = parts.flatMap((part, at) => (part ? [{ part, stop: all[at]! }] : []));
 }
 
-/** Breakpoints as the debugger takes them. */
+/** Breakpoints for the debugger. */
 export const asked = (all: readonly Stop[]): object[] =>
   all.filter(({ off }) => !off).map(({ line, condition, log }) => ({ line: line + 1, ...(condition ? { condition } : {}), ...(log ? { logMessage: log } : {}) }));

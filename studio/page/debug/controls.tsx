@@ -1,4 +1,4 @@
-// Run, pause, step and stop in the bar; the card that says how a run has ended.
+// Run, pause, step and stop in the bar, and the card at the end of a run.
 import { useState } from "preact/hooks";
 import { hasNoPlan, Tool } from "../screen/bar";
 import { command } from "../screen/commands";
@@ -15,13 +15,12 @@ import { active, again, back, dismiss, ended, frames, goOn, into, next, older, o
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 20, null] as const;
 
-/** The time of the run; before it begins, what it waits for. */
+/** Time of the run; before the start, the step that it waits for. */
 function Clock({ at }: { at: number | undefined }) {
   const text = at === undefined ? (said.value.at(-1)?.text ?? words.starting) : words.seconds(at);
   return <span class={`clock ${phase.value}`} title={at === undefined ? text : undefined}>{text}</span>;
 }
 
-/** The part of the bar that runs the plan. */
 export function Controls() {
   const now = phase.value;
   const held = now === "held";
@@ -55,7 +54,6 @@ export function Controls() {
   );
 }
 
-/** How the last run has ended, in sentences. */
 export function EndCard() {
   const end = ended.value;
   if (!end || active.value) return null;
@@ -73,7 +71,7 @@ export function EndCard() {
   );
 }
 
-/** The command line of the run, to be taken along. */
+/** Command line that repeats the run. */
 function Again({ command }: { command: string }) {
   const [copied, setCopied] = useState(false);
   const copy = () => navigator.clipboard.writeText(command).then(() => setCopied(true), () => refuse(drawn.noClipboard));
@@ -86,7 +84,7 @@ function Again({ command }: { command: string }) {
   );
 }
 
-/** Selects the edge by which the outermost plan has ended. */
+/** Selects the edge that ended the outermost plan. */
 function showEnd(edge: string): void {
   const plan = frames.value[0]?.plan;
   const names = edge.split(".");
@@ -95,7 +93,6 @@ function showEnd(edge: string): void {
   reveal(part);
 }
 
-/** The commands of a run, with their keys. */
 export function commands(): void {
   command({ id: "run", label: words.run, key: "F5", run: goOn, enabled: () => !active.value });
   command({ id: "go", label: words.goOn, key: "F5", run: goOn, enabled: () => phase.value === "held" });

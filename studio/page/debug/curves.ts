@@ -1,4 +1,4 @@
-// Numbers of a run over its time, to plot: values of entries and sensors.
+// Curves of a run: values of entries and sensors over time.
 import { signal } from "@preact/signals";
 import { quantity } from "../drawing/value";
 import { sensed } from "../world/sensed";
@@ -6,17 +6,17 @@ import { records, state } from "./run";
 
 export interface Curve {
   unit: string;
-  /** Seconds of the run and what it was from there on; in order. */
+  /** Pairs of seconds and the value from then on, in order. */
   points: readonly (readonly [number, number])[];
 }
 
-/** Points of a curve that are kept. */
+/** Maximum number of points per curve. */
 const MOST = 2000;
 
-/** Units of small quantities, in those of larger ones. */
+/** Conversion of small units to larger ones. */
 const PARTS: Record<string, [unit: string, factor: number]> = { cm: ["m", 0.01], "cm/s": ["m/s", 0.01], ms: ["s", 0.001] };
 
-/** A text as a number to plot; null where it is none. */
+/** Parses a number to plot; null for other text. */
 export function plotted(text: string): { number: number; unit: string } | null {
   if (text === "true" || text === "false") return { number: Number(text === "true"), unit: "" };
   const found = quantity(text);
@@ -24,7 +24,7 @@ export function plotted(text: string): { number: number; unit: string } | null {
   return found && { number: found.number * factor, unit };
 }
 
-/** How many points of a curve are not later than a moment. */
+/** Number of points up to a moment. */
 function until(points: Curve["points"], at: number): number {
   let [low, high] = [0, points.length];
   while (low < high) {
@@ -35,7 +35,7 @@ function until(points: Curve["points"], at: number): number {
   return low;
 }
 
-/** Half as many as are kept, as far apart everywhere; the last one stays. */
+/** Drops every other point; the last one stays. */
 function thinned(all: Curve["points"]): Curve["points"] {
   const apart = (all.at(-1)![0] - all[0]![0]) / (MOST / 2);
   let last = -Infinity;
@@ -49,7 +49,7 @@ function thinned(all: Curve["points"]): Curve["points"] {
 /** The value of a curve at a moment; null before its first point. */
 export const valueAt = ({ points }: Curve, at: number): number | null => points[until(points, at) - 1]?.[1] ?? null;
 
-/** The curve with a new point, possibly between others, since a run can go back. */
+/** Adds a point, possibly between others, since a run can go back. */
 export function extended(curve: Curve | undefined, at: number, text: string): Curve | undefined {
   const told = plotted(text);
   if (!told || (curve && curve.unit !== told.unit && told.number !== 0)) return curve;
@@ -62,13 +62,12 @@ export function extended(curve: Curve | undefined, at: number, text: string): Cu
   return { unit, points: all.length > MOST ? thinned(all) : all };
 }
 
-/** The curve without what came after a moment. */
+/** Cuts the points after a moment. */
 export const cut = (curve: Curve, at: number): Curve => ({ ...curve, points: curve.points.slice(0, until(curve.points, at)) });
 
-/** Curves of the run that is shown, by entry or signal. */
+/** Curves of the displayed run, by entry or signal. */
 export const curves = signal<ReadonlyMap<string, Curve>>(new Map());
 
-/** Adds the values of a moment. */
 export function tell(at: number, values: Iterable<readonly [name: string, text: string]>): void {
   const known = curves.peek();
   const changed = [...values].flatMap(([name, text]) => {
@@ -78,7 +77,7 @@ export function tell(at: number, values: Iterable<readonly [name: string, text: 
   if (changed.length) curves.value = new Map([...known, ...changed]);
 }
 
-/** Begins to keep what runs tell; the answer ends that. */
+/** Starts to record runs; returns a function that ends it. */
 export function begin(): () => void {
   let last = 0;
   const ends = [
@@ -86,7 +85,7 @@ export function begin(): () => void {
     sensed.subscribe((now) => now && tell(now.at, now.sensed.map(({ signal, text }) => [signal, text] as const))),
     records.subscribe((known) => {
       const at = known.at(-1)?.at;
-      // A run that goes on otherwise from a moment has another future there.
+      // A rewound run has a new future.
       if (at === undefined) curves.value = new Map();
       else if (at < last) curves.value = new Map([...curves.peek()].map(([name, curve]) => [name, cut(curve, at)]));
       last = at ?? 0;

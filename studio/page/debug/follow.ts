@@ -1,23 +1,23 @@
-// Which items of the drawing a run is at: paths of the run and items of the plan that is shown.
+// Maps the paths of a run to items of the displayed plan.
 
-/** A plan that is active: its path in the run (empty for the outermost), and its name. */
+/** An active plan: its path in the run (empty for the outermost), and its name. */
 export interface Frame {
   path: string;
   plan: string;
-  /** The address of its file, where that is known. */
+  /** Address of its file, if known. */
   uri?: string;
 }
 
 export interface At {
-  /** The innermost active elements of the plan that is shown, and those with a sub-plan that is active. */
+  /** The innermost active elements of the displayed plan, and elements with an active sub-plan. */
   active: { item: string; inside: boolean }[];
   watching: string[];
 }
 
-/** The frame of the plan that is shown, the innermost where it is active several times. */
+/** The frame of the displayed plan; the innermost if it is active several times. */
 export const frameOf = (frames: readonly Frame[], plan: string | null): Frame | undefined => [...frames].reverse().find((frame) => frame.plan === plan);
 
-/** The places of a run in the displayed plan. */
+/** The active items of the displayed plan. */
 export function at(frames: readonly Frame[], plan: string | null, stack: readonly string[], watching: readonly string[]): At {
   const frame = frameOf(frames, plan);
   if (!frame) return { active: [], watching: [] };
@@ -28,7 +28,8 @@ export function at(frames: readonly Frame[], plan: string | null, stack: readonl
     const names = own(path);
     return names.length === 1 ? [{ item: `${plan}.${names[0]}`, inside: path.split(".").length < deepest }] : [];
   });
-  // A supervisor of the plan has one name, one of an element two; longer ones are of a plan inside.
+  // A global supervisor's path has one name, a local supervisor's two; longer paths belong to
+  // sub-plans.
   const nested = new Set(frames.map((each) => each.path));
   const watches = watching.filter((path) => {
     const names = own(path);
@@ -44,10 +45,12 @@ interface Way {
   to: string;
 }
 
-/** Elements that a way goes through at once are no more than these. */
+/** Maximum number of elements on one path of computations. */
 const THROUGH = 8;
 
-/** The edges from one active element to the next, through computations, where only one way can have been taken. */
+/**
+ * The edges from one active element to the next through computations, if the path is unambiguous.
+ */
 export function taken(edges: Iterable<Way>, before: string | null, after: string | null, isPassed: (item: string) => boolean = () => false): string[] {
   if (!after || before === null || before === after) return [];
   const all = [...edges];

@@ -1,14 +1,12 @@
-// The drawing follows a stopped run into the active sub-plan, and out of it.
+// The drawing follows a stopped run into and out of sub-plans.
 import { effect, signal } from "@preact/signals";
 import { drawing, show } from "../drawing/model";
 import { command } from "../screen/commands";
 import { words } from "../words";
 import { frames, log, phase } from "./run";
 
-/** Whether the drawing follows. */
 export const following = signal(true);
 
-/** Begins to follow. */
 export function begin(): void {
   command({ id: "follow", label: words.follow, run: () => void (following.value = !following.value) });
   let last = "";

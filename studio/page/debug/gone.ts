@@ -1,4 +1,4 @@
-// A run ends with its page; a reloaded page reports that.
+// A run ends when its page is closed; the reloaded page reports it.
 import { effect } from "@preact/signals";
 import { trouble } from "../panes/files";
 import { words } from "../words";
@@ -6,7 +6,10 @@ import { active, log } from "./run";
 
 const KEY = "afp-studio-run";
 
-/** Says that a run has ended with the page before, and remembers from now on whether there is one; a log can be opened again. */
+/**
+ * Reports a run that ended with the previous page, and tracks the current run. Logs are excluded,
+ * since they can be reopened.
+ */
 export function begin(storage: Storage): void {
   if (storage.getItem(KEY)) trouble.value = words.runGone;
   effect(() => {

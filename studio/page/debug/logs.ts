@@ -1,4 +1,4 @@
-// Logs of runs that are over: opened like runs, with the plan that ran, where the folder has it.
+// Logs of past runs: opened like runs, with their plan if the folder has it.
 import { effect } from "@preact/signals";
 import { pathOf } from "../documents/addresses";
 import { drawing, trail, wanted } from "../drawing/model";
@@ -7,7 +7,7 @@ import { show as showPane } from "../screen/layout";
 import { files } from "../server/session";
 import { launched, openLog, phase, seek } from "./run";
 
-/** Shows a log at a moment of it. */
+/** Opens a log at a moment. */
 export async function openLogAt(uri: string, at: number): Promise<void> {
   await showLog(uri);
   await begun();
@@ -24,7 +24,7 @@ const begun = (): Promise<void> =>
     });
   });
 
-/** Shows a log and its plan. */
+/** Opens a log and its plan. */
 export async function showLog(uri: string): Promise<void> {
   await openLog(pathOf(uri));
   const begun = launched.peek();

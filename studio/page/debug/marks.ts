@@ -1,5 +1,4 @@
-// The state of a run in the drawing: the active element, enclosing plans, watching supervisors,
-// recent edges.
+// Marks of a run in the drawing: active element, enclosing plans, polled supervisors, recent edges.
 import { effect } from "@preact/signals";
 import { svg } from "../drawing/fragment";
 import { drawing } from "../drawing/model";
@@ -11,12 +10,12 @@ import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
 import { chips, holding, type Held } from "./values";
 
-/** Milliseconds that an edge is shown as just taken. */
+/** Duration of the highlight of a taken edge, milliseconds. */
 const FADES = 600;
 
 export interface Layers {
   root: Element;
-  /** Where marks go: borders below the elements, signs over them. */
+  /** Layers of marks: borders below the elements, icons above. */
   below: SVGGElement;
   over: SVGGElement;
   nodes: ReadonlyMap<string, SVGGElement>;
@@ -28,15 +27,15 @@ function frame([x, y, width, height]: Rect, name: string): SVGElement {
 }
 
 /**
- * A triangle in a corner, or two bars if the run is stopped, so that activity has more than a
- * colour.
+ * A triangle in a corner, or two bars for a stopped run, so that activity is not shown by colour
+ * only.
  */
 function sign([x, y]: Rect, held: boolean): SVGElement[] {
   const shape = held ? `M${x - 4} ${y - 4}h3v8h-3zm5 0h3v8h-3z` : `M${x - 3} ${y - 4.5}l7 4.5l-7 4.5z`;
   return [svg("circle", { class: `run-sign${held ? " held" : ""}`, cx: x, cy: y, r: 9 }), svg("path", { class: "run-arrow", d: shape })];
 }
 
-/** An eye in the corner of who watches. */
+/** An eye in the corner of an active supervisor. */
 function eye([x, y, width]: Rect): SVGElement[] {
   const right = x + width;
   return [
@@ -46,7 +45,7 @@ function eye([x, y, width]: Rect): SVGElement[] {
   ];
 }
 
-/** Keeps the marks of a run; the answer ends that. */
+/** Draws the marks of a run; returns a function that ends it. */
 export function marks(layers: Layers): () => void {
   let last: string | null = null;
   let shown = "";
@@ -60,7 +59,7 @@ export function marks(layers: Layers): () => void {
       [last, shown, before] = [null, "", null];
       return show(layers, [], [], new Set());
     }
-    // Nobody watches once a run is over.
+    // After the end of a run no supervisor is active.
     const found = at(frames.value, drawn.plan, now.stack, active.value ? now.watching : []);
     const key = JSON.stringify([found, phase.value]);
     if (key === shown && drawn === before) return;
@@ -86,7 +85,10 @@ const borders = (drawn: Drawing, found: At, held: boolean): SVGElement[] =>
     return rect ? [frame(rect, `run-active${inside ? " inside" : ""}${held ? " held" : ""}`)] : [];
   });
 
-/** A disc on the left border; a ring for one that is off, a bar for one with a condition, a diamond for one that speaks. */
+/**
+ * A disc on the left border: a ring if disabled, with a bar for a condition, a diamond for a
+ * logpoint.
+ */
 function disc([x, y, , height]: Rect, { off, condition, log }: Stop): SVGElement[] {
   const middle = y + height / 2;
   const name = `breakpoint${off ? " off" : ""}`;
@@ -94,7 +96,6 @@ function disc([x, y, , height]: Rect, { off, condition, log }: Stop): SVGElement
   return condition ? [body, svg("path", { class: "breakpoint-sign", d: `M${x - 3} ${middle - 1.5}h6m-6 3h6` })] : [body];
 }
 
-/** The breakpoints of a run. */
 export function discs(layer: SVGGElement): () => void {
   return effect(() => {
     const drawn = drawing.value;
@@ -118,7 +119,7 @@ function signs(drawn: Drawing, found: At, held: boolean): SVGElement[] {
   return [...watching, ...active];
 }
 
-/** Shows the edges that were just taken: wider, their exits ringed, and a dot that runs along them once. */
+/** Highlights the edges that were just taken: wider, with rings at their exits and a moving dot. */
 function flash({ over, edges }: Layers, drawn: Drawing, ids: readonly string[]): void {
   const groups = ids.flatMap((id) => edges.get(id) ?? []);
   const ways = ids.flatMap((id) => drawn.edges.get(id) ?? []);
@@ -129,7 +130,7 @@ function flash({ over, edges }: Layers, drawn: Drawing, ids: readonly string[]):
   const [first, ...rest] = ways.flatMap((way) => way.points);
   dot.style.offsetPath = `path("M${first!.join(" ")}${rest.map((point) => `L${point.join(" ")}`).join("")}")`;
   for (const group of groups) group.classList.add("taken");
-  // The active element may change meanwhile, and the layer with it.
+  // The active element and its layer may change meanwhile.
   over.after(dot, ...rings);
   setTimeout(() => {
     for (const group of groups) group.classList.remove("taken");

@@ -1,4 +1,4 @@
-// Whether the run is of another text than the one that is shown.
+// Whether the running text differs from the displayed text.
 import { computed, type ReadonlySignal } from "@preact/signals";
 import { pathOf } from "../documents/addresses";
 import { isOpen, text } from "../documents/documents";
@@ -6,9 +6,9 @@ import { files } from "../server/session";
 import { differs } from "../documents/hash";
 import type { State } from "./told";
 
-/** Whether a document that is open has another text than the one that runs. */
+/** Whether an open document differs from the running text. */
 export function olderThan(state: ReadonlySignal<State | null>): ReadonlySignal<boolean> {
-  // The state changes some twenty times a second, the run does not.
+  // The state changes about twenty times a second, the sources do not.
   const sources = computed(() => JSON.stringify(state.value?.sources ?? {}));
   return computed(() => {
     const running = JSON.parse(sources.value) as State["sources"];

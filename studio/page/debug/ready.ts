@@ -1,4 +1,4 @@
-// Whether the displayed plan can run; the reason against it is shown.
+// Whether the displayed plan can run; otherwise the reason is shown.
 import { effect } from "@preact/signals";
 import { current } from "../documents/documents";
 import { drawing, plan, trail, wanted, type Place } from "../drawing/model";
@@ -12,20 +12,20 @@ import { words } from "../words";
 import { isWritten } from "./written";
 
 /**
- * The plan to run: the one that led to the displayed plan. The last choice counts, even while its
- * drawing is loading.
+ * The plan to run: the root of the path to the displayed plan. The last choice counts, even while
+ * its drawing is loading.
  */
 export const toRun = (): Place => trail.value[0] ?? { uri: current.value, plan: wanted.value ?? plan.value ?? "" };
 export const planToRun = (): string => toRun().plan;
 
-/** Inputs of the plan to be run that neither it nor `given` says a value of, as far as it is drawn. */
+/** Inputs without a value in the plan or in `given`, as far as known. */
 function inputsMissing(given: object): Entry[] {
   const drawn = drawing.value;
   if (drawn?.uri !== current.value || drawn.plan !== planToRun()) return [];
   return drawn.entries.filter(({ kind, name, value }) => kind === "in" && name !== null && !value && !(name in given));
 }
 
-/** Whether a run may begin, in which inputs are `given` values. */
+/** Whether a run can start with the `given` inputs. */
 export async function canRun(given: object): Promise<boolean> {
   const { uri } = toRun();
   const isHere = (): boolean => toRun().uri === uri;
@@ -47,12 +47,12 @@ export async function canRun(given: object): Promise<boolean> {
   return trusted(uri);
 }
 
-/** Says what is in the way, until it is there no more. */
+/** Shows an obstacle until it is resolved. */
 function refuse(why: string, isThere: () => boolean): false {
   trouble.value = why;
   const ends = effect(() => {
     if (trouble.value === why && isThere()) return;
-    // Once `effect` has given what ends it.
+    // After `effect` has returned its end function.
     queueMicrotask(() => ends());
     if (trouble.peek() === why) trouble.value = null;
   });

@@ -1,8 +1,8 @@
-// Results of scenarios in the drawing: elements named by failed ones, and unused elements.
+// Results of scenarios in the drawing: failed and unused elements.
 import { svg } from "../drawing/fragment";
 import { rectOf, type Drawing } from "../drawing/shapes";
 
-/** A red sign with a number on what failed, a dotted border around what was never used. */
+/** A red badge with a number for failures, a dotted border for unused elements. */
 export function resultMarks(drawn: Drawing, { failed, unused }: { failed: ReadonlyMap<string, number>; unused: ReadonlySet<string> }): SVGElement[] {
   const signs = [...failed].flatMap(([item, number]) => {
     const rect = rectOf(drawn, { item });

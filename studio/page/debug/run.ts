@@ -1,4 +1,4 @@
-// A run of the plan: launched, paused, stepped, ended; and its state in the page.
+// The run of a plan: start, pause, step and end, and its state in the page.
 import { computed, effect, signal } from "@preact/signals";
 import { pathOf, uriOf } from "../documents/addresses";
 import { connect, type Dap } from "../server/dap";
@@ -20,38 +20,36 @@ export const phase = signal<Phase>("idle");
 export const state = signal<State | null>(null);
 export const ended = signal<Ended | null>(null);
 export const said = signal<readonly Said[]>([]);
-/** The plan that runs, and the sub-plans that are active in it, outermost first. */
+/** The running plan and its active sub-plans, outermost first. */
 export const frames = signal<readonly Frame[]>([]);
-/** Whether the text is another one than that which runs. */
 export const older = olderThan(state);
-/** How fast time passes; null is as fast as it can be computed. */
+/** Simulation speed; null is as fast as possible. */
 export const speed = signal<number | null>(1);
-/** Where the next run takes place; null leaves it to the plan and its project. */
+/** World of the next run; null for the project's. */
 export const world = signal<string | null>(null);
-/** The seed of all noise of the next run. */
+/** Noise seed of the next run. */
 export const seed = signal(0);
-/** Values of inputs for the next runs, with units; other inputs use the plan's values. */
+/** Inputs of the next runs, with units; others use the plan's values. */
 export const given = signal<{ readonly [input: string]: string }>({});
-/** The events, as records. */
 export const records = signal<readonly Record[]>([]);
-/** The log that is shown in place of a run; empty for a run. */
+/** The displayed log; empty for a run. */
 export const log = signal("");
-/** The reason for the stop. */
+/** Reason for the stop. */
 export const why = signal("");
 export const active = computed(() => phase.value === "running" || phase.value === "held" || phase.value === "starting");
 
-/** Milliseconds that the debugger has to say how a run ended. */
+/** Time for the debugger to report the end of a run, milliseconds. */
 const FAREWELL = 2000;
-/** Lines that are kept. */
+/** Maximum number of lines. */
 const MOST = 1000;
 
 let dap: Dap | null = null;
-/** The file of the plan that runs, or ran last. */
+/** File of the current or last plan. */
 let ran = "";
 
 export const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
 
-/** Runs the displayed plan, or the one that led to it; otherwise shows the reason. */
+/** Runs the displayed plan, or the plan that led to it; otherwise shows the reason. */
 export async function start(hold = false): Promise<void> {
   if (active.value) return;
   try {
@@ -70,7 +68,7 @@ const wantedWorld = (): object => ({
   ...(arranged.start.value ? { start: arranged.start.value } : {}),
 });
 
-/** Shows a recorded run from its log, at its beginning. */
+/** Opens a log at its beginning. */
 export async function openLog(path: string): Promise<void> {
   await stop();
   dismiss();
@@ -84,7 +82,7 @@ async function launch(what: { program: string } | { log: string }, plan: string)
   sensed.value = null;
   [records.value, log.value] = [[], "log" in what ? what.log : ""];
   frames.value = [{ path: "", plan }];
-  // A run that is over is still there to be asked.
+  // A finished run can still be queried.
   dap?.close();
   const own = connect(address(), () => dap === own && lost());
   dap = own;
@@ -99,10 +97,10 @@ async function launch(what: { program: string } | { log: string }, plan: string)
   }
 }
 
-/** The plan of the log that was opened last, and its file. */
+/** Plan and file of the last log. */
 export const launched = signal<{ plan: string; file: string } | null>(null);
 
-/** Takes what the debugger tells. */
+/** Handles the debugger's events. */
 function hear(own: Dap): void {
   own.on("initialized", () => void configure(own).catch(failed));
   own.on("afp/state", (now: State) => dap === own && take(own, now));
@@ -122,7 +120,7 @@ function hear(own: Dap): void {
   });
 }
 
-/** The debugger, which receives changes of breakpoints; before a run there is none. */
+/** The debugger, once it accepts breakpoints; null before a run. */
 let ready: Dap | null = null;
 
 async function configure(own: Dap): Promise<void> {
@@ -134,7 +132,7 @@ async function configure(own: Dap): Promise<void> {
   if (phase.value === "starting") phase.value = "running";
 }
 
-/** Tells the debugger where to stop. */
+/** Sends the breakpoints. */
 async function send(own: Dap): Promise<void> {
   const files = Object.entries(breakpoints.peek());
   const sent = await Promise.all(files.map(([uri, all]) => own.request<{ breakpoints: { message?: string }[] }>("setBreakpoints", { source: { path: pathOf(uri) }, breakpoints: asked(all) })));
@@ -152,7 +150,7 @@ function take(own: Dap, now: State): void {
   if (!steady) void follow(own, now).catch(() => {});
 }
 
-/** Learns which plans the active elements are of, where there are sub-plans among them. */
+/** Requests the plans of the active elements, if there are sub-plans. */
 async function follow(own: Dap, now: State): Promise<void> {
   const outermost = { path: "", plan: frames.peek()[0]?.plan ?? "", uri: ran };
   if (now.stack.length < 2) {
@@ -164,7 +162,7 @@ async function follow(own: Dap, now: State): Promise<void> {
   const files = new Map(stackFrames.map(({ name, source }) => [name.split(": ")[0], source?.path]));
   if (state.peek()?.stack.join() !== now.stack.join()) return;
   const stack = [...now.stack].sort((a, b) => a.length - b.length);
-  // The elements of a plan are written in its file.
+  // A plan's elements are in the plan's file.
   const uri = (at: number): { uri?: string } => (files.get(stack[at + 1]!) ? { uri: uriOf(files.get(stack[at + 1]!)!) } : {});
   frames.value = [outermost, ...stack.slice(0, -1).map((path, at) => ({ path, plan: named.get(path) ?? "", ...uri(at) }))];
 }
@@ -190,15 +188,10 @@ function failed(reason: unknown): void {
 /** Sends a request to the run; a rejection is shown. */
 export const order = (command: string, args: object = { threadId: 1 }): Promise<unknown> | undefined => dap?.request(command, args).catch(report);
 
-/**
- * Sends a request to the run in the background; without a run, or if it is rejected, there is no
- * answer.
- */
+/** Sends a request in the background; null without a run or if rejected. */
 export const ask = <T>(command: string, args: object = {}): Promise<T | null> => dap?.request<T>(command, args).catch(() => null) ?? Promise.resolve(null);
 
-/**
- * The meaning of a word in the run at this moment; null without a run, or if the text has changed.
- */
+/** The value of a word in the run now; null without a run, or if the text has changed. */
 export async function valueAt(uri: string, expression: string, at: Position): Promise<string | null> {
   if (phase.peek() === "idle" || older.peek()) return null;
   const place = { source: { path: pathOf(uri) }, line: at.line + 1, column: at.character + 1 };
@@ -210,24 +203,24 @@ export const pause = (): unknown => order("pause");
 export const next = (): unknown => step("next");
 export const into = (): unknown => step("stepIn");
 export const out = (): unknown => step("stepOut");
-/** To before the last transition. */
+/** Steps back before the last transition. */
 export const back = (): unknown => step("stepBack");
 
-/** Runs, or goes on. */
+/** Runs or continues. */
 export function goOn(): unknown {
   if (phase.value !== "held") return start();
   phase.value = "running";
   return order("continue");
 }
 
-/** Makes one step; without a run, starts one that is stopped. */
+/** Makes one step; without a run, starts a stopped one. */
 function step(command: string): unknown {
   if (!active.value) return start(true);
   if (phase.value === "held") phase.value = "running";
   return order(command);
 }
 
-/** Ends the run; the debugger says how it ended before it goes. */
+/** Ends the run after the debugger has reported its end. */
 export async function stop(): Promise<void> {
   const own = dap;
   if (own && active.value) {
@@ -240,14 +233,14 @@ export async function stop(): Promise<void> {
   if (phase.value !== "over") phase.value = "idle";
 }
 
-/** Starts again with the current text. */
+/** Restarts with the current text. */
 export async function again(): Promise<void> {
   await stop();
   dismiss();
   await start();
 }
 
-/** Makes a run of a sweep once more, where it can be watched. */
+/** Repeats a run of a sweep in the studio. */
 export async function repeat(run: { seed: number; values: { readonly [input: string]: { text: string } } }, where: string | null): Promise<void> {
   dismiss();
   arranged.putBack();
@@ -256,13 +249,13 @@ export async function repeat(run: { seed: number; values: { readonly [input: str
   await start();
 }
 
-/** Takes the card of the end away. */
+/** Closes the end card. */
 export function dismiss(): void {
   if (active.value) return;
   [phase.value, ended.value, state.value, log.value, sensed.value] = ["idle", null, null, "", null];
 }
 
-/** Goes to another moment of the run and stops there; a recorded run goes back. */
+/** Moves to another moment and stops; a recorded run goes back. */
 export function seek(at: number): unknown {
   if (phase.peek() === "idle" || phase.peek() === "starting") return;
   return order("afp/seek", { at });
@@ -273,14 +266,14 @@ export function setSpeed(factor: number | null): void {
   if (active.value) void order("afp/speed", factor === null ? {} : { factor });
 }
 
-/** Shows where the text says what happened. */
+/** Shows the source line of a message. */
 export function revealSaid({ path, line }: Said): void {
   const uri = current.value;
   const place = { line: line - 1, character: 0 };
   if (path && path === pathOf(uri)) void reveal(uri, { start: place, end: place }, "other");
 }
 
-/** Begins to follow breakpoints, and closes a recorded run when another file is shown. */
+/** Starts to send breakpoints, and closes a recorded run when another file is shown. */
 export function begin(): () => void {
   effect(() => {
     const { uri } = toRun();
@@ -288,7 +281,7 @@ export function begin(): () => void {
   });
   return effect(() => {
     void [breakpoints.value, filters.value];
-    // Lines of a text that is not the one that runs would be others.
+    // Lines of a changed text do not match the running text.
     if (!older.value && dap && dap === ready && active.peek()) void send(dap).catch(report);
   });
 }

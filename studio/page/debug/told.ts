@@ -1,4 +1,4 @@
-// The messages of a debugger about a run.
+// Messages of the debugger about a run.
 
 export type Phase = "idle" | "starting" | "running" | "held" | "over";
 
@@ -9,34 +9,34 @@ export interface Forced {
   until: number;
 }
 
-/** The state, sent by the debugger some twenty times a second. */
+/** The state, sent about twenty times a second. */
 export interface State {
   at: number;
   stack: string[];
   watching: string[];
   entries: Record<string, string>;
   held: boolean;
-  /** Where the robot is, metres and radians; null for one that does not say so. */
+  /** Robot pose in metres and radians; null if unknown. */
   pose: readonly [number, number, number] | null;
-  /** A force, with its end; without a value it is a state or event. */
+  /** Forced values with their end; without a value, a forced state or event. */
   forced: readonly Forced[];
-  /** The hashes of the texts that run, by their paths. */
+  /** Hashes of the running texts, by path. */
   sources: { readonly [path: string]: string };
-  /** Where things are that move, by their ids. */
+  /** Outlines of moving objects, by id. */
   moving: readonly { id: string; outline: readonly (readonly [number, number])[] }[];
 }
 
 export interface Ended {
   ending: "ok" | "interrupted" | "error";
-  /** The edge by which the plan ended, as a path; or who or what made it end. */
+  /** The edge that ended the plan, as a path, or the client or time limit. */
   by: { edge?: string; client?: string; until?: number } | null;
   at: number;
   sentences: string[];
-  /** The command line that repeats the run; null where there is none. */
+  /** Command line that repeats the run; null if there is none. */
   again: string | null;
 }
 
-/** A line of what happened, and where the text says so. */
+/** A message, with its source line. */
 export interface Said {
   text: string;
   kind: string;

@@ -1,4 +1,4 @@
-// The events of a run as records for the timeline: rows for activity, watching and writes.
+// Converts events of a run to rows of the timeline: activity, supervisors and writes.
 
 export interface Record {
   at: number;
@@ -14,7 +14,7 @@ export interface Record {
 
 export interface Bar {
   from: number;
-  /** Where it ends; null while it lasts. */
+  /** End; null while it is active. */
   to: number | null;
   label: string;
 }
@@ -25,18 +25,20 @@ export interface Mark {
 }
 
 export interface Row {
-  /** The subject: the flow of a plan, a supervisor, an entry, deadlines. */
+  /** The row: the flow of a plan, a supervisor, an entry, deadlines. */
   kind: "flow" | "supervisor" | "entry" | "misses";
   name: string;
   bars: Bar[];
   marks: Mark[];
 }
 
-/** Records that are kept; the oldest go first. */
+/** Maximum number of records; the oldest are dropped. */
 const MOST = 50_000;
 
-/** The records after some more have come. A run that was moved back and goes on alike changes nothing; one that goes on in
- * another way takes the place of what had happened from there on. */
+/**
+ * Appends records. If a rewound run repeats them, nothing changes; if it takes another course, they
+ * replace the later records.
+ */
 export function extended(before: readonly Record[], more: readonly Record[]): readonly Record[] {
   const first = more[0];
   if (!first) return before;
@@ -47,7 +49,7 @@ export function extended(before: readonly Record[], more: readonly Record[]): re
 }
 
 const words = new Map<string, string>();
-/** Different words that are kept. */
+/** Maximum number of shared strings. */
 const MOST_WORDS = 5000;
 
 function kept(text: string): string {
@@ -58,7 +60,7 @@ function kept(text: string): string {
   return text;
 }
 
-/** A record as it is kept: the same words come again and again in a long run, and are there once. */
+/** Shares repeated strings, to save memory in long runs. */
 export const packed = (record: Record): Record => ({
   ...record,
   kind: kept(record.kind),
@@ -69,14 +71,12 @@ export const packed = (record: Record): Record => ({
 
 const same = (one: Record, other: Record): boolean => one.step === other.step && one.kind === other.kind && one.path === other.path && one.text === other.text;
 
-/** The kinds of records that end an activity. */
 const ENDS = ["finished", "interrupted", "diverted", "ended"];
 
-/** Of an element, the plan that it is in. */
 const planOf = (path: string): string => path.split(".").slice(0, -1).join(".");
 const nameOf = (path: string): string => path.split(".").at(-1)!;
 
-/** Rows for all records: plans first, outermost first, then supervisors, entries, missed deadlines. */
+/** Rows of all records: plans (outermost first), supervisors, entries, missed deadlines. */
 export function rows(records: readonly Record[]): Row[] {
   const all = new Map<string, Row>();
   const row = (kind: Row["kind"], name: string): Row => {
@@ -108,46 +108,46 @@ function follow({ kind, path, at, text }: Record, row: Row): void {
   }
 }
 
-/** Activity and watching inside an element end with it. */
+/** The end of an element also ends its inner activity and supervisors. */
 function close({ bars }: Row, at: number): void {
   const open = bars.at(-1);
   if (open?.to === null) open.to = at;
 }
 
-/** The moments at which something happened, in order, each once. */
+/** Distinct times of records, in order. */
 export const moments = (records: readonly Record[]): number[] => [...new Set(records.map(({ at }) => at))].sort((a, b) => a - b);
 
-/** The moment before or after another one; null where there is none. */
+/** The next or previous moment; null if there is none. */
 export function beside(all: readonly number[], at: number, by: -1 | 1): number | null {
   const near = 1e-6;
   const found = by > 0 ? all.find((each) => each > at + near) : all.findLast((each) => each < at - near);
   return found ?? null;
 }
 
-/** The part of a run that is in sight: seconds. */
+/** The visible part of a run, in seconds. */
 export interface Window {
   from: number;
   to: number;
 }
 
-/** Seconds that are in sight at least. */
+/** Shortest window, seconds. */
 const LEAST = 0.05;
 
-/** The window zoomed around a moment, within the run. */
+/** Zooms around a moment, within the run. */
 export function zoomed({ from, to }: Window, around: number, factor: number, end: number): Window {
   const length = Math.max(LEAST, Math.min((to - from) * factor, Math.max(end, LEAST)));
   const share = to > from ? (around - from) / (to - from) : 0;
   return within({ from: around - share * length, to: around - share * length + length }, end);
 }
 
-/** The window moved inside the run. */
+/** Moves a window to within the run. */
 export function within({ from, to }: Window, end: number): Window {
   const length = to - from;
   const begin = Math.max(0, Math.min(from, Math.max(0, end - length)));
   return { from: begin, to: begin + length };
 }
 
-/** Where lines of a scale stand: some eight of them, at round seconds. */
+/** Positions of about eight scale lines at round seconds. */
 export function scale({ from, to }: Window): number[] {
   const rough = (to - from) / 8;
   const power = 10 ** Math.floor(Math.log10(rough));

@@ -1,25 +1,24 @@
-// The value of each entry during a run, shown in the drawing as a chip in place of its declaration.
+// Values of entries during a run, as chips over their declarations.
 import { svg } from "../drawing/fragment";
 import { nameOf, rectOf, type Drawing, type Entry } from "../drawing/shapes";
 import { frameOf, type Frame } from "./follow";
 import type { State } from "./told";
 
-/** Characters of a value that a chip shows. */
+/** Maximum number of characters in a chip. */
 const LONGEST = 22;
 /**
- * The width of a character, the height of a chip, its padding, and the width of a lock, in units of
- * the plan.
+ * Width of a character, height of a chip, its padding, and width of a lock, in units of the plan.
  */
 const CHARACTER = 7.6;
 const HEIGHT = 18;
 const PAD = 6;
 const LOCK = 14;
-/** From the widest name to the chips. */
+/** Distance from the widest name to the chips. */
 const GAP = 6;
 
 export interface Held {
   text: string;
-  /** For how many seconds it is still forced; null for what the plan has written. */
+  /** Remaining seconds of a forced value; null for a value of the plan. */
   left: number | null;
 }
 
@@ -31,13 +30,13 @@ export function holding(frames: readonly Frame[], plan: string | null, now: Pick
   const text = now.entries[path];
   const forced = now.forced.find((each) => each.path === path && each.value !== undefined);
   if (text === undefined) return null;
-  // A forced value of a stopped run is written by its next step.
+  // In a stopped run, a forced value is written by the next step.
   return forced ? { text: forced.value ?? text, left: Math.max(0, Math.ceil(forced.until - now.at)) } : { text, left: null };
 }
 
 const short = (value: string): string => (value.length > LONGEST ? `${value.slice(0, LONGEST - 1)}…` : value);
 
-/** Chips for entries with a value; those of `fresh` have just been written. */
+/** Chips of entries with values; `fresh` were just written. */
 export function chips(drawn: Drawing, values: ReadonlyMap<string, Held>, fresh: ReadonlySet<string>): SVGElement[] {
   const rights = drawn.entries.map(({ item }) => rectOf(drawn, { item })).map((rect) => (rect ? rect[0] + rect[2] : 0));
   const left = Math.max(...rights) + GAP;

@@ -1,4 +1,4 @@
-// Why an element runs, or does not: asked of the run about what is selected.
+// Explains why the selected element runs or not; the run answers.
 import { effect, signal } from "@preact/signals";
 import { plan } from "../drawing/model";
 import { selected } from "../plan/selection";
@@ -8,9 +8,9 @@ import { active, ask, frames, phase, state } from "./run";
 export interface Edge {
   from: string;
   outcome: string;
-  /** When it was taken last, seconds; null for never. */
+  /** Time when it was last taken, seconds; null for never. */
   last: number | null;
-  /** Whether its component looks now. */
+  /** Whether its component is active. */
   looks: boolean;
   values: Record<string, string>;
 }
@@ -24,11 +24,11 @@ export interface Why {
   because?: string;
 }
 
-/** The path in question; empty for none. */
+/** The queried path; empty for none. */
 export const asked = signal("");
 export const why = signal<Why | null>(null);
 
-/** The path in the run of an item of the plan that is shown; null where that plan is not active. */
+/** An item's path in the run; null if its plan is not active. */
 export function pathInRun(item: string): string | null {
   const frame = frameOf(frames.peek(), plan.peek());
   if (!frame) return null;
@@ -36,7 +36,6 @@ export function pathInRun(item: string): string | null {
   return own && frame.path ? `${frame.path}.${own}` : own || null;
 }
 
-/** Asks why what is selected runs, or does not. */
 export function askWhy(): void {
   const last = selected.peek().at(-1);
   const path = last && active.peek() ? pathInRun(last.item) : null;
@@ -47,10 +46,9 @@ export const close = (): void => {
   asked.value = "";
 };
 
-/** Milliseconds between two questions while the run goes on. */
+/** Milliseconds between queries of a running plan. */
 const PAUSE = 500;
 
-/** Begins to ask again as the run goes on. */
 export function begin(): void {
   let last = -Infinity;
   effect(() => {

@@ -1,7 +1,7 @@
-// Waits for the disk, since a run reads the files.
+// Waits until files are written, since a run reads the disk.
 import { saved } from "../documents/documents";
 
-/** Waits a little until the server has written everything. */
+/** Waits a limited time until the server has written everything. */
 export function isWritten(): Promise<boolean> {
   return new Promise((done) => {
     let end = (): void => {};

@@ -1,4 +1,4 @@
-// Changes of a text as values: those of an edit of the server, of an editor, and those between two texts.
+// Changes of texts as values: from server edits, from the editor, and from comparing two texts.
 import type { ChangeSet } from "@codemirror/state";
 import type { Change } from "./history";
 import { hunks } from "./lines";
@@ -9,24 +9,24 @@ export interface TextEdit {
   newText: string;
 }
 
-/** A text with `\n` between its lines, as all texts of the page are. */
+/** Text with `\n` line ends, as everywhere in the page. */
 export const withNewlines = (text: string): string => (text.includes("\r") ? text.replace(/\r\n?/g, "\n") : text);
 
-/** Edits of one text, all for the text as it is, as changes to be made one after the other. */
+/** Converts edits of one text version to sequential changes. */
 export function inOrder(uri: string, text: string, edits: TextEdit[]): Change[] {
   const changes = edits.map(({ range, newText }) => ({ uri, from: offset(text, range.start), to: offset(text, range.end), insert: newText }));
-  // From the end, so that none moves another; of two at one place the later one first.
+  // From the end, so that positions stay valid; at one position the later edit first.
   return changes.map((change, at) => ({ change, at })).sort((a, b) => b.change.from - a.change.from || b.at - a.at).map(({ change }) => change);
 }
 
-/** The changes of a set, to be made one after the other. */
+/** Converts a change set to sequential changes. */
 export function sequence(uri: string, changes: ChangeSet): Change[] {
   const made: Change[] = [];
   changes.iterChanges((fromA, toA, fromB, _toB, inserted) => made.push({ uri, from: fromB, to: fromB + toA - fromA, insert: inserted.toString() }), true);
   return made;
 }
 
-/** The changes from one text to another, line by line, to apply in order. */
+/** Line-based changes from one text to another, in order. */
 export function difference(uri: string, before: string, after: string): Change[] {
   const [old, now] = [lines(before), lines(after)];
   const [starts, ends] = [offsets(old), offsets(now)];
@@ -34,7 +34,7 @@ export function difference(uri: string, before: string, after: string): Change[]
     const insert = after.slice(ends[start], ends[end]);
     return within(uri, before.slice(starts[from], starts[to]), insert, starts[from]!);
   };
-  // From the end, so that none moves another.
+  // From the end, so that positions stay valid.
   return hunks(old, now).map(part).reverse();
 }
 

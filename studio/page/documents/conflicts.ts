@@ -1,4 +1,4 @@
-// Two texts of one document that do not go together: somebody has to choose.
+// Conflicting texts of a document: the user has to choose.
 import { signal } from "@preact/signals";
 
 export type Keep = "mine" | "theirs" | "both";
@@ -6,14 +6,14 @@ export type Keep = "mine" | "theirs" | "both";
 export interface Conflict {
   uri: string;
   choices: Keep[];
-  /** A text that exists only here; null if the room has it. */
+  /** Text that exists only in the page; null if the room has it. */
   mine: string | null;
   choose(keep: Keep): Promise<void>;
 }
 
 export const conflicts = signal<readonly Conflict[]>([]);
 
-/** Asks for a choice, in place of an older one of that text; it is settled once it was made. */
+/** Asks for a choice, instead of an older question about the same text. */
 export function dispute(one: Conflict): void {
   const choose = async (keep: Keep): Promise<void> => {
     await one.choose(keep);
@@ -23,7 +23,7 @@ export function dispute(one: Conflict): void {
   conflicts.value = [...conflicts.value.filter(({ uri }) => uri !== one.uri), asked];
 }
 
-/** The room holds one text again. */
+/** Withdraws a question: the room has one text again. */
 export function settle(uri: string): void {
   conflicts.value = conflicts.value.filter((one) => one.uri !== uri || one.mine !== null);
 }

@@ -1,5 +1,5 @@
-// The texts of the page: opened from the room, changed in one place, sent to the server, and saved
-// only by it.
+// The page's texts: opened from the room, changed in one place, sent to the server, saved only by
+// it.
 import type { ChangeSet } from "@codemirror/state";
 import { computed, signal } from "@preact/signals";
 import { difference, withNewlines } from "./changes";
@@ -16,19 +16,19 @@ import { words } from "../words";
 interface Document extends Kept {
   /** The last version that the room has written. */
   written: number;
-  /** The changes since the last text known to the room. */
+  /** The changes since the room's last known text. */
   pending: pending.Pending;
   failed: string | null;
 }
 
 type Taker = (uri: string, changes: Change[], maker: Maker, told: Told[]) => void;
 
-/** The author of a change, who does not receive it again. */
+/** The author of a change, who is not notified of it. */
 export type Maker = "text" | "outside" | "page";
 
 const documents = signal<ReadonlyMap<string, Document>>(new Map());
 const opening = new Map<string, Promise<void>>();
-/** A change for the server, with lines and columns of the text right before it. */
+/** A change for the server, positioned in the text before it. */
 export interface Told {
   range: Range;
   text: string;
@@ -36,12 +36,10 @@ export interface Told {
 
 const takers = new Set<Taker>();
 
-/** The address of the plan file that is shown; empty without one. */
+/** Address of the displayed plan file; empty without one. */
 export const current = signal("");
 
-/**
- * The state of the texts: saved, being saved, waiting for a choice, or the reason for a failure.
- */
+/** State of the texts: saved, being saved, waiting for a choice, or an error message. */
 export const saved = computed<"saved" | "saving" | "disputed" | (string & {})>(() => {
   const all = [...documents.value.values()];
   const failed = all.find((each) => each.failed !== null);
@@ -52,27 +50,27 @@ export const saved = computed<"saved" | "saving" | "disputed" | (string & {})>((
 
 const isWritten = (document: Document): boolean => document.written >= document.version;
 
-/** Whether something could not be written; then it says why. */
+/** Whether a write failed; the state is then an error message. */
 export const isFailed = (state: string): boolean => !["saved", "saving", "disputed"].includes(state);
 
-/** The texts that lie nowhere but here, as far as known. */
+/** Texts that exist only in this page, as far as known. */
 export const unsent = computed<readonly { uri: string; text: string }[]>(() => {
   const open = [...documents.value.values()].filter((document) => !isWritten(document));
   const asked = conflicts.value.flatMap(({ uri, mine }) => (mine === null ? [] : [{ uri, text: mine }]));
   return [...asked, ...open.map(({ uri, text }) => ({ uri, text }))];
 });
 
-/** The addresses of the texts that are open. */
+/** Addresses of the open texts. */
 export const opened = computed<readonly string[]>(() => [...documents.value.keys()]);
 
 export const text = (uri: string): string => documents.value.get(uri)?.text ?? "";
 export const version = (uri: string): number => documents.value.get(uri)?.version ?? 0;
 export const isOpen = (uri: string): boolean => documents.value.has(uri);
-/** The display name of a document: its path from the root of the folder. */
+/** The display name of a document: its path relative to the folder. */
 export const nameOf = (uri: string): string =>
   files.value.find((file) => file.uri === uri)?.name ?? decodeURIComponent(uri.split("/").at(-1) ?? uri);
 
-/** Hears of every change of a text, after it was made; the answer ends that. */
+/** Subscribes to text changes; returns a function that ends it. */
 export function onText(take: Taker): () => void {
   takers.add(take);
   return () => takers.delete(take);
@@ -82,7 +80,7 @@ const put = (document: Document): void => {
   documents.value = new Map(documents.value).set(document.uri, document);
 };
 
-/** Opens a document, unless it is open. A file that is not there yet is empty. */
+/** Opens a document, unless open. A missing file is empty. */
 export function open(uri: string): Promise<void> {
   const before = opening.get(uri);
   if (before) return before;
@@ -93,8 +91,8 @@ export function open(uri: string): Promise<void> {
 }
 
 /**
- * Makes a file that is not there yet, and opens it. Where its text is open since another program has removed a file of that
- * name, the room tells the new one.
+ * Creates a file and opens it. If the file was open and another program has removed it, the room
+ * sends the new text.
  */
 export async function create(what: { uri: string; text: string } | { uri: string; example: string }): Promise<void> {
   const { uri } = what;
@@ -109,7 +107,7 @@ export async function create(what: { uri: string; text: string } | { uri: string
   opening.set(uri, Promise.resolve());
 }
 
-/** Closes a document whose file is gone, or has another name. */
+/** Closes a document whose file was removed or renamed. */
 export function forget(uri: string): void {
   const rest = new Map(documents.peek());
   if (rest.delete(uri)) lsp().notify("textDocument/didClose", { textDocument: { uri } });
@@ -123,10 +121,13 @@ function take(kept: Kept): void {
   lsp().notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text } });
 }
 
-/** Tells the server what was made of a text. */
+/** Reports changes of a text to the server. */
 type Say = (uri: string, told: Told[], changes: ChangeSet) => void;
 
-/** Makes changes one after the other, tells the server, and everybody who shows a text. Makes none where a text would get too long. */
+/**
+ * Applies changes in order and notifies the server and all listeners. Applies nothing if a text
+ * would get too long.
+ */
 function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] {
   const all = documents.peek();
   const steps: Step[] = [];
@@ -157,21 +158,21 @@ function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] 
   return steps;
 }
 
-/** Sends local changes to the server, or sends them after a reconnection. */
+/** Sends local changes to the server, or after a reconnection. */
 const own: Say = (uri, told, changes) => {
   const version = tell(lsp(), uri, told);
   const document = documents.peek().get(uri)!;
   if (lsp().open.peek()) put({ ...document, pending: pending.told(document.pending, version, changes) });
 };
 
-/** Letters that a change takes in a message beside its text, about. */
+/** Approximate overhead of a change in a message, in characters. */
 const AROUND = 100;
-/** The number of letters up to which changes are always sent. */
+/** Number of characters up to which changes are always sent. */
 const FEW = 100_000;
 
 /**
- * Tells a server the next version of a text; gives that. `taken` is the number of the room's change that it has in it.
- * Where many changes were made the text itself is shorter.
+ * Sends the next version of a text and returns its number. `taken` is the number of the included
+ * room change. For many changes, sends the shorter whole text.
  */
 function tell(to: Lsp, uri: string, changes: readonly { range?: Range; text: string }[], taken?: number): number {
   const document = documents.peek().get(uri)!;
@@ -183,14 +184,17 @@ function tell(to: Lsp, uri: string, changes: readonly { range?: Range; text: str
   return version;
 }
 
-/** Takes over what was typed in the text pane. Changes are made one after the other. */
+/** Applies typing from the text pane, in order. */
 export function typed(changes: Change[]): void {
   const steps = make(changes, "text");
   const label = steps.every((step) => step.inserted === "") ? words.deleting : words.typing;
   record({ label, steps, ...(steps.length === 1 ? { typed: Date.now() } : {}) });
 }
 
-/** Connects texts, history and server, with no text open; `ask` puts a question with choices and gives the chosen one. */
+/**
+ * Connects texts, history and server, without open texts; `ask` shows a question and returns the
+ * choice.
+ */
 export function begin(ask: (title: string, body: string, choices: string[]) => Promise<string | null>): void {
   documents.value = new Map();
   opening.clear();
@@ -223,7 +227,7 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
   lsp().on("afp/pen", hold);
 }
 
-/** The local change whose text is on its way from the room. */
+/** The local change whose text is expected from the room. */
 const expected = new Map<string, string>();
 
 function hold({ yours }: { yours: boolean }): void {
@@ -247,21 +251,21 @@ export function offer(uri: string, mine: string): void {
   dispute({ uri, choices: ["mine", "theirs"], mine, choose });
 }
 
-/** Takes over a text of the room, based on a known version. A text saved here stays saved. */
+/** Applies a text of the room that is based on a known version. A text saved here stays saved. */
 function arrived(uri: string, now: string, seen: number, number: number): void {
   const before = documents.peek().get(uri)!;
   const [rest, changes] = pending.arrived(uri, before.pending, seen, now);
   put({ ...before, pending: rest });
   const say: Say = (uri, told) => void tell(lsp(), uri, told, number);
   takeOver(uri, changes, say);
-  // The room waits for the text that has its own in it, also where that changes nothing.
+  // The room waits for an acknowledgement, even without a change.
   if (changes.length === 0) tell(lsp(), uri, [], number);
   const { written, version } = before;
   const document = documents.peek().get(uri)!;
   put({ ...document, written: written >= version ? document.version : written, failed: null });
 }
 
-/** Makes changes that come from the room, as an entry of the history. */
+/** Applies changes of the room as a history entry. */
 function takeOver(uri: string, changes: Change[], say: Say): void {
   const label = expected.get(uri);
   expected.delete(uri);
@@ -270,7 +274,7 @@ function takeOver(uri: string, changes: Change[], say: Say): void {
   else record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
 }
 
-/** On a new connection, reads all open texts again, opens them and sends pending changes. */
+/** After a reconnection, reads all open texts again, reopens them and sends pending changes. */
 export async function again(first: Lsp): Promise<Finish> {
   const uris = [...documents.peek().keys()];
   const all = await Promise.all(uris.map((uri) => first.request<Kept>("afp/read", { uri }).catch(refused)));
@@ -278,7 +282,7 @@ export async function again(first: Lsp): Promise<Finish> {
   return () => all.forEach((kept, at) => reopen(first, uris[at]!, kept));
 }
 
-/** The reason why a text cannot be read; other errors are passed on. */
+/** The reason why a text cannot be read; other errors are rethrown. */
 function refused(why: unknown): Refused {
   if (why instanceof Refused && why.code !== LOST) return why;
   throw why;

@@ -1,4 +1,4 @@
-// Edits of texts that the server computes: made for the very text that they are for, as one entry of the history.
+// Server edits: applied to exactly their text version, as one history entry.
 import { inOrder, type TextEdit } from "./changes";
 import { open, text, version } from "./documents";
 import type { Part } from "../drawing/shapes";
@@ -15,7 +15,7 @@ export interface WorkspaceEdit {
   changes?: Record<string, TextEdit[]>;
 }
 
-/** Makes an edit of the server as one entry of the history. Throws where it was made for another version. */
+/** Applies a server edit as one history entry. Throws `Stale` for another version. */
 export async function apply(edit: WorkspaceEdit, label: string, chosen?: Part[]): Promise<void> {
   if (!pen.value) throw new Refused(0, words.watching);
   const listed = edit.documentChanges ?? Object.entries(edit.changes ?? {}).map(edited);
@@ -33,12 +33,12 @@ export async function apply(edit: WorkspaceEdit, label: string, chosen?: Part[])
 
 const edited = ([uri, edits]: [string, TextEdit[]]) => ({ textDocument: { uri, version: null }, edits });
 
-/** An edit is for a text that has changed meanwhile: it is to be asked for again. */
+/** The text has changed since the edit was computed; request it again. */
 export class Stale extends Error {}
 
 type Ask = () => Promise<{ edit: WorkspaceEdit; label: string; select?: Part[] } | null>;
 
-/** Asks for an edit and makes it, again where the text has changed meanwhile. */
+/** Requests an edit and applies it; retries if the text has changed. */
 export const change = (ask: Ask): Promise<void> => underWay(made(ask));
 
 async function made(ask: Ask): Promise<void> {
@@ -54,10 +54,13 @@ async function made(ask: Ask): Promise<void> {
   }
 }
 
-/** So often an edit is asked for. */
+/** Maximum number of requests. */
 const ATTEMPTS = 4;
 
-/** Asks once more where the connection was lost before the answer: an edit is computed by the server and made here. */
+/**
+ * Retries if the connection was lost before the answer. This is safe, because edits are applied
+ * only here.
+ */
 async function asked<T>(ask: () => Promise<T>): Promise<T> {
   try {
     return await ask();

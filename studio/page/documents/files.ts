@@ -1,4 +1,5 @@
-// Files as a whole: given another name, copied, removed and put back, downloaded. The places of a drawing go with their plan.
+// File operations: rename, copy, remove, restore, download. Positions of a drawing follow their
+// plan.
 import { signal } from "@preact/signals";
 import { isWritten } from "../debug/written";
 import { Refused } from "../server/lsp";
@@ -12,10 +13,10 @@ interface Whole {
   text: string;
 }
 
-/** The last removed file, until it is restored or another one is removed. */
+/** The last removed file, until it is restored or another file is removed. */
 export const removed = signal<readonly Whole[] | null>(null);
 
-/** A file, and the places of its drawing where it has some. */
+/** A file, with the positions file of its drawing if there is one. */
 async function withPlaces(uri: string): Promise<string[]> {
   const places = `${uri}.layout`;
   await Promise.all([open(uri), open(places)]);
@@ -26,7 +27,7 @@ async function written(): Promise<void> {
   if (!(await isWritten())) throw new Refused(0, words.notRunNotSaved);
 }
 
-/** Gives a file another name; its new address. */
+/** Renames a file; returns its new address. */
 export async function rename(uri: string, name: string): Promise<string> {
   await written();
   const to = uriOf(name);
@@ -38,13 +39,13 @@ export async function rename(uri: string, name: string): Promise<string> {
   return to;
 }
 
-/** Makes a copy of a file under another name; its address. */
+/** Copies a file; returns the new address. */
 export async function duplicate(uri: string, name: string): Promise<string> {
   for (const each of await withPlaces(uri)) await create({ uri: uriOf(name) + each.slice(uri.length), text: text(each) });
   return uriOf(name);
 }
 
-/** Removes a file; it can be put back. */
+/** Removes a file; it can be restored. */
 export async function remove(uri: string): Promise<void> {
   await written();
   const gone: Whole[] = [];
@@ -57,7 +58,7 @@ export async function remove(uri: string): Promise<void> {
   removed.value = gone;
 }
 
-/** Puts back what was removed last; the address of the file. */
+/** Restores the last removed file; returns its address. */
 export async function putBack(): Promise<string | null> {
   const all = removed.peek() ?? [];
   removed.value = null;
@@ -65,7 +66,6 @@ export async function putBack(): Promise<string | null> {
   return all[0] ? uriOf(all[0].name) : null;
 }
 
-/** Gives a text to the browser as a file. */
 export function download(uri: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([text(uri)], { type: "text/plain" }));

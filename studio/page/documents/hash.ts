@@ -1,6 +1,6 @@
-// The debugger's hash of a text: FNV-1a with 64 bits, in two halves.
+// The debugger's text hash: 64-bit FNV-1a, in two halves.
 
-/** The hash of a text, however its lines end in the file. */
+/** The hash of a text, independent of its line ends. */
 export function hash(text: string): string {
   let [high, low] = [0xcbf29ce4, 0x84222325];
   for (const byte of new TextEncoder().encode(text.replace(/^\uFEFF/, "").replaceAll("\r\n", "\n"))) {
@@ -13,6 +13,9 @@ export function hash(text: string): string {
   return [high, low].map((half) => half.toString(16).padStart(8, "0")).join("");
 }
 
-/** Whether a text is another one than that of its file that runs; one that does not run is none. */
+/**
+ * Whether a text differs from the running version of its file; false for files that are not
+ * running.
+ */
 export const differs = (sources: { readonly [path: string]: string }, path: string, text: string): boolean =>
   sources[path] !== undefined && sources[path] !== hash(text);

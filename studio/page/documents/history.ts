@@ -1,5 +1,5 @@
-// The one history of the page: typing, drawing, places, fixes and changes from outside are entries of one list.
-// The functions above `push` are pure: `(log, ...) -> log`.
+// The common history: typing, drawing, positions, fixes and external changes are entries of one
+// list. The functions above `push` are pure: `(log, ...) -> log`.
 import { computed, signal } from "@preact/signals";
 import type { Part } from "../drawing/shapes";
 
@@ -11,7 +11,7 @@ export interface Change {
   insert: string;
 }
 
-/** A change that was made, with what it took away. */
+/** An applied change, with the removed text. */
 export interface Step {
   uri: string;
   from: number;
@@ -23,9 +23,9 @@ export interface Entry {
   label: string;
   steps: Step[];
   select?: Part[];
-  /** Made by another program or person: undoing it asks first. */
+  /** By another program or user: undo asks first. */
   foreign?: boolean;
-  /** The time in milliseconds; typing soon afterwards at the same place joins it. */
+  /** Time in milliseconds; typing soon afterwards at the same place is merged. */
   typed?: number;
 }
 
@@ -36,9 +36,9 @@ export interface Log {
 
 export const EMPTY: Log = { past: [], future: [] };
 
-/** Entries that are kept; the oldest go. */
+/** Maximum number of entries; the oldest are dropped. */
 const MOST = 2000;
-/** A pause in typing that begins a new entry, in milliseconds. */
+/** Pause in typing that begins a new entry, milliseconds. */
 const PAUSE = 700;
 
 export const forward = (steps: Step[]): Change[] =>
@@ -47,7 +47,7 @@ export const forward = (steps: Step[]): Change[] =>
 export const backward = (steps: Step[]): Change[] =>
   steps.map(({ uri, from, removed, inserted }) => ({ uri, from, to: from + inserted.length, insert: removed })).reverse();
 
-/** A log with one more entry, joined to the last one where both are typing at one place. */
+/** Appends an entry, or merges it if both are typing at one place. */
 export function recorded(log: Log, entry: Entry): Log {
   const last = log.past.at(-1);
   if (last && log.future.length === 0 && joins(last, entry)) {
@@ -61,13 +61,13 @@ function joins(last: Entry, next: Entry): boolean {
   const [before, after] = [last.steps.at(-1), next.steps[0]];
   if (last.typed === undefined || next.typed === undefined || next.typed - last.typed > PAUSE) return false;
   if (!before || !after || next.steps.length !== 1 || before.uri !== after.uri) return false;
-  // A new line is a new thought.
+  // A new line begins a new entry.
   if (after.inserted.includes("\n") || before.inserted.endsWith("\n")) return false;
   const end = before.from + before.inserted.length;
   return after.from === end || after.from + after.removed.length === end;
 }
 
-/** The log without its last entry, and that entry; null where there is none. */
+/** Removes and returns the last entry; null if empty. */
 export function stepBack(log: Log): [Log, Entry] | null {
   const entry = log.past.at(-1);
   return entry ? [{ past: log.past.slice(0, -1), future: [...log.future, entry] }, entry] : null;
@@ -84,16 +84,16 @@ export const undoLabel = computed(() => log.value.past.at(-1)?.label ?? null);
 export const redoLabel = computed(() => log.value.future.at(-1)?.label ?? null);
 
 interface Hands {
-  /** Makes changes of the texts, and says what they took away. */
+  /** Applies changes and returns the steps. */
   make(changes: Change[]): Step[];
   select(parts: Part[]): void;
-  /** Whether a change of others is to be undone. */
+  /** Asks whether to undo a foreign change. */
   agree(label: string): Promise<boolean>;
 }
 let hands: Hands | null = null;
 
 /**
- * Sets the functions that make changes and select: those of `documents.ts`, or a test's. The
+ * Sets the functions that apply changes and select: those of `documents.ts`, or a test's. The
  * history begins empty.
  */
 export function attach(own: Hands): void {
@@ -101,7 +101,7 @@ export function attach(own: Hands): void {
   log.value = EMPTY;
 }
 
-/** Makes changes and records them as one entry. */
+/** Applies changes and records them as one entry. */
 export function push(entry: { label: string; changes: Change[]; select?: Part[]; foreign?: boolean; typed?: number }): void {
   const { changes, ...rest } = entry;
   const steps = hands?.make(changes) ?? [];
@@ -109,15 +109,15 @@ export function push(entry: { label: string; changes: Change[]; select?: Part[];
   if (rest.select) hands?.select(rest.select);
 }
 
-/** Records what has been made already: the text pane shows letters before anybody else knows of them. */
+/** Records changes that are already applied: the editor applies typing first. */
 export function record(entry: Entry): void {
   if (entry.steps.length) log.value = recorded(log.value, entry);
 }
 
-/** Changes that were begun and are not made yet. */
+/** Changes in progress. */
 const under = new Set<Promise<unknown>>();
 
-/** Notes a pending change until it is made or rejected; an undo then applies to it. */
+/** Tracks a pending change until it is applied or rejected; an undo waits for it. */
 export function underWay<T>(change: Promise<T>): Promise<T> {
   const end = (): void => void under.delete(change);
   under.add(change);
@@ -131,9 +131,9 @@ async function move(step: typeof stepBack, changes: typeof backward): Promise<vo
   if (!next || !hands) return;
   const before = log.value;
   if (next[1].foreign && !(await hands.agree(next[1].label))) return;
-  // While somebody thought about it, something else may have happened.
+  // The history may have changed during the question.
   if (log.value !== before) return;
-  // A change that cannot be made stays in the list.
+  // A change that fails stays in the list.
   hands.make(changes(next[1].steps));
   log.value = next[0];
   if (next[1].select) hands.select(next[1].select);
@@ -142,7 +142,7 @@ async function move(step: typeof stepBack, changes: typeof backward): Promise<vo
 export const undo = (): Promise<void> => move(stepBack, backward);
 export const redo = (): Promise<void> => move(stepForth, forward);
 
-/** Clears the history: a new holder of the edit lock begins with an empty one. */
+/** Clears the history, for a new holder of the edit lock. */
 export function clear(): void {
   log.value = EMPTY;
 }

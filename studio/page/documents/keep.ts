@@ -1,13 +1,13 @@
-// The history survives a reload: kept in the browser tab's storage, taken up again where the texts are still the same.
+// Keeps the history across reloads, in the tab's storage, if the texts are unchanged.
 import { effect } from "@preact/signals";
 import { open, text } from "./documents";
 import { hash } from "./hash";
 import { log, type Entry, type Log } from "./history";
 
 const KEY = "afp-studio-history";
-/** Characters that are kept at most; older entries go first. */
+/** Maximum number of stored characters; older entries are dropped. */
 const MOST = 500_000;
-/** Milliseconds after a change until it is kept. */
+/** Delay before a change is stored, milliseconds. */
 const PAUSE = 300;
 
 interface Kept extends Log {
@@ -16,7 +16,7 @@ interface Kept extends Log {
 
 const urisOf = ({ past, future }: Log): string[] => [...new Set([...past, ...future].flatMap((entry) => entry.steps.map((step) => step.uri)))];
 
-/** The newest entries that there is room for. */
+/** The newest entries within a size limit. */
 export function newest(entries: readonly Entry[], room: number): Entry[] {
   const found: Entry[] = [];
   for (const entry of [...entries].reverse()) {
@@ -27,7 +27,7 @@ export function newest(entries: readonly Entry[], room: number): Entry[] {
   return found;
 }
 
-/** Takes up what was kept before a reload, and keeps from now on. */
+/** Restores the history and starts to store it. */
 export async function begin(storage: Storage): Promise<void> {
   const kept = read(storage);
   if (kept && log.peek().past.length === 0) {

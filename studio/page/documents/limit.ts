@@ -1,12 +1,12 @@
-// The longest text that the server writes and opens.
+// Maximum text length of the server.
 import { hello } from "../server/session";
 import { words } from "../words";
 
-/** A letter takes at most so many bytes in a file. */
+/** Maximum bytes per character. */
 const BYTES = 3;
 const encoder = new TextEncoder();
 
-/** Why a text of some length may not become another one; null where it may. One that is too long may still become shorter. */
+/** The reason why a text is too long; null if it fits. A text that is too long may still shrink. */
 export function tooLong(before: number, after: { readonly length: number; toString(): string }): string | null {
   const longest = hello.peek()?.longest ?? Infinity;
   if (after.length <= before || after.length * BYTES <= longest) return null;

@@ -1,7 +1,7 @@
-// Two lists of lines, compared: where they differ, as few lines as can be.
+// Line-based comparison with few changed lines.
 import { diffArrays } from "diff";
 
-/** `from..to` of the one list became `start..end` of the other. */
+/** `from..to` of the old list became `start..end` of the new one. */
 export interface Hunk {
   from: number;
   to: number;
@@ -9,10 +9,10 @@ export interface Hunk {
   end: number;
 }
 
-/** Lines that may differ; lists that differ more are one difference. */
+/** Maximum number of differing lines; beyond, the lists are one difference. */
 const MOST = 400;
 
-/** The differences of two lists, first to last; those that touch are one. */
+/** The differences in order; adjacent ones are merged. */
 export function hunks(before: readonly string[], after: readonly string[]): Hunk[] {
   const parts = diffArrays([...before], [...after], { maxEditLength: MOST });
   if (!parts) return [{ from: 0, to: before.length, start: 0, end: after.length }];

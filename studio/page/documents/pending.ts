@@ -1,5 +1,4 @@
-// Local changes that may not have reached the room: the room's changes are merged with them, so
-// that both are kept.
+// Local changes that the room may not have: changes of the room are merged with them.
 import { ChangeSet, Text } from "@codemirror/state";
 import { difference, sequence } from "./changes";
 import type { Change } from "./history";
@@ -7,13 +6,13 @@ import type { Change } from "./history";
 /** A text known to the room, and the changes sent since then. */
 export interface Pending {
   readonly base: string;
-  /** One after the other, with the versions that they made. */
+  /** In order, with their versions. */
   readonly made: readonly { version: number; changes: ChangeSet }[];
 }
 
 const doc = (text: string): Text => Text.of(text.split("\n"));
 
-/** Changes that are made one after the other of a text of some length, as one. */
+/** Combines sequential changes of a text of some length. */
 export function together(changes: readonly Change[], length: number): ChangeSet {
   return changes.reduce((all, { from, to, insert }) => all.compose(ChangeSet.of({ from, to, insert }, all.newLength)), ChangeSet.empty(length));
 }
@@ -21,10 +20,10 @@ export function together(changes: readonly Change[], length: number): ChangeSet 
 /** A text that the room has. */
 export const known = (base: string): Pending => ({ base, made: [] });
 
-/** Counts a sent version. */
+/** Adds a sent version. */
 export const told = ({ base, made }: Pending, version: number, changes: ChangeSet): Pending => ({ base, made: [...made, { version, changes }] });
 
-/** The room has a version, and with it all before. */
+/** The room has this version and all earlier ones. */
 export function reached({ base, made }: Pending, version: number): Pending {
   const there = made.filter((each) => each.version <= version);
   if (there.length === 0) return { base, made };
@@ -44,7 +43,7 @@ export function arrived(uri: string, before: Pending, version: number, text: str
   return [{ base: text, made: moved }, sequence(uri, news)];
 }
 
-/** Whether the room may have a text: the last known one, or one sent since then. */
+/** Whether the room may have this text: the last known one, or one sent since then. */
 export function mayBe({ base, made }: Pending, text: string): boolean {
   if (base === text) return true;
   let each = doc(base);

@@ -1,5 +1,5 @@
-// Positions in texts: the protocol's lines and UTF-16 columns, and offsets into strings. Lines end
-// only with `\n`.
+// Conversion between the protocol's positions (lines, UTF-16 columns) and string offsets. Lines end
+// with `\n`.
 
 export interface Position {
   line: number;
@@ -14,7 +14,7 @@ export interface Range {
 let lastText = "";
 let lastStarts = [0];
 
-/** The offsets at which the lines of a text begin. Remembers the last text asked for. */
+/** Offsets of line starts; cached for the last text. */
 function starts(text: string): number[] {
   if (text !== lastText) {
     lastStarts = [0];
@@ -24,7 +24,7 @@ function starts(text: string): number[] {
   return lastStarts;
 }
 
-/** The offset of a position; one behind its line's end is the line's end. */
+/** The offset of a position, limited to its line's end. */
 export function offset(text: string, { line, character }: Position): number {
   const all = starts(text);
   const start = all[line];
@@ -33,7 +33,6 @@ export function offset(text: string, { line, character }: Position): number {
   return Math.min(start + character, next === undefined ? text.length : next - 1);
 }
 
-/** The position of an offset. */
 export function position(text: string, at: number): Position {
   const all = starts(text);
   let [low, high] = [0, all.length];

@@ -1,15 +1,15 @@
-// Unsent texts outlive their page: the browser's storage keeps them, and the page offers them when
-// their file is opened again. Each page has a separate key, since several may show one file.
+// Keeps unsent texts beyond the page: they are stored in the browser and offered when their file is
+// opened again. Each page has its own key, since several may show one file.
 import { effect } from "@preact/signals";
 import { offer, opened, saved, text, unsent } from "./documents";
 import { lsp } from "../server/session";
 
 const PREFIX = "afp-studio-unsent-";
-/** Milliseconds that a text may be on its way before it is kept. */
+/** Time before an unsent text is stored, milliseconds. */
 const PAUSE = 300;
 
 export interface Kept {
-  /** When it was written, in milliseconds. */
+  /** Time in milliseconds. */
   at: number;
   texts: readonly { uri: string; text: string }[];
 }
@@ -31,17 +31,17 @@ function read(storage: Pages, key: string): [string, Kept][] {
   }
 }
 
-/** Keeps texts under a key; none of them leaves no key. */
+/** Stores texts under a key; without texts, removes the key. */
 export function keep(storage: Pages, key: string, { at, texts }: Kept): void {
   try {
     if (texts.length > 0) storage.setItem(key, JSON.stringify({ at, texts }));
     else storage.removeItem(key);
   } catch {
-    // It is full: the page itself still has them, and says before it is left that they are not saved.
+    // The storage is full: the page still has the texts, and warns when it is closed.
   }
 }
 
-/** Takes the newest text out that another page has kept of a file, unless it is what the file has. */
+/** Takes the newest stored text of a file, unless it equals the file. */
 export function claim(storage: Pages, uri: string, now: string): string | null {
   for (const [key, { at, texts }] of kept(storage)) {
     const found = texts.findLast((one) => one.uri === uri);
@@ -52,7 +52,6 @@ export function claim(storage: Pages, uri: string, now: string): string | null {
   return null;
 }
 
-/** Begins to keep and to offer. */
 export function begin(storage: Storage): void {
   const key = `${PREFIX}${Date.now().toString(36)}${Math.random().toString(36).slice(2)}`;
   const write = (): void => keep(storage, key, { at: Date.now(), texts: unsent.peek() });

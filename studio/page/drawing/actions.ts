@@ -1,4 +1,4 @@
-// Changes of a plan from its drawing: each is one request and one entry of the history.
+// Changes from the drawing: each is one request and one history entry.
 import { select, selected } from "../plan/selection";
 import * as ask from "./ask";
 import * as catalog from "./catalog";
@@ -14,32 +14,31 @@ import { turn } from "./turn";
 import { toPane } from "./view";
 import { words } from "./words";
 
-/** The part that gestures and keys are about: the last one selected. */
+/** The part for gestures and keys: the last selected one. */
 export const focused = (): Part | null => selected.peek().at(-1) ?? null;
 
-/** The drawing and the name of its plan; null where there is none. */
+/** The drawing and its plan; null without a plan. */
 export function here(): { drawn: Drawing; plan: string } | null {
   const drawn = drawing.peek();
   const name = plan.peek();
   return drawn && name !== null ? { drawn, plan: name } : null;
 }
 
-/** Where a part is drawn. */
 export const rectOfPart = (part: Part): Rect | null => (drawing.peek() ? rectOf(drawing.peek()!, part) : null);
 
-/** A place of the pane below a part, for questions about it. */
+/** A place below a part, for a popup. */
 export function below(part: Part): Point | null {
   const rect = rectOfPart(part);
   return rect ? toPane(view.peek(), [rect[0], rect[1] + rect[3] + 6]) : null;
 }
 
-/** A place of the pane below everything that an element has. */
+/** A place below an element with all its parts. */
 export function beneath(part: Part): Point | null {
   const outer = (part.part?.kind ?? "whole") === "whole" ? drawing.peek()?.elements.get(part.item)?.outer : undefined;
   return outer ? toPane(view.peek(), [outer[0], outer[1] + outer[3]]) : below(part);
 }
 
-/** Exits of an item, first those that lead nowhere. */
+/** Exits of an item, unconnected ones first. */
 export function exitsOf(drawn: Drawing, item: string): { part: Part; open: boolean }[] {
   const holder = holderOf(drawn, item);
   const pieces = holder?.pieces.filter((piece) => piece.item === item && piece.part.kind === "exit") ?? [];
@@ -47,7 +46,7 @@ export function exitsOf(drawn: Drawing, item: string): { part: Part; open: boole
   return [...exits.filter((exit) => exit.open), ...exits.filter((exit) => !exit.open)];
 }
 
-/** Where a new supervisor goes: to the element of a part, or to the plan. */
+/** The owner of a new supervisor: the part's element, or the plan. */
 const ownerOf = (drawn: Drawing, part: Part): string | null => {
   const holder = holderOf(drawn, part.item);
   return holder && holder.kind !== null ? nameOf(holder.item) : null;
@@ -70,7 +69,7 @@ export async function addAfter(offer: ask.Offer): Promise<void> {
   await ask.edit(offers.added(at.plan, null, offer, own?.open ? own.part : null, offers.taken(at.drawn)));
 }
 
-/** Adds a template where it was dropped: on the ground, onto an element, onto an edge. */
+/** Adds a template at its drop target: the ground, an element, an edge. */
 export async function addAt(offer: ask.Offer, to: { place: Point } | { owner: Part } | { edge: Edge }): Promise<void> {
   const at = here();
   if (!at) return beginPlan(offer);
@@ -89,10 +88,13 @@ export async function addAt(offer: ask.Offer, to: { place: Point } | { owner: Pa
   }
 }
 
-/** Leads an exit, or the start, to an element or a word of the language. */
+/** Connects an exit, or the start, to an element or a keyword. */
 export const lead = (from: Part, to: string): Promise<string[] | null> => ask.edit([offers.leading(from, to)], {}, [from]);
 
-/** Asks what comes after an exit, or what the plan starts with; a new element is put at `place`, where one is given. */
+/**
+ * Asks for the next element of an exit or of the start; a new element is placed at `place`, if
+ * given.
+ */
 export async function whatThen(from: Part, at: Point | null = below(from), place: Point | null = null): Promise<void> {
   const found = here();
   if (!found) return;
@@ -117,7 +119,7 @@ export async function whatThen(from: Part, at: Point | null = below(from), place
   }
 }
 
-/** Connects an exit of the selection; asks which one where there are several. */
+/** Connects an exit of the selection; asks if there are several. */
 export async function connect(): Promise<void> {
   const at = here();
   const part = focused();
@@ -150,7 +152,6 @@ export async function remove(parts: readonly Part[]): Promise<void> {
   if (done) select([], "drawing");
 }
 
-/** Lets the plan start with the selected element. */
 export async function start(): Promise<void> {
   const part = focused();
   const element = part && drawing.peek() && holderOf(drawing.peek()!, part.item);
@@ -158,7 +159,6 @@ export async function start(): Promise<void> {
   await ask.edit([{ setStart: { plan: planOf(element.item), to: nameOf(element.item) } }], {}, [{ item: element.item }]);
 }
 
-/** Renames in place. */
 export function rename(part: Part): void {
   const drawn = drawing.peek();
   const rect = drawn && rectOf(drawn, { item: part.item });
@@ -178,7 +178,7 @@ export function rename(part: Part): void {
 
 const renamed = (item: string, to: string): string => [...item.split(".").slice(0, -1), to].join(".");
 
-/** Gives elements back to the automatic layout: the selected ones, or all. */
+/** Resets the selected elements, or all, to the automatic layout. */
 export async function automatic(): Promise<void> {
   const drawn = drawing.peek();
   if (!drawn) return;
@@ -187,14 +187,14 @@ export async function automatic(): Promise<void> {
   await ask.place(Object.fromEntries(items.map((item) => [item, null])), words.automaticPlaces);
 }
 
-/** The selected items as text, in the order in which they stand there, with the toolboxes that they need above, and the start among them. */
+/** The selected items as text in source order, with their toolboxes and the start. */
 export async function copied(): Promise<string> {
   const chosen = new Set(selected.peek().map((part) => part.item));
   // An item with a selected owner is copied with it.
   const items = [...chosen].filter((item) => item.includes(".") && !(item.split(".").length > 2 && chosen.has(item.split(".").slice(0, -1).join("."))));
   const texts = await ask.inOrder(items);
   const templates = new Set(texts.flatMap((text) => [...text.replace(/\/\/.*/g, "").matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
-  // Copying before the palette is loaded needs its toolboxes, too.
+  // The palette may not be loaded yet.
   const known = catalog.offers.peek().length ? catalog.offers.peek() : await ask.palette("");
   const toolboxes = new Set(known.filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
   const uses = [...toolboxes].map((name) => `use ${name}\n`).join("");
@@ -203,7 +203,7 @@ export async function copied(): Promise<string> {
   return `${uses}${start ? `start ${nameOf(start.to)}\n` : ""}${texts.join("\n")}\n`;
 }
 
-/** Pastes items; a supervisor goes onto the selected element. */
+/** Pastes items; a supervisor goes to the selected element. */
 export async function paste(text: string): Promise<void> {
   const at = here();
   if (!at || text.trim() === "") return;
@@ -216,7 +216,7 @@ export async function paste(text: string): Promise<void> {
 
 export const duplicate = async (): Promise<void> => paste(await copied());
 
-/** The targets of an exit or of the start, by name, each with the reason why it does not fit. */
+/** Targets for an exit or the start by name, each with the reason if it does not fit. */
 export async function fitting(from: Part): Promise<ReadonlyMap<string, string | null>> {
   if (from.part?.kind !== "start") {
     const list = await ask.targets(from.item, from.part?.name ?? "");
@@ -226,13 +226,13 @@ export async function fitting(from: Part): Promise<ReadonlyMap<string, string | 
   return new Map(all.filter((one) => one.kind !== null).map((one) => [nameOf(one.item), null]));
 }
 
-/** A double click: opens a sub-plan, or edits a name. */
+/** Double click: opens a sub-plan, or edits a name. */
 export function open(part: Part): void {
   if (drawing.peek()?.elements.get(part.item)?.plan) into(part);
   else rename(part);
 }
 
-/** Into the plan behind an element. */
+/** Opens the plan of a sub-plan. */
 export function into(part: Part | null): void {
   const element = part && drawing.peek()?.elements.get(part.item);
   if (element?.plan) void enter(element.plan, element.file).catch(refuse);

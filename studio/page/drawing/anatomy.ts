@@ -1,4 +1,4 @@
-// The parts of an element or supervisor: ports with what they are bound to, exits with where they lead, timing.
+// The parts of an element or supervisor: ports with bindings, exits with targets, timing.
 import * as ask from "./ask";
 import { offerOf } from "./catalog";
 import type { Choice } from "./choose";
@@ -15,7 +15,7 @@ export interface Port {
 export interface Exit {
   part: Part;
   name: string;
-  /** Its target as written; empty for none. */
+  /** Target as written; empty for none. */
   to: string;
 }
 
@@ -26,11 +26,11 @@ export interface Anatomy {
   offer: ask.Offer | null;
   ports: Port[];
   exits: Exit[];
-  /** Of a supervisor: `every` and `deadline` as they are written. */
+  /** `every` and `deadline` of a supervisor, as written. */
   timing: { every: string; deadline: string } | null;
 }
 
-/** A port of a template: `in live distance: length = 30 cm from 0 cm to 400 cm`. */
+/** Parses a port of a template: `in live distance: length = 30 cm from 0 cm to 400 cm`. */
 export function declared(port: string): { name: string; out: boolean } | null {
   const found = /^(in|out)\s+(?:live\s+)?(\w+)\s*:/.exec(port);
   return found ? { name: found[2]!, out: found[1] === "out" } : null;
@@ -38,14 +38,14 @@ export function declared(port: string): { name: string; out: boolean } | null {
 
 const HEAD = /^\s*(?:\/\/\/?.*\n\s*)*(actor|computation|subplan|supervise)\s+\w+\s*:\s*([\w.]+)([^{]*)/d;
 
-/** The first line of an element or supervisor: its kind, template and timing. */
+/** Parses the first line of an element or supervisor: kind, template and timing. */
 export function headed(text: string): { kind: string; template: string; every: string; deadline: string } {
   const [, kind = "", template = "", rest = ""] = HEAD.exec(text) ?? [];
   const after = (keyword: string): string => new RegExp(`\\b${keyword}\\s+(\\S+(?:\\s+(?!every\\b|deadline\\b)[A-Za-z]+\\b)?)`).exec(rest)?.[1] ?? "";
   return { kind, template, every: after("every"), deadline: after("deadline") };
 }
 
-/** The end of its template's name in that text; null without one. */
+/** The end of the template's name in that line; null without one. */
 export function templateAt(text: string): number | null {
   const end = HEAD.exec(text)?.indices?.[2]?.[1];
   return end === undefined ? null : end - 1;
@@ -60,7 +60,7 @@ export async function anatomy(drawing: Drawing, item: string): Promise<Anatomy |
   const drawn = holderOf(drawing, item)?.pieces.filter((piece) => piece.item === item) ?? [];
   const bound = drawn.filter(({ part }) => part.kind === "input" || part.kind === "output");
   const known = (offer?.ports ?? []).map(declared).filter((port) => port !== null);
-  // Bindings unknown to the template are shown, too.
+  // Also shows bindings unknown to the template.
   const more = bound.filter(({ part }) => !known.some((port) => port.name === part.name)).map(({ part }) => ({ name: part.name ?? "", out: part.kind === "output" }));
   const ports = await Promise.all([...known, ...more].map((port) => asked(item, port)));
   const outcomes = [...new Set([...(offer?.exits ?? []), ...drawn.filter(({ part }) => part.kind === "exit").map(({ part }) => part.name ?? "")])];
@@ -86,7 +86,6 @@ export function worth({ answer, out }: Port): string {
   return answer?.default ? words.isDefault(answer.default) : words.needsValue;
 }
 
-/** The parts as a list to choose from. */
 export function choices(found: Anatomy): { choice: Choice; part: Part }[] {
   const ports = found.ports.map((port) => ({ choice: { id: `port ${port.name}`, label: port.name, hint: worth(port) }, part: port.part }));
   const exits = found.exits.map((exit) => ({ choice: { id: `exit ${exit.name}`, label: exit.name, hint: exit.to ? `→ ${exit.to}` : words.open }, part: exit.part }));

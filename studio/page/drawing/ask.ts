@@ -1,4 +1,4 @@
-// The questions that drawing, palette and inspector put to the engine, each with the shape of its answer.
+// Requests of drawing, palette and inspector to the engine, with the types of the answers.
 import { current, text } from "../documents/documents";
 import { change, type WorkspaceEdit } from "../documents/edits";
 import { spanOf } from "../plan/places";
@@ -8,11 +8,11 @@ import { refuse } from "./say";
 import type { Part, PartOf, Point } from "./shapes";
 import { words } from "./words";
 
-/** A change of meaning, as `afp/edit` takes it: one key, its name, with its fields. */
+/** A change for `afp/edit`: one key, its name, with its fields. */
 export type Change = Record<string, Record<string, unknown>>;
 export type Places = Record<string, Point | null>;
 
-/** A template or plan that elements are made from. */
+/** A template or plan for new elements. */
 export interface Offer {
   template: string;
   kind: "actor" | "computation" | "subplan" | "supervise";
@@ -39,7 +39,7 @@ export interface PortAnswer {
   step: number | null;
   unit: string;
   units: string[];
-  /** The SI value of each unit. */
+  /** SI value of each unit. */
   scales: number[];
 }
 
@@ -54,14 +54,14 @@ export const targets = async (item: string, outcome: string): Promise<Candidate[
 
 export const port = (item: string, port: string): Promise<PortAnswer | null> => ask<PortAnswer | null>("afp/candidates", { item, port });
 
-/** The text of an item or part in the document; empty if it has none. */
+/** The source of an item or part; empty if it has none. */
 export async function written(item: string, part?: PartOf): Promise<string> {
   const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) });
   const whole = text(current.peek());
   return range ? whole.slice(offset(whole, range.start), offset(whole, range.end)) : "";
 }
 
-/** The texts of items with their comments, in the order in which they stand in the document, apart where they are so there. */
+/** The sources of items with their comments, in source order and with their blank lines. */
 export async function inOrder(items: readonly string[]): Promise<string[]> {
   const ranges = (await Promise.all(items.map((item) => spanOf(current.peek(), { item }, true)))).filter((range) => range !== null);
   const whole = text(current.peek());
@@ -86,7 +86,7 @@ export async function help(item: string): Promise<string> {
   return [...lines.reverse(), ...own.slice(0, Math.max(first, 0))].map((line) => line.trim().replace(/^\/\/\/ ?/, "")).join("\n");
 }
 
-/** The note before an item, which is a comment; empty if it has none. */
+/** The note (comment) before an item; empty if it has none. */
 export async function note(item: string): Promise<string> {
   const range = await spanOf(current.peek(), { item });
   if (!range) return "";
@@ -105,14 +105,14 @@ interface Made {
 }
 
 /**
- * Makes changes as one entry of the history, and selects the new items or `chosen`. A rejection is
- * shown and returns null.
+ * Applies changes as one history entry, and selects the new items or `chosen`. A rejection is shown
+ * and returns null.
  */
 export async function edit(changes: Change[], places: Places = {}, chosen?: Part[]): Promise<string[] | null> {
   return attempt(() => ask<Made>("afp/edit", { changes, places }), chosen);
 }
 
-/** Puts a text of items into a plan, or supervisors onto an element. */
+/** Pastes items into a plan, or supervisors into an element. */
 export const paste = (plan: string, owner: string | null, text: string, at: Point | null): Promise<string[] | null> =>
   attempt(() => ask<Made>("afp/paste", { plan, text, ...(owner ? { owner } : {}), ...(at ? { at } : {}) }));
 
@@ -141,16 +141,18 @@ async function attempt(make: () => Promise<Made>, chosen?: Part[]): Promise<stri
   }
 }
 
-/** Whether a change would be made; where it would not, why. */
+/** The reason why changes would be rejected; null if accepted. */
 export const refused = (changes: Change[]): Promise<string | null> =>
   ask<Made>("afp/edit", { changes }).then(() => null, (why: Error) => why.message);
 
-/** Says that a change waits, where there is nobody who could make it. */
+/** Reports that a change waits for the connection. */
 function waits(): void {
   if (!lsp().open.peek()) refuse(words.waits);
 }
 
-/** Writes places of elements; null gives one back to the automatic layout. False where it was refused. */
+/**
+ * Writes positions of elements; null resets one to the automatic layout. Returns false if rejected.
+ */
 export async function place(places: Places, label: string): Promise<boolean> {
   waits();
   try {

@@ -1,10 +1,10 @@
-// An edge while one of its ends is dragged: the end and its corner follow, the rest stays.
+// An edge during a drag of its end: only the end and its corner move.
 import type { Point } from "./shapes";
 
 const moved = ([x, y]: Point, [dx, dy]: Point): Point => [x + dx, y + dy];
 const zero = ([dx, dy]: Point): boolean => dx === 0 && dy === 0;
 
-/** The corners of an edge whose first point is moved by `start` and whose last by `end`. */
+/** The corners of an edge whose first point moves by `start` and last by `end`. */
 export function bent(points: readonly Point[], start: Point, end: Point): Point[] {
   if (points.length < 2 || (zero(start) && zero(end))) return [...points];
   if (start[0] === end[0] && start[1] === end[1]) return points.map((point) => moved(point, start));
@@ -15,7 +15,7 @@ export function bent(points: readonly Point[], start: Point, end: Point): Point[
   return corners;
 }
 
-/** A straight edge gets two corners in its middle, so that its ends can move. */
+/** Splits a straight edge in the middle, so that its ends can move. */
 function split(from: Point, to: Point): Point[] {
   const upright = Math.abs(from[0] - to[0]) <= Math.abs(from[1] - to[1]);
   const middle = upright ? (from[1] + to[1]) / 2 : (from[0] + to[0]) / 2;
@@ -24,7 +24,7 @@ function split(from: Point, to: Point): Point[] {
     : [from, [middle, from[1]], [middle, to[1]], to];
 }
 
-/** Moves an end; the corner beside it moves along the line between, so that corners stay right. */
+/** Moves an end; the adjacent corner moves along its line, so that angles stay right. */
 function follow(corners: Point[], end: number, beside: number, by: Point): void {
   if (zero(by)) return;
   const [x, y] = corners[end]!;
@@ -37,7 +37,7 @@ function follow(corners: Point[], end: number, beside: number, by: Point): void 
 const RADIUS = 7;
 const TIP = 9;
 
-/** The path along corners, rounded as the engine rounds it, and its arrow's head. */
+/** The path along corners, rounded like the engine's, and its arrowhead. */
 export function road(points: readonly Point[]): { line: string; tip: string } {
   const last = points[points.length - 1];
   const before = points[points.length - 2];

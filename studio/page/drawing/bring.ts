@@ -1,4 +1,4 @@
-// A template dragged from the palette into the drawing: onto the ground, onto an element, onto an edge.
+// Dragging a template from the palette to the ground, an element or an edge.
 import { signal } from "@preact/signals";
 import { pen } from "../server/session";
 import { addAt } from "./actions";
@@ -11,14 +11,14 @@ import { holderOf, type Point, type Rect } from "./shapes";
 import { view } from "./stage";
 import { toPlan } from "./view";
 
-/** The dragged template, and its place in pixels of the page. */
+/** The dragged template, and its position in page pixels. */
 export const carried = signal<{ offer: Offer; at: Point } | null>(null);
 /** The drop target: an element's box in units of the plan, or an edge. */
 export const target = signal<{ rect: Rect } | { edge: string } | null>(null);
 
 type Where = Parameters<typeof addAt>[1];
 
-/** Where a point of the page is in the drawing; null beside it. */
+/** The drop place under a point of the page; null outside the drawing. */
 function where(offer: Offer, [x, y]: Point): Where | null {
   const board = document.querySelector<HTMLElement>(".board");
   const drawn = drawing.peek();
@@ -42,7 +42,10 @@ function show(to: Where | null): void {
   }
 }
 
-/** A template was pressed: after some pixels it is carried, until it is dropped or `Escape` puts it back. */
+/**
+ * Handles a press on a template: after some pixels it is dragged until it is dropped or `Escape`
+ * cancels.
+ */
 export function grab(offer: Offer, event: PointerEvent & { currentTarget: HTMLElement }): void {
   if (event.button !== 0 || !pen.peek()) return;
   const { currentTarget: button, pointerId, clientX, clientY } = event;
@@ -58,7 +61,7 @@ export function grab(offer: Offer, event: PointerEvent & { currentTarget: HTMLEl
     const known = carried.peek();
     const to = known && drop ? where(offer, known.at) : null;
     target.value = null;
-    // The click that follows is none.
+    // The click after a drag must be ignored.
     setTimeout(() => (carried.value = null));
     if (to) void addAt(offer, to);
   };

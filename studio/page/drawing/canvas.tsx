@@ -1,4 +1,4 @@
-// The pane with the drawing: puts stage, pointers, keys and popups together and shows what the signals hold.
+// The drawing pane: combines stage, pointers, keys and popups, and renders the signals.
 import { effect, untracked } from "@preact/signals";
 import { render } from "preact";
 import { useRef } from "preact/hooks";
@@ -40,7 +40,7 @@ import { first, STEP, toPane, zoomed, type View } from "./view";
 import { words } from "./words";
 import { ValuePopup } from "../panes/value";
 
-/** Shows the drawing of the current document in a pane; the answer takes it away. */
+/** Mounts the drawing of the current document; returns a function that removes it. */
 export function mountCanvas(host: HTMLElement): () => void {
   const pane = document.createElement("div");
   pane.className = "board";
@@ -70,12 +70,12 @@ export function mountCanvas(host: HTMLElement): () => void {
   };
   pane.addEventListener("keydown", key);
   pane.addEventListener("paste", paste);
-  // Buttons and fields over the drawing have their keys for themselves.
+  // Buttons and fields over the drawing handle their own keys.
   over.addEventListener("keydown", (event) => isForField(keyName(event)) && event.stopPropagation());
   const settles = (): void => settle(scene);
   pane.addEventListener("blur", settles);
   pane.addEventListener("pointerdown", settles, true);
-  // A press says afterwards that it was one.
+  // A pointer press resets it afterwards.
   pane.addEventListener("focus", () => (byKeys.value = true));
   const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), farView(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), discs(dots), flows(data), values(scene.root, held), runMarks({ root: scene.root, below, over: above, nodes: scene.nodes, edges: scene.edges })];
   return () => {
@@ -86,7 +86,7 @@ export function mountCanvas(host: HTMLElement): () => void {
   };
 }
 
-/** Draws what changes: the drawing, the marks over it, what a screen reader stands on. */
+/** Renders changes: the drawing, its marks, the screen reader's focus. */
 function shows(scene: ReturnType<typeof stage>, pane: HTMLElement): (() => void)[] {
   let before: Drawing | null = null;
   return [
@@ -116,10 +116,10 @@ function shows(scene: ReturnType<typeof stage>, pane: HTMLElement): (() => void)
   ];
 }
 
-/** Where each plan was last looked at. */
+/** Last view of each plan. */
 const views = new Map<string, View>();
 
-/** Keeps the view of each plan, and brings into sight what was selected elsewhere. */
+/** Stores the view of each plan, and reveals external selections. */
 function sights(): (() => void)[] {
   let shown = "";
   let pending: Part | null = null;
@@ -154,7 +154,7 @@ function sights(): (() => void)[] {
   ];
 }
 
-/** When a popup closes, the drawing has the focus again. */
+/** Returns the focus to the drawing when a popup closes. */
 function focuses(pane: HTMLElement): () => void {
   let open = false;
   return effect(() => {
@@ -200,7 +200,7 @@ function Over() {
   );
 }
 
-/** Where the first element of an empty plan would be put, below its start. */
+/** Position of the first element of an empty plan, below its start. */
 function FirstPlace() {
   const [start, more] = drawing.value?.elements.values() ?? [];
   if (!start || more || start.kind !== null || plan.value === null) return null;
@@ -215,7 +215,7 @@ const Tool = ({ label, sign, run }: { label: string; sign: string; run(): void }
   <button type="button" class="tool" aria-label={label} title={label} onClick={run}>{sign}</button>
 );
 
-/** What is wrong with what is under the pointer or has the focus, or why what is connected does not fit. */
+/** Problems of the hovered or focused part, or the reason why a target does not fit. */
 function Tip() {
   const popup = useRef<HTMLDivElement>(null);
   const drawn = drawing.value;
@@ -248,5 +248,5 @@ function tip(): { at: Point; texts: { text: string; help?: boolean }[] } | null 
   return { at, texts };
 }
 
-/** What a part is called, for who shows it elsewhere. */
+/** The name of a part, for other panes. */
 export const called = (part: Part): string => (drawing.value ? spoken(drawing.value, part) : part.item);

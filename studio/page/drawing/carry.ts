@@ -1,5 +1,4 @@
-// Moving the selection with the keys, as a state machine: arrows move it, `Enter` drops it,
-// `Escape` reverts.
+// Moving the selection with keys, as a state machine: arrows move, `Enter` drops, `Escape` reverts.
 import type { Point } from "./shapes";
 
 export interface Carrying {
@@ -9,12 +8,12 @@ export interface Carrying {
 
 export type Outcome = { do: "carry"; by: Point } | { do: "drop"; by: Point } | { do: "putBack" };
 
-/** Units of the plan that an arrow moves by, and with `Shift`. */
+/** Distance of an arrow key, and with `Shift`, in units of the plan. */
 const STEPS = { fine: 12, far: 60 };
 
 const ARROWS: Record<string, Point> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
-/** The state after a key, and what is to be done; null for keys that mean nothing here. */
+/** The next state and its effect; null for other keys. */
 export function pressed(state: Carrying, key: { key: string; shiftKey: boolean }): [Carrying | null, Outcome] | null {
   const arrow = ARROWS[key.key];
   if (arrow) {

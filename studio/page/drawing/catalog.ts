@@ -1,4 +1,4 @@
-// The engine's palette, kept for the displayed document.
+// The engine's palette, cached for the displayed document.
 import { effect, signal } from "@preact/signals";
 import { current, onText } from "../documents/documents";
 import { lsp } from "../server/session";
@@ -6,10 +6,9 @@ import * as ask from "./ask";
 
 export const offers = signal<readonly ask.Offer[]>([]);
 
-/** Milliseconds of quiet after which offers are asked for again: a text may name another toolbox. */
+/** Pause in typing before a reload, milliseconds: a text may import another toolbox. */
 const QUIET = 400;
 
-/** Begins to keep it; the answer ends that. */
 export function begin(): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   const load = async (): Promise<void> => {
@@ -33,5 +32,5 @@ export function begin(): () => void {
   };
 }
 
-/** The offer of a template's name, with or without the short name of its toolbox. */
+/** The offer of a template, with or without the alias of its toolbox. */
 export const offerOf = (template: string | null): ask.Offer | null => offers.value.find((offer) => offer.template === template || offer.template === template?.split(".").at(-1)) ?? null;

@@ -1,4 +1,4 @@
-// Shows the list to choose from, the name that is written anew, and what is said at the pointer.
+// The choice list, the field for a new name, and the tooltip.
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { filtered, question, type Choice, type Question } from "./choose";
 import { icon } from "./fragment";
@@ -8,7 +8,6 @@ import { size } from "./stage";
 import { words } from "./words";
 import type { Point } from "./shapes";
 
-/** An icon of a toolbox, or nothing. */
 export function Icon({ svg }: { svg: string | null | undefined }) {
   const host = useRef<HTMLSpanElement>(null);
   useEffect(() => {
@@ -18,7 +17,7 @@ export function Icon({ svg }: { svg: string | null | undefined }) {
   return <span class="template-icon" ref={host} aria-hidden="true" />;
 }
 
-/** Moves a popup so that all of it is in sight. */
+/** Moves a popup into view. */
 export function useInSight(at: Point | null, host: { current: HTMLElement | null }, again: unknown): void {
   useLayoutEffect(() => {
     const popup = host.current;
@@ -35,7 +34,10 @@ export function Chooser() {
   return asked ? <List key={asked.title} asked={asked} /> : null;
 }
 
-/** What fits of a list: at once where the page has it, else what was answered last, which may be to less than was typed. */
+/**
+ * Matches for the typed text: immediate from a local list, otherwise the last answer, which may be
+ * for an older text.
+ */
 function useFound({ list }: Question, typed: string): { found: readonly Choice[]; isLate: boolean } {
   const [answered, setAnswered] = useState<{ to: string | null; all: readonly Choice[] }>({ to: null, all: [] });
   useEffect(() => {
@@ -63,7 +65,7 @@ function List({ asked }: { asked: Question }) {
   const take = (choice: Choice | undefined): void => {
     if (choice && !choice.refused) asked.answer(choice);
   };
-  // Who types fast and enters means what was typed.
+  // `Enter` after fast typing means the typed text.
   useLayoutEffect(() => {
     if (!entered || isLate) return;
     setEntered(false);
@@ -118,7 +120,7 @@ export function Rename() {
     if (renaming.peek() !== asked) return;
     const wrong = take && name !== "" && !isName(name);
     if (!wrong) return asked.done(take && isName(name) ? name : null);
-    // What was typed can be mended; who has left it finds it there.
+    // The typed text can be corrected, even after leaving the field.
     refuse(words.nameHint);
     if (document.activeElement === field.current) field.current?.select();
   };

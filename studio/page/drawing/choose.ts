@@ -5,13 +5,12 @@ import { matching } from "../screen/ranking";
 import type { Point } from "./shapes";
 
 export interface Choice {
-  /** The id of the choice, unique in its list. */
+  /** Unique in its list. */
   id: string;
   label: string;
   hint?: string;
-  /** Why it cannot be chosen. */
+  /** The reason why it cannot be chosen. */
   refused?: string | null;
-  /** An icon of a toolbox. */
   icon?: string | null;
 }
 
@@ -19,14 +18,14 @@ export interface Question {
   title: string;
   /** In pixels of the pane; null for its middle. */
   at: Point | null;
-  /** All choices, or those for what was typed. */
+  /** All choices, or a function of the typed text. */
   list: readonly Choice[] | ((typed: string) => Promise<Choice[]>);
   answer(chosen: Choice | null): void;
 }
 
 export const question = signal<Question | null>(null);
 
-/** Asks; null where nothing was chosen. A question before it is answered with nothing. */
+/** Shows a list; null if nothing was chosen. An earlier question is cancelled. */
 export function choose(title: string, list: Question["list"], at: Point | null = null): Promise<Choice | null> {
   question.peek()?.answer(null);
   return new Promise((resolve) => {
@@ -35,7 +34,7 @@ export function choose(title: string, list: Question["list"], at: Point | null =
       at,
       list,
       answer: (chosen) => {
-        // First of all: a list that goes loses the focus, which answers with nothing.
+        // First: a list that closes loses the focus, which cancels it.
         resolve(chosen);
         if (question.peek() === one) question.value = null;
       },
@@ -44,7 +43,7 @@ export function choose(title: string, list: Question["list"], at: Point | null =
   });
 }
 
-/** The choices that fit what was typed by their names and hints, refused ones last. */
+/** The choices that match the typed text by name or hint, rejected ones last. */
 export function filtered(choices: readonly Choice[], typed: string): Choice[] {
   return matching(typed, choices, { text: ({ label, hint = "" }) => `${label} ${hint}`, isLast: ({ refused }) => Boolean(refused) });
 }

@@ -1,10 +1,10 @@
-// The commands of the context menu for a pressed item. `context.tsx` shows them.
+// Commands of the context menu for a pressed item. `context.tsx` shows them.
 import { signal } from "@preact/signals";
 import { commands, isEnabled, type Command } from "../screen/commands";
 import type { Hit } from "./hit";
 import type { Point } from "./shapes";
 
-/** The ids of commands, group by group; those that cannot be done are left out. */
+/** Command ids in groups; disabled ones are omitted. */
 const MENUS: Record<"ground" | Hit["on"], readonly (readonly string[])[]> = {
   element: [
     ["drawing.connect", "drawing.parts", "drawing.rename-item", "drawing.template", "drawing.start", "drawing.note", "drawing.inspect"],
@@ -24,10 +24,10 @@ const MENUS: Record<"ground" | Hit["on"], readonly (readonly string[])[]> = {
   ],
 };
 
-/** The menu that is open, in pixels of the pane. */
+/** The open menu, in pixels of the pane. */
 export const menu = signal<{ at: Point; groups: Command[][] } | null>(null);
 
-/** Opens the menu of what was pressed; `null` for the ground. */
+/** Opens the menu of a pressed item; null for the ground. */
 export function openMenu(on: Hit["on"] | null, at: Point): void {
   const byId = new Map(commands.peek().map((one) => [one.id, one]));
   const known = (id: string): Command[] => {

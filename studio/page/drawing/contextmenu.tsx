@@ -1,4 +1,4 @@
-// Shows the menu of what was pressed: arrows walk, letters jump, `Escape` and a press elsewhere close it.
+// The context menu: arrows move, letters jump, `Escape` and an outside press close it.
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { keysOf, type Command } from "../screen/commands";
 import { useInSight } from "./choices";
@@ -14,7 +14,7 @@ export function ContextMenu() {
   const close = (): void => void (menu.value = null);
   const run = (one: Command): void => {
     close();
-    // Once the focus is back in the drawing.
+    // After the focus has returned to the drawing.
     setTimeout(() => one.run());
   };
   const key = (event: KeyboardEvent): void => {

@@ -1,7 +1,6 @@
-// A drawing and what changes of it: pure, so that it is tested without a page.
+// Applies differences to a drawing. Pure, so that tests need no page.
 import type { Answer, Changed, Drawing } from "./shapes";
 
-/** The drawing that an answer carries. */
 export function whole(uri: string, answer: Answer): Drawing {
   return {
     uri,
@@ -15,14 +14,16 @@ export function whole(uri: string, answer: Answer): Drawing {
   };
 }
 
-/** The new name of a plan after a change, found by its place in the file; null if it is gone. */
+/** The new name of a plan after a change, found by its position in the file; null if it is gone. */
 export function calledNow(name: string, before: readonly string[], now: readonly string[]): string | null {
   if (now.includes(name)) return name;
   const there = before.length === now.length ? now[before.indexOf(name)] : undefined;
   return there !== undefined && !before.includes(there) ? there : null;
 }
 
-/** Items under the names that their plans have after a change; those of a plan that is gone may come back with it. */
+/**
+ * Items with the new names of their plans; items of a removed plan are kept, since it may return.
+ */
 export const itemsNow = (items: readonly string[], before: readonly string[], now: readonly string[]): string[] =>
   items.map((item) => {
     const [plan = "", ...rest] = item.split(".");

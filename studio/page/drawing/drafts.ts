@@ -1,10 +1,10 @@
-// Invalid text in a field: it stays there, marked, until it is corrected or reverted with Escape.
+// Invalid text in a field: it stays, marked, until corrected or reverted with `Escape`.
 const drafts = new Map<string, string>();
 
 /** The text kept in a field; undefined without one. */
 export const draft = (field: string): string | undefined => drafts.get(field);
 
-/** Writes what was typed, and keeps it where it is refused; whether it was written. */
+/** Writes a text, and keeps it if rejected; returns whether it was written. */
 export async function written(field: string, text: string, write: () => Promise<unknown>): Promise<boolean> {
   const done = Boolean(await write());
   if (done) drafts.delete(field);
@@ -12,5 +12,4 @@ export async function written(field: string, text: string, write: () => Promise<
   return done;
 }
 
-/** Forgets what stayed. */
 export const putBack = (field: string): void => void drafts.delete(field);

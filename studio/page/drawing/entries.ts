@@ -1,11 +1,11 @@
-// Entries of the plan: a new one, with its name, kind, type and value, asked for in one line each.
+// Adding entries: name, kind, type and value in one line.
 import { askLine } from "../screen/dialogs";
 import * as actions from "./actions";
 import * as ask from "./ask";
 import { isName } from "./rename";
 import { words } from "./words";
 
-/** Adds an entry of a kind; its line is written as in the text, `speed: length = 30 cm`. */
+/** Adds an entry of a kind, from a line as in the source: `speed: length = 30 cm`. */
 export async function add(): Promise<void> {
   const at = actions.here();
   if (!at) return;

@@ -1,4 +1,4 @@
-// The far view: below a zoom at which nothing can be read, the whole drawing is painted on one canvas under the SVG, which
+// The far view: at an illegible zoom, the drawing is painted on one canvas below the SVG, which
 // keeps the marks.
 import { effect, signal } from "@preact/signals";
 import { carried } from "./lift";
@@ -7,23 +7,23 @@ import { coloursIn, paint, type Colours } from "./paint";
 import { size, view, type Stage } from "./stage";
 import { FAR } from "./view";
 
-/** The colours of drawings, until the page gets others. */
+/** Colours of the drawing. */
 export const colours = signal<Colours | null>(null);
 
 const LOOKS = ["(prefers-color-scheme: dark)", "(forced-colors: active)"];
 
-/** Reads the colours from the page, and again when its look changes; the answer ends that. */
+/** Reads the colours, again at theme changes; returns a function that ends it. */
 function looks(root: SVGSVGElement): () => void {
   const read = (): void => void (colours.value = coloursIn(root));
   const queries = LOOKS.map((query) => matchMedia(query));
   queries.forEach((query) => query.addEventListener("change", read));
-  // The style sheet of the drawing may come after the page.
+  // The style sheet may load after the page.
   if (document.readyState === "complete") read();
   else window.addEventListener("load", read, { once: true });
   return () => queries.forEach((query) => query.removeEventListener("change", read));
 }
 
-/** Keeps the canvas of a pane; the answer ends that. */
+/** Keeps the canvas of a pane; returns a function that ends it. */
 export function farView(pane: HTMLElement, stage: Stage): () => void {
   const canvas = document.createElement("canvas");
   canvas.className = "far-view";

@@ -1,4 +1,4 @@
-// Puts fragments into the groups that are in sight. Of a large drawing the rest is left out until it comes into sight.
+// Fills visible groups with fragments. A large drawing leaves out invisible ones.
 import { all } from "./fragment";
 import { legible } from "./legible";
 import { carried } from "./lift";
@@ -6,12 +6,9 @@ import { boxOf, touches, type Drawing, type Edge, type Element, type Rect } from
 import { name, show, size, view, type Stage } from "./stage";
 import { FAR, sight } from "./view";
 
-/** So many elements are all kept in the page; of more, only those in sight. */
+/** Up to this number, all elements are kept in the page; otherwise only visible ones. */
 const FEW = 150;
-/**
- * The margin drawn beyond each side of the pane, as a share of its size: a small move draws nothing
- * new.
- */
+/** Margin beyond each side of the pane, relative to its size: small moves draw nothing new. */
 const BEYOND = 0.15;
 
 function beyond([x, y, width, height]: Rect): Rect {
@@ -19,16 +16,16 @@ function beyond([x, y, width, height]: Rect): Rect {
   return [x - dx, y - dy, width + 2 * dx, height + 2 * dy];
 }
 
-/** Shows a drawing in place of another one, or of a preview of it. */
+/** Replaces a drawing or its preview. */
 export function refresh(stage: Stage, before: Drawing | null, after: Drawing | null): void {
   carried.value = null;
   show(stage, before, after);
   if (after) fill(stage, after);
 }
 
-/** Shows what is in sight as large as the view says, and hides what is not. */
+/** Scales visible parts to the view, and hides others. */
 export function fill(stage: Stage, drawing: Drawing): void {
-  // Small, it is painted on a canvas.
+  // Below this zoom, the canvas shows them.
   if (view.peek().zoom < FAR) return;
   const seen = drawing.elements.size > FEW ? beyond(sight(view.peek(), size.peek())) : null;
   layer(stage, stage.edges, drawing.edges, (edge) => seen === null || touches(boxOf(edge), seen));

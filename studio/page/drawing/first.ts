@@ -1,4 +1,4 @@
-// A plan that is begun in a file which has none.
+// Creating the first plan of a file.
 import { current, nameOf } from "../documents/documents";
 import * as ask from "./ask";
 import { drawing } from "./model";
@@ -7,14 +7,14 @@ import { isName } from "./rename";
 import { refuse } from "./say";
 import { words } from "./words";
 
-/** The usual plan name of a file: `WallFollowing` for `wall_following.afp`. */
+/** The usual plan name for a file: `WallFollowing` for `wall_following.afp`. */
 export function nameFor(file: string): string {
   const parts = file.split("/").at(-1)!.replace(/\.afp$/, "").split(/[-_. ]+/);
   const name = parts.map((part) => part.charAt(0).toUpperCase() + part.slice(1)).join("");
   return isName(name) ? name : "Plan";
 }
 
-/** Begins a plan, with one of a template in it where one is given. */
+/** Creates a plan, with an optional element of a template. */
 export async function beginPlan(offer?: ask.Offer): Promise<void> {
   if (drawing.peek()?.plan !== null) return refuse(words.comes);
   const name = nameFor(nameOf(current.peek()));

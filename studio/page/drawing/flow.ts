@@ -1,5 +1,5 @@
-// The flow of data: arrows from an entry to what reads it, and to it from what writes it; of the entry under the pointer, of
-// what is selected, or of everything.
+// Data flow: arrows from an entry to its readers and from its writers, for the hovered entry, the
+// selection, or all.
 import { computed, effect, signal } from "@preact/signals";
 import { lsp } from "../server/session";
 import { selected } from "../plan/selection";
@@ -15,16 +15,15 @@ const MODES: readonly Mode[] = ["none", "selection", "all"];
 
 export const mode = signal<Mode>("none");
 
-/** The next mode: none, of the selection, all. */
 export function cycle(): void {
   mode.value = MODES[(MODES.indexOf(mode.peek()) + 1) % MODES.length]!;
   say(words.flowMode[mode.value]);
 }
 
-/** The readers and writers of each entry in a drawing, as far as requested. */
+/** Readers and writers of each entry, as far as requested. */
 const known = signal<{ of: Drawing | null; uses: ReadonlyMap<string, readonly Part[]> }>({ of: null, uses: new Map() });
 
-/** The entries whose arrows are shown. */
+/** Entries with visible arrows. */
 const shown = computed((): readonly string[] => {
   const drawn = drawing.value;
   if (!drawn) return [];
@@ -34,7 +33,7 @@ const shown = computed((): readonly string[] => {
   return mode.value === "selection" ? drawn.entries.map((entry) => entry.item).filter(concerned) : [];
 });
 
-/** Whether an entry is selected, or something that uses it. */
+/** Whether an entry or a user of it is selected. */
 function concerned(entry: string): boolean {
   const uses = known.value.uses.get(entry);
   const own = (part: Part): boolean => part.item === entry || (uses ?? []).some((use) => use.item === part.item || use.item.startsWith(`${part.item}.`));
@@ -50,7 +49,7 @@ async function ask(drawn: Drawing, entries: readonly string[]): Promise<void> {
   known.value = { of: drawn, uses: new Map([...before, ...found]) };
 }
 
-/** An arrow from one rectangle to another, leaving and arriving at their nearer sides. */
+/** An arrow between rectangles, at their nearest sides. */
 export function arrow(from: Rect, to: Rect): string {
   const right = from[0] + from[2] / 2 <= to[0] + to[2] / 2;
   const start: Point = [right ? from[0] + from[2] : from[0], from[1] + from[3] / 2];
@@ -71,7 +70,7 @@ function arrows(drawn: Drawing, entry: string, uses: readonly Part[]): SVGElemen
   });
 }
 
-/** Draws the arrows into a layer; the answer ends that. */
+/** Draws the arrows into a layer; returns a function that ends it. */
 export function flows(layer: SVGGElement): () => void {
   const asks = effect(() => {
     const drawn = drawing.value;

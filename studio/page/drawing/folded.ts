@@ -5,12 +5,12 @@ const KEY = "afp.folded";
 
 export const folded = signal<{ readonly [uri: string]: readonly string[] }>({});
 
-/** Takes up what was folded before, and keeps it from now on. */
+/** Restores folded items and starts to store them. */
 export function begin(store: Pick<Storage, "getItem" | "setItem">): void {
   try {
     folded.value = JSON.parse(store.getItem(KEY) ?? "{}");
   } catch {
-    // A value of another version can be lost.
+    // A value of another version can be dropped.
   }
   effect(() => store.setItem(KEY, JSON.stringify(folded.value)));
 }

@@ -1,4 +1,4 @@
-// Which boxes are folded: drawn without what they read and write, and with one tab for all their supervisors.
+// Folded boxes: drawn without their bindings, and with one tab for all supervisors.
 import { current } from "../documents/documents";
 import { selected } from "../plan/selection";
 import { drawing } from "./model";
@@ -7,7 +7,7 @@ import { holderOf } from "./shapes";
 import { folded } from "./folded";
 import { words } from "./words";
 
-/** Folds the boxes that are selected, or unfolds them where all of them are folded. */
+/** Folds the selected boxes; unfolds them if all are folded. */
 export function fold(): void {
   const drawn = drawing.peek();
   const chosen = new Set(drawn ? selected.peek().flatMap((part) => holderOf(drawn, part.item)?.item ?? []) : []);

@@ -1,5 +1,6 @@
-// Pieces of SVG that the engine sends, with words and icons of toolboxes in them: parsed, and let in only where every
-// element and attribute is on these lists. Nothing that runs, loads or leads elsewhere is on them.
+// SVG fragments from the engine, which contain names and icons of toolboxes. They are parsed and
+// accepted only if every element and attribute is on these lists. Nothing that runs, loads or links
+// is on them.
 
 const ELEMENTS = new Set(["g", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "tspan", "title", "use", "symbol"]);
 
@@ -11,7 +12,7 @@ const ATTRIBUTES = new Set([
 ]);
 
 const SVG = "http://www.w3.org/2000/svg";
-/** Only symbols of our own drawing. */
+/** Only symbols of the drawing itself. */
 const REFERENCE = /^#afp-[\w-]+$/;
 
 function allowed(element: Element): boolean {
@@ -26,25 +27,28 @@ function allowed(element: Element): boolean {
 
 const parsed = (svg: string): Element => new DOMParser().parseFromString(`<svg xmlns="${SVG}">${svg}</svg>`, "image/svg+xml").documentElement;
 
-/** The nodes of a parsed group for this document; none if it contains anything not on the lists. */
+/** Imports the nodes of a parsed group; none if anything is not on the lists. */
 const checked = (group: Element): SVGElement[] =>
   [...group.children].every(allowed) ? [...group.children].map((child) => document.importNode(child, true) as unknown as SVGElement) : [];
 
-/** The nodes of a fragment, for this document; none where anything in it is not on the lists. */
+/** The nodes of a fragment; none if anything is not on the lists. */
 export function nodes(svg: string): SVGElement[] {
   const root = parsed(svg);
   return root.localName === "svg" ? checked(root) : [];
 }
 
-/** The nodes of many fragments, parsed at once. */
+/** Parses many fragments at once. */
 export function all(fragments: readonly string[]): SVGElement[][] {
   const root = parsed(fragments.map((svg) => `<g>${svg}</g>`).join(""));
-  // One that closes what it did not open, or that cannot be read, is found by itself.
+  // An unbalanced or unreadable fragment is found by parsing each one.
   const whole = root.localName === "svg" && root.children.length === fragments.length && [...root.children].every((group) => group.localName === "g" && group.attributes.length === 0);
   return whole ? [...root.children].map(checked) : fragments.map(nodes);
 }
 
-/** An icon of a toolbox, a whole `svg` element; null where it is none, or has anything that is not on the lists. */
+/**
+ * An icon of a toolbox, a whole `svg` element; null if it is invalid or has anything that is not on
+ * the lists.
+ */
 export function icon(svg: string): SVGSVGElement | null {
   const root = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
   if (root.localName !== "svg" || root.namespaceURI !== SVG) return null;
@@ -56,7 +60,7 @@ export function icon(svg: string): SVGSVGElement | null {
   return made;
 }
 
-/** A new element of SVG with attributes. */
+/** Creates an SVG element with attributes. */
 export function svg<K extends keyof SVGElementTagNameMap>(name: K, attributes: Record<string, string | number> = {}): SVGElementTagNameMap[K] {
   const made = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));

@@ -7,7 +7,7 @@ export type Event =
   | { type: "down"; id: number; at: Point; hit: Hit | null; shift: boolean; middle: boolean; touch: boolean; selection: readonly string[] }
   | { type: "move"; id: number; at: Point; free: boolean }
   | { type: "up"; id: number; at: Point; free: boolean }
-  /** A finger has rested where it was put. */
+  /** A finger has rested on its place. */
   | { type: "rest"; id: number }
   /** `Escape`, or the pointer is lost. */
   | { type: "cancel" };
@@ -57,9 +57,9 @@ interface Finger {
 
 export const IDLE: State = { is: "idle" };
 
-/** So many pixels make a press a drag. */
+/** Distance that turns a press into a drag, pixels. */
 export const DECIDES = 4;
-/** So many milliseconds make a press of a finger a rest. */
+/** Time that turns a press of a finger into a rest, milliseconds. */
 export const RESTS = 500;
 
 const minus = ([ax, ay]: Point, [bx, by]: Point): Point => [ax - bx, ay - by];
@@ -91,7 +91,7 @@ function undone(state: State): Effect[] {
 type Down = Extract<Event, { type: "down" }>;
 type Later = Extract<Event, { type: "move" | "up" }>;
 
-/** A finger that rests opens the menu, and means nothing more until it is put down again. */
+/** A resting finger opens the menu, and is ignored until it is lifted. */
 function rest(state: State, id: number): [State, Effect[]] {
   if (state.is !== "pressed" || state.id !== id || !state.touch) return [state, []];
   return [IDLE, [{ do: "menu", hit: state.hit, at: state.at }]];
@@ -101,12 +101,12 @@ function down(state: State, event: Down): [State, Effect[]] {
   const { id, at, hit, shift, touch, selection } = event;
   if (state.is !== "idle") return second(state, event);
   const held = hit && "element" in hit && hit.on !== "exit" && hit.on !== "entry" ? hit.element : null;
-  // The dragged items: the selection if it was pressed, or else only the element.
+  // Dragged items: the selection if it was pressed, otherwise only the element.
   const elements = held === null ? [] : selection.includes(held) ? selection : [held];
   return [{ is: "pressed", id, at, hit, shift, middle: event.middle, touch, elements }, []];
 }
 
-/** A second finger zooms, independent of the first one. */
+/** A second finger zooms. */
 function second(state: State, event: Down): [State, Effect[]] {
   const first = state.is === "pressed" ? state.at : state.is === "panning" ? state.last : null;
   if (!event.touch || first === null || state.is === "idle" || state.is === "pinching") return [state, []];
@@ -117,7 +117,7 @@ function pinching(fingers: readonly [Finger, Finger], event: Later): [State, Eff
   const [one, two] = fingers;
   const other = event.id === one.id ? two : event.id === two.id ? one : null;
   if (!other) return [{ is: "pinching", fingers }, []];
-  // One finger goes on: it pans.
+  // The remaining finger pans.
   if (event.type === "up") return [{ is: "panning", id: other.id, last: other.at }, []];
   const moved: readonly [Finger, Finger] = event.id === one.id ? [{ id: one.id, at: event.at }, two] : [one, { id: two.id, at: event.at }];
   const before = middle(one.at, two.at);
@@ -137,7 +137,7 @@ function pressed(state: Pressed, event: Later): [State, Effect[]] {
   return begun.is === "idle" ? [IDLE, []] : [after.is === "idle" ? { is: "panning", id, last: at } : after, [...effects, ...more]];
 }
 
-/** Whether a supervisor is meant, which is drawn with another element. */
+/** Whether the hit is a supervisor, which is drawn with its owner. */
 const isInner = (hit: Hit): boolean => hit.on === "element" && hit.part.item !== hit.element;
 
 /** The gesture of a press that has moved far enough. */

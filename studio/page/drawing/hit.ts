@@ -1,18 +1,18 @@
-// The item under a point of the plan, from the engine's rectangles, without the page.
+// Finds the item under a point of the plan from the engine's rectangles.
 import { boxOf, distance, holderOf, inside, type Drawing, type Edge, type Element, type Part, type Point } from "./shapes";
 
-/** The meaning of a press there. */
+/** The pressed item. */
 export type Hit =
   | { on: "element" | "exit" | "port" | "entry" | "start"; part: Part; element: string }
   | { on: "edge" | "head"; part: Part; edge: string };
 
-/** How near an edge is near enough, in pixels of the screen: for a mouse, and for a finger. */
+/** Tolerance around edges, in screen pixels: for a mouse, and for a finger. */
 export const NEAR_EDGE = 6;
 export const NEAR_FINGER = 14;
-/** The length of an arrow's head that leads the edge elsewhere when it is dragged, on the screen. */
+/** Length of the arrowhead that can be dragged to another target, in screen pixels. */
 const HEAD = 16;
 
-/** The topmost thing at a point; `null` on the ground. */
+/** The topmost item at a point; null on the ground. */
 export function hit(drawing: Drawing, at: Point, zoom: number, near = NEAR_EDGE): Hit | null {
   return piece(drawing, at) ?? edge(drawing, at, near / zoom, zoom);
 }
@@ -40,7 +40,7 @@ function kindOf(element: Element, part: Part): "element" | "exit" | "port" | "en
   return entry ? "entry" : "element";
 }
 
-/** The kind of a part, for both ways of finding it. */
+/** The kind of a part. */
 export function onOf(drawing: Drawing, part: Part): Hit["on"] | null {
   const holder = holderOf(drawing, part.item);
   return holder ? kindOf(holder, part) : null;

@@ -1,11 +1,12 @@
-// Which plan of the file is shown, and which led to it: a reload of the page keeps that, and Back goes to what was shown before.
+// The displayed plan and the path to it: kept across reloads, and in the browser's history for
+// Back.
 import { batch, effect } from "@preact/signals";
 import { current } from "../documents/documents";
 import { show, trail, wanted, type Place } from "./model";
 
 const KEY = "afp-studio-plan";
 
-/** Shows the plan that was shown before, where the same file is open, and keeps from now on which one is. */
+/** Restores the last plan if the same file is open, and starts to store it. */
 export function begin(storage: Storage): void {
   const kept = read(storage);
   if (kept?.uri === current.peek() && wanted.peek() === null) batch(() => ([wanted.value, trail.value] = [kept.plan, kept.trail]));
@@ -17,7 +18,7 @@ export function begin(storage: Storage): void {
   addEventListener("popstate", ({ state }) => state?.uri && void show(state, state.trail).catch(console.error));
 }
 
-/** Makes what is shown an entry of the browser's history, unless it is the last one. */
+/** Adds the view to the browser's history, unless it is the last entry. */
 function remember(): void {
   const now = { uri: current.peek(), plan: wanted.peek(), trail: trail.peek() };
   const last = history.state;

@@ -1,4 +1,4 @@
-// The keys of the drawing, each a command that `Ctrl+K` finds by name as well.
+// Keys of the drawing, each also a command in `Ctrl+K`.
 import { signal } from "@preact/signals";
 import { command, type Command } from "../screen/commands";
 import { active, dismiss, ended } from "../debug/run";
@@ -33,7 +33,7 @@ import { words } from "./words";
 import * as entries from "./entries";
 
 const moving = signal<Carrying | null>(null);
-/** Whether the selection is being moved by the keys. */
+/** Whether keys are moving the selection. */
 export const isMoving = (): boolean => moving.value !== null;
 
 /** Selects by a key, announces it, and scrolls it into view. */
@@ -76,7 +76,7 @@ function zoomSelection(): void {
   if (rect) view.value = fitted(rect, size.peek());
 }
 
-/** The name, ports and exits of the focused element, one to be chosen. */
+/** Lists name, ports and exits of the focused element. */
 async function parts(): Promise<void> {
   const part = actions.focused();
   const drawn = drawing.peek();
@@ -106,7 +106,7 @@ function lift(): void {
   say(words.moving(named(elements)));
 }
 
-/** Handles a key while the selection is moved; false otherwise. */
+/** Handles a key during a move; returns false otherwise. */
 export function carries(stage: Stage, event: KeyboardEvent): boolean {
   const drawn = drawing.peek();
   const before = moving.peek();
@@ -127,7 +127,7 @@ export function carries(stage: Stage, event: KeyboardEvent): boolean {
   return true;
 }
 
-/** Puts back what the keys are moving: something else was pressed. */
+/** Reverts a move by keys, because something else was pressed. */
 export function settle(stage: Stage): void {
   if (!moving.peek()) return;
   moving.value = null;
@@ -142,13 +142,13 @@ async function add(): Promise<void> {
   if (offer) await actions.addAfter(offer);
 }
 
-/** The form of the selection gets the focus. */
+/** Focuses the inspector. */
 function inspect(): void {
   layout.show("inspector");
   requestAnimationFrame(() => document.querySelector<HTMLElement>(".inspector input")?.focus());
 }
 
-/** Says whether the selection is in the clipboard, which a browser may keep to itself. */
+/** Copies the selection; returns false if the browser denies the clipboard. */
 async function copy(): Promise<boolean> {
   const text = await actions.copied();
   return navigator.clipboard.writeText(text).then(() => true, () => (refuse(words.noClipboard), false));
@@ -164,7 +164,7 @@ async function paste(): Promise<void> {
   await actions.paste(text);
 }
 
-/** Leaves the innermost thing: the selection is the last one. */
+/** Leaves the innermost mode; the selection is last. */
 function escape(): void {
   if (renaming.peek()) return renaming.peek()!.done(null);
   if (editing.peek()) return discard();
@@ -174,7 +174,7 @@ function escape(): void {
   say(words.nothingSelected);
 }
 
-/** All commands of the drawing; the answer takes them away. */
+/** Registers the drawing's commands; returns a function that removes them. */
 export function commands(): () => void {
   const any = (): boolean => selected.peek().length > 0;
   const may = (): boolean => pen.peek() && drawing.peek()?.plan !== null;

@@ -1,4 +1,4 @@
-// Something that is drawn from one place of the drawing to another: an exit to what comes next, an entry to a port.
+// Drawing a connection: from an exit to the next element, or from an entry to a port.
 import { signal } from "@preact/signals";
 import { select } from "../plan/selection";
 import { pen } from "../server/session";
@@ -18,22 +18,22 @@ import { toPlan } from "./view";
 import { words } from "./words";
 
 /**
- * The edge being drawn: its possible targets, each with a reason against it, and its end in pixels
- * of the pane.
+ * The new edge: its possible targets, each with the reason if it does not fit, and its end in
+ * pixels of the pane.
  */
 export const connecting = signal<{ from: Part; targets: ReadonlyMap<string, string | null>; over: string | null; at: Point | null } | null>(null);
 
 const isWhole = ({ part }: Part): boolean => part === undefined || part.kind === "whole";
 
-/** Whether what is drawn is a supervisor, which goes to another element; another whole item is an entry. */
+/** Whether a supervisor is dragged to another element; other whole items are entries. */
 export const isSupervisor = (drawn: Drawing, from: Part): boolean => isWhole(from) && !drawn.entries.some((entry) => entry.item === from.item);
 
-/** The permitted edges. */
+/** The permitted targets. */
 async function targetsOf(from: Part): Promise<ReadonlyMap<string, string | null>> {
   const drawn = drawing.peek();
   if (!isWhole(from) || !drawn) return actions.fitting(from);
   const all = [...drawn.elements.values()];
-  // Which ports an entry fits is asked at the drop; a supervisor of the start watches the whole plan.
+  // An entry's ports are checked at the drop; a supervisor on the start watches the whole plan.
   return new Map(all.filter((one) => one.kind !== null || isSupervisor(drawn, from)).map((one) => [nameOf(one.item), null]));
 }
 
@@ -57,7 +57,7 @@ export function to(at: Point): void {
   connecting.value = { ...now, over: found && "element" in found ? found.element : null, at };
 }
 
-/** Dropped on what fits, on what does not, or on the ground, which asks. */
+/** Drops on a target, on an invalid one, or on the ground, which asks. */
 export async function drop(at: Point): Promise<void> {
   to(at);
   const [drawn, now] = [drawing.peek(), connecting.peek()];
@@ -75,7 +75,7 @@ export async function drop(at: Point): Promise<void> {
   await actions.whatThen(now.from, at, [grid(place[0] - 60), grid(place[1])]);
 }
 
-/** Hands a supervisor to another element, or to the whole plan. */
+/** Moves a supervisor to another element, or to the whole plan. */
 async function hand(drawn: Drawing, { item }: Part, to: string): Promise<void> {
   if (holderOf(drawn, item)?.item === to) return;
   const plan = planOf(item);
@@ -84,7 +84,7 @@ async function hand(drawn: Drawing, { item }: Part, to: string): Promise<void> {
   await ask.edit([{ move: { item, plan, ...(owner ? { owner } : {}) } }], {}, [{ item: after }]);
 }
 
-/** Binds a port to an entry; dropped on an element, asks for the port where several fit. */
+/** Binds a port to an entry; for an element, asks for the port if several fit. */
 async function bind(entry: Part, onto: Part, at: Point): Promise<void> {
   const drawn = drawing.peek();
   const isMine = turn();
@@ -105,7 +105,7 @@ async function bind(entry: Part, onto: Part, at: Point): Promise<void> {
   if (port) await ask.edit([{ bind: { component: onto.item, port: port.name, to: port.out ? { out: name } : { in: name } } }], {}, [port.part]);
 }
 
-/** The line from where it began to the pointer, in units of the plan. */
+/** The line from its start to the pointer, in units of the plan. */
 export function newLine(): Point[] | null {
   const [drawn, now] = [drawing.value, connecting.value];
   const rect = drawn && now?.at && rectOf(drawn, now.from);

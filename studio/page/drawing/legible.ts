@@ -4,21 +4,24 @@ import type { Drawing } from "./shapes";
 import type { Stage } from "./stage";
 import { FAR, NEAR } from "./view";
 
-/** Pixels of the screen that a name and a pill's text have at least. */
+/** Minimum screen size of a name and of a pill's text, pixels. */
 const NAME = 10.5;
 const PILL = 10;
-/** A pill holds no larger text, in units of the plan. */
+/** Maximum size of a pill's text, in units of the plan. */
 const TALLEST = 17;
-/** How much wider than as it is drawn a text may be, so that it stays off the round ends of its pill, and what a name gains where its icon stood. */
+/**
+ * Maximum widening of a text, so that it stays off the round ends of its pill, and the space that a
+ * name gains from its hidden icon.
+ */
 const SPARE = 6;
 const ICON = { element: 36, supervisor: 28 };
 
 const isName = (text: SVGTextElement): boolean => text.classList.contains("name");
 const isPill = (text: SVGTextElement): boolean => text.getAttribute("text-anchor") === "middle" && !text.classList.contains("port");
 
-/** Fits the texts of what is in sight to the zoom. */
+/** Fits visible texts to the zoom. */
 export function legible(stage: Stage, drawing: Drawing, zoom: number): void {
-  // Steps of a fiftieth: the eye sees no finer ones.
+  // In steps of a fiftieth: finer ones are not visible.
   const step = zoom >= NEAR ? 1 : zoom < FAR ? 0 : Math.round(zoom * 50) / 50;
   for (const [item, group] of stage.nodes) {
     if (group.dataset.zoom === String(step) || group.hasAttribute("display") || !stage.filled.has(group)) continue;
@@ -53,7 +56,7 @@ function fit(group: SVGGElement, step: number, width: number): void {
   }
 }
 
-/** As the engine drew it. */
+/** Resets to the engine's text. */
 function natural(text: SVGTextElement): void {
   text.style.removeProperty("font-size");
   text.style.removeProperty("transform");

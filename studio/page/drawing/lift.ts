@@ -1,15 +1,16 @@
-// Elements under a drag: their groups get a transform, the ends of their edges follow, nothing is asked before the drop.
+// Dragged elements: their groups get a transform, edge ends follow, and no request is made before
+// the drop.
 import { signal } from "@preact/signals";
 import { bent, road } from "./bend";
 import { holderOf, nameOf, planOf, type Drawing, type Edge, type Point } from "./shapes";
 import type { Stage } from "./stage";
 
-/** The grid that dragged elements keep to, in units of the plan. */
+/** Grid of dragged elements, in units of the plan. */
 export const GRID = 12;
 
 const NONE: Point = [0, 0];
 
-/** Elements that are shown elsewhere until the engine says where they are, and the edges that follow them. */
+/** Elements shown elsewhere until the engine answers, and their edges. */
 export interface Carried {
   elements: ReadonlySet<string>;
   by: Point;
@@ -19,7 +20,7 @@ export interface Carried {
 export const carried = signal<Carried | null>(null);
 
 /**
- * The distance of moved elements, so that the first one is on the grid; `free` ignores the grid and
+ * The offset of moved elements that puts the first one on the grid; `free` ignores the grid and
  * uses whole units.
  */
 export function snapped(drawing: Drawing, elements: readonly string[], [dx, dy]: Point, free: boolean): Point {
@@ -30,7 +31,6 @@ export function snapped(drawing: Drawing, elements: readonly string[], [dx, dy]:
   return [to(first.rect[0], dx), to(first.rect[1], dy)];
 }
 
-/** Shows elements at other places. */
 export function carry(stage: Stage, drawing: Drawing, elements: readonly string[], by: Point): void {
   const followers = follow(drawing, elements);
   carried.value = { elements: new Set(elements), by, followers };
@@ -44,14 +44,14 @@ export function carry(stage: Stage, drawing: Drawing, elements: readonly string[
 
 export interface Follower {
   edge: Edge;
-  /** Which of its ends is carried. */
+  /** Whether the start or the end is moved. */
   start: boolean;
   end: boolean;
 }
 
 let last: { drawing: Drawing; elements: readonly string[]; found: Follower[] } | null = null;
 
-/** The edges that follow elements; found once for all moves of a drag. */
+/** The edges of moved elements; found once per drag. */
 function follow(drawing: Drawing, elements: readonly string[]): readonly Follower[] {
   if (last?.drawing === drawing && last.elements === elements) return last.found;
   const carried = new Set(elements);
@@ -67,7 +67,7 @@ function draw(stage: Stage, group: SVGGElement, points: Point[]): void {
   for (const path of group.querySelectorAll("path")) path.setAttribute("d", path.classList.contains("tip") ? tip : line);
 }
 
-/** The places that elements have after they were carried, as `afp/place` takes them. */
+/** The positions of moved elements, for `afp/place`. */
 export function places(drawing: Drawing, elements: readonly string[], by: Point): Record<string, Point> {
   const found: Record<string, Point> = {};
   for (const item of elements) {
@@ -77,7 +77,7 @@ export function places(drawing: Drawing, elements: readonly string[], by: Point)
   return found;
 }
 
-/** The elements that selected parts are drawn with; the start is one, too. */
+/** The elements of selected parts; the start counts as one. */
 export function movable(drawing: Drawing, items: readonly string[]): string[] {
   const found = items.map((item) => holderOf(drawing, item)?.item);
   return [...new Set(found.filter((item): item is string => item !== undefined))];

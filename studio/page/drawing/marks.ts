@@ -1,23 +1,22 @@
-// The overlay of the drawing: rings of selection and focus, handles of exits, drop targets, the
-// selection box and the new line.
+// The overlay: rings of selection and focus, handles of exits, drop targets, selection box, new
+// line.
 import { svg } from "./fragment";
 import { holderOf, keyOf, rectOf, type Drawing, type Part, type Point, type Rect } from "./shapes";
 import type { Stage } from "./stage";
 import { words } from "./words";
 
-/** The marked items. */
 export interface Marked {
   selected: readonly Part[];
-  /** Only for keys: a second and a third ring. */
+  /** Whether to draw focus rings for keyboard users. */
   keys: boolean;
-  /** Elements that fit what is being connected, and the one under the pointer. */
+  /** Elements that fit a new edge, and the hovered one. */
   fits: ReadonlySet<string> | null;
   over: string | null;
-  /** Elements that no way leads to. */
+  /** Unreachable elements. */
   unreached: ReadonlySet<string>;
-  /** The last search. */
+  /** Results of the last search. */
   found: readonly Part[];
-  /** The drop target of a template. */
+  /** Drop target of a template. */
   target: { rect: Rect } | { edge: string } | null;
   box: Rect | null;
   line: readonly Point[] | null;
@@ -31,7 +30,7 @@ export function mark(stage: Stage, drawing: Drawing | null, marked: Marked): voi
   if (drawing) {
     const entries = new Set(drawing.entries.map(({ item }) => item));
     const isWhole = ({ part }: Part): boolean => part === undefined || part.kind === "whole";
-    // Exits lie over the ring of their element, entries on the box of the configuration.
+    // Exits are above the ring of their element, entries above the configuration's box.
     const layer = (part: Part): SVGElement[] => (isWhole(part) && !entries.has(part.item) ? below : made);
     for (const part of marked.selected) {
       const rect = rectOf(drawing, part);
@@ -59,7 +58,7 @@ export function mark(stage: Stage, drawing: Drawing | null, marked: Marked): voi
 const outline = ([x, y, width, height]: Rect, more: number, name: string): SVGElement =>
   svg("rect", { class: name, x: x - more, y: y - more, width: width + 2 * more, height: height + 2 * more, rx: more === 0 ? 2 : 9 + more / 2 });
 
-/** A dotted border with what it means. */
+/** A dotted border with its meaning. */
 function never(rect: Rect): SVGElement[] {
   const text = svg("text", { class: "unreached-text", x: rect[0] + rect[2], y: rect[1] - 6 });
   text.textContent = words.neverReached;
@@ -73,7 +72,7 @@ function ring(rect: Rect, { keys, zoom }: Marked, last: boolean): SVGElement[] {
   return rings;
 }
 
-/** Exits of what is selected have a handle to be dragged. */
+/** Drag handles for the exits of the selection. */
 function handles(drawing: Drawing, item: string, zoom: number): SVGElement[] {
   const exits = (holderOf(drawing, item)?.pieces ?? []).filter((piece) => piece.item === item && piece.part.kind === "exit");
   return exits.map(({ rect: [x, y, width, height] }) => {

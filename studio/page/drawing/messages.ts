@@ -1,14 +1,13 @@
-// The problems of each part of the drawing, found by their places in the text.
+// The problems of each part, found by their source positions.
 import { computed, effect, signal } from "@preact/signals";
 import { current } from "../documents/documents";
 import { itemAt } from "../plan/places";
 import { problems, said, type Diagnostic } from "../plan/problems";
 import { keyOf, type Drawing, type Part } from "./shapes";
 
-/** Problems by the key of the part that they are about. */
+/** Problems by the key of their part. */
 const byPart = signal<ReadonlyMap<string, Diagnostic[]>>(new Map());
 
-/** Begins to find out; the answer ends it. */
 export function begin(): () => void {
   let round = 0;
   return effect(() => {
@@ -27,13 +26,12 @@ export function begin(): () => void {
   });
 }
 
-/** The code of an element that no way from the start leads to. */
+/** Code of an unreachable element. */
 const UNREACHED = "E0302";
 
-/** The elements that no way leads to. */
 export const unreached = computed<ReadonlySet<string>>(() => new Set([...byPart.value].flatMap(([key, all]) => (all.some(({ code }) => code === UNREACHED) ? [key] : []))));
 
-/** The problems of a part; of an element, those of its ports and exits as well. */
+/** The problems of a part; for an element, also of its ports and exits. */
 export function about(drawing: Drawing, part: Part): Diagnostic[] {
   const own = byPart.value.get(keyOf(part)) ?? [];
   if (part.part && part.part.kind !== "whole") return own;

@@ -1,4 +1,5 @@
-// The whole drawing in a corner, with a frame around what is in sight: pressed or dragged, it shows what is there.
+// The minimap: the whole drawing with a frame around the visible part. A press or drag moves the
+// view.
 import { computed } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { step } from "../plan/guide";
@@ -10,16 +11,15 @@ import { centred, fitted, sight, toPane, toPlan } from "./view";
 
 /** In CSS pixels. */
 const MAP = { width: 168, height: 112 };
-/** A pane that is smaller needs its room for the drawing. */
+/** Minimum pane size for the minimap. */
 const LEAST = { width: 560, height: 400 };
 
-/** The whole plan in the map. */
 const whole = computed(() => fitted(drawing.value?.bounds ?? [0, 0, 1, 1], MAP, 0, 4));
 
-/** Whether something of the drawing is out of sight, and there is room for the map. */
+/** Whether a part of the drawing is out of view, and the pane is large enough. */
 const needed = computed(() => {
   const drawn = drawing.value;
-  // The card of the guide stands there.
+  // The card of the guide is at the same place.
   if (!drawn?.plan || step.value !== null || size.value.width < LEAST.width || size.value.height < LEAST.height) return false;
   const [x, y, width, height] = sight(view.value, size.value);
   const [left, top, wide, high] = drawn.bounds;
@@ -54,7 +54,7 @@ function Map() {
   );
 }
 
-/** What is in sight. */
+/** The visible part. */
 function Frame() {
   const [x, y, width, height] = sight(view.value, size.value);
   const [left, top] = toPane(whole.value, [x, y]);

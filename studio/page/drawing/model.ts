@@ -1,4 +1,4 @@
-// The drawing as the page keeps it: asked for once, then kept by differences, held while something is dragged.
+// The page's drawing: requested once, then updated by differences, frozen during a drag.
 import { batch, computed, effect, signal } from "@preact/signals";
 import { current, open } from "../documents/documents";
 import { LOST, Refused } from "../server/lsp";
@@ -9,25 +9,24 @@ import { folded } from "./folded";
 
 /** The drawing; null before the first answer. */
 export const drawing = signal<Drawing | null>(null);
-/** The plan that is shown: null for the first one of the file. */
+/** The displayed plan; null for the first one of the file. */
 export const wanted = signal<string | null>(null);
-/** The name of the plan that is shown. */
+/** Name of the displayed plan. */
 export const plan = computed(() => drawing.value?.plan ?? null);
-/** A plan of a file. */
 export interface Place {
   uri: string;
   plan: string;
 }
 
-/** The plans that were shown before, to go back to. */
+/** Earlier plans, for going back. */
 export const trail = signal<readonly Place[]>([]);
-/** The view of the next file. */
+/** View for the next file. */
 let next: { plan: string | null; trail: readonly Place[] } | null = null;
 
 let held = 0;
 let kept: Changed[] = [];
 
-/** Delays changes until `release`: the drawing does not change during a drag. */
+/** Delays updates until `release`: the drawing stays during a drag. */
 export function hold(): void {
   held += 1;
 }
@@ -43,7 +42,7 @@ function take(change: Changed): void {
   if (!before || change.textDocument.uri !== before.uri) return;
   if (held > 0) return void kept.push(change);
   batch(() => {
-    // The plan that is shown has another name, or is gone, and the server tells of the first one.
+    // The displayed plan was renamed or removed, and the server reports the first plan.
     if (wanted.peek() === before.plan && change.plan !== before.plan) wanted.value = wanted.peek() && change.plan;
     trail.value = trail.peek().flatMap((place) => {
       const plan = place.uri === before.uri ? calledNow(place.plan, before.plans, change.plans) : place.plan;
@@ -62,7 +61,7 @@ async function ask(uri: string, plan: string | null, folded: readonly string[]):
     .request<Answer>("afp/drawing", { textDocument, ...(plan ? { plan } : {}), folded, subscribe: true })
     .catch((why: Error) => {
       console.error(why);
-      // There is no such plan, so the first one is shown. For a subscribed file the server decides,
+      // Without such a plan, the first one is shown. For a subscribed file the server decides,
       // since the plan may return.
       const gone = drawing.peek()?.uri !== uri && why instanceof Refused && why.code !== LOST && plan !== null && plan === wanted.peek();
       if (gone && current.peek() === uri) batch(() => ([wanted.value, trail.value] = [null, []]));
@@ -73,7 +72,6 @@ async function ask(uri: string, plan: string | null, folded: readonly string[]):
   drawing.value = whole(uri, answer);
 }
 
-/** Begins to follow the document that is shown; the answer ends it. */
 export function follow(): () => void {
   const changes = lsp().on("afp/drawingChanged", take);
   let before = "";
@@ -97,7 +95,7 @@ export function follow(): () => void {
   };
 }
 
-/** Shows a plan, of another file, too. */
+/** Shows a plan, possibly of another file. */
 export async function show({ uri, plan }: { uri: string; plan: string | null }, before: readonly Place[]): Promise<void> {
   if (uri === current.peek()) return batch(() => void ([wanted.value, trail.value] = [plan, before]));
   await open(uri);
@@ -105,7 +103,7 @@ export async function show({ uri, plan }: { uri: string; plan: string | null }, 
   current.value = uri;
 }
 
-/** Shows another plan of the file, or of one that it uses, and remembers the way back. */
+/** Opens another plan of the file, or of a used file, and stores the way back. */
 export async function enter(name: string, file: string | null = null): Promise<void> {
   const drawn = drawing.peek();
   const here = plan.peek();
@@ -113,7 +111,7 @@ export async function enter(name: string, file: string | null = null): Promise<v
   await show({ uri: file ?? drawn.uri, plan: name }, [...trail.peek(), { uri: drawn.uri, plan: here }]);
 }
 
-/** Goes back to the plan that was shown before; false where there is none. */
+/** Returns to an earlier plan; false if there is none. */
 export function leave(to = trail.peek().length - 1): boolean {
   const back = trail.peek()[to];
   if (back !== undefined) void show(back, trail.peek().slice(0, to));

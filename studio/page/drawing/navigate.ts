@@ -1,5 +1,5 @@
-// Where the arrow keys lead in a drawing: down along the exits, up back, left and right to neighbours, into the supervisors
-// of an element on its right, from supervisors and parts back to the element. Pure.
+// Arrow keys in the drawing: down along exits, up back, left and right to neighbours, right into
+// the supervisors of an element, from supervisors and parts back to the element. Pure.
 import { centre, holderOf, type Drawing, type Element, type Part } from "./shapes";
 
 export type Direction = "down" | "up" | "left" | "right";
@@ -24,14 +24,17 @@ export function step(drawing: Drawing, from: Part, direction: Direction): Part |
 
 const whole = (drawing: Drawing, element: Element): Part => ({ item: element.kind === null ? (drawing.plan ?? element.item) : element.item });
 
-/** The supervisors of an element, in their order; of the start, those of the plan. */
+/** Supervisors of an element in order; for the start, those of the plan. */
 function supervisors(here: Element): string[] {
   const watching = here.pieces.filter((piece) => piece.item !== here.item && piece.part.kind === "exit").map((piece) => piece.item);
   const drawn = here.kind === null ? watching : here.pieces.filter((piece) => piece.item !== here.item && piece.part.kind === "whole").map((piece) => piece.item);
   return [...new Set(drawn)];
 }
 
-/** Steps between an element, its parts and its supervisors; null where the key leads to another element. */
+/**
+ * Moves between an element, its parts and its supervisors; null if the key leads to another
+ * element.
+ */
 function inside(here: Element, from: Part, direction: Direction): Part | null {
   const own = supervisors(here);
   const nth = own.indexOf(from.item);
@@ -45,7 +48,7 @@ function inside(here: Element, from: Part, direction: Direction): Part | null {
   return beside === undefined ? null : { item: beside };
 }
 
-/** The target of the exit that is selected, or of the first exit that leads to another element. */
+/** The target of the selected exit, or of the first exit to another element. */
 function along(drawing: Drawing, here: Element, from: Part): Element | null {
   const leaving = (item: string): boolean => holderOf(drawing, item) === here;
   const edges = [...drawing.edges.values()].filter((edge) => leaving(edge.from));
@@ -57,7 +60,7 @@ function along(drawing: Drawing, here: Element, from: Part): Element | null {
   return target ?? nearest(drawing, here, (away) => away[1] > 0 && away[1] >= Math.abs(away[0]));
 }
 
-/** Where an edge comes from: the nearest one above, if there is one. */
+/** The origin of an incoming edge, the nearest one above if possible. */
 function back(drawing: Drawing, here: Element): Element | null {
   const sources = [...drawing.edges.values()].filter((edge) => edge.to === here.item).map((edge) => holderOf(drawing, edge.from));
   const others = sources.filter((source): source is Element => source !== undefined && source !== here);

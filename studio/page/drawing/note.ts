@@ -1,4 +1,4 @@
-// The note of an item, the comment above it, while it is written; `notefield.tsx` shows the field.
+// Editing the note (comment) above an item; `notefield.tsx` shows the field.
 import { signal } from "@preact/signals";
 import * as actions from "./actions";
 import * as ask from "./ask";
@@ -9,7 +9,7 @@ import { words } from "./words";
 
 export const noting = signal<{ item: string; text: string; at: Point | null } | null>(null);
 
-/** Opens the note of what is selected; of a part, that of its item. */
+/** Opens the note of the selection; of a part, the note of its item. */
 export async function write(): Promise<void> {
   const part = actions.focused();
   if (!part) return refuse(words.selectFirst);
@@ -19,7 +19,7 @@ export async function write(): Promise<void> {
   if (text !== null && isMine()) noting.value = { item, text, at: actions.below({ item }) };
 }
 
-/** Takes a note over, unless it says what it said. */
+/** Writes a note if it has changed. */
 export async function take(text: string): Promise<void> {
   const before = noting.peek();
   noting.value = null;

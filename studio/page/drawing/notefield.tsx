@@ -1,4 +1,4 @@
-// The field in which a note is written: it is taken over when it is left, put back with `Escape`.
+// The note's field: leaving it writes, `Escape` reverts.
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { useInSight } from "./choices";
 import { noting, take } from "./note";

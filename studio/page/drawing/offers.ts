@@ -1,18 +1,18 @@
-// Templates as texts and changes for a choice.
+// Templates as texts and changes.
 import type { Change, Offer } from "./ask";
 import type { Choice } from "./choose";
 import { nameOf, planOf, type Drawing, type Edge, type Part } from "./shapes";
 import { words } from "./words";
 
-/** The names that the items of a plan have. */
+/** Names of the plan's items. */
 export function taken(drawing: Drawing): Set<string> {
   const pieces = [...drawing.elements.values()].flatMap((element) => element.pieces);
   return new Set([...pieces.map((piece) => piece.item), ...drawing.entries.map((entry) => entry.item)].map(nameOf));
 }
 
 /**
- * An element or supervisor of a template, without ports and exits, under a free name: the engine would take every later
- * mention of a name that is taken for the new one.
+ * The header of an element or supervisor, without ports and exits. Its name is free: the engine
+ * would apply later references of a taken name to the new item.
  */
 export function header(offer: Offer, taken: ReadonlySet<string> = new Set()): { text: string; name: string; template: string } {
   const found = /^(\w+) \$\{1:(\w+)\}: ([\w.]+)/.exec(offer.snippet);
@@ -23,19 +23,19 @@ export function header(offer: Offer, taken: ReadonlySet<string> = new Set()): { 
   return { name, template, text: `${found?.[1] ?? offer.kind} ${name}: ${template} {}` };
 }
 
-/** The toolbox that must be named first. */
+/** The change that imports the toolbox. */
 export const using = (offer: Offer): Change[] => (offer.missingUse ? [{ addUse: { toolbox: offer.missingUse } }] : []);
 
-/** The path of what is added to a plan, or to an element of it. */
+/** The path of a new item of a plan or element. */
 export const pathOf = (plan: string, owner: string | null, name: string): string => (owner ? `${plan}.${owner}.${name}` : `${plan}.${name}`);
 
-/** The change that leads an exit, or the start, to an element of the plan or to a word of the language. */
+/** The change that connects an exit, or the start, to an element or a keyword. */
 export const leading = (from: Part, to: string): Change =>
   from.part?.kind === "start"
     ? { setStart: { plan: planOf(from.item), to } }
     : { connect: { from: from.item, outcome: from.part?.name ?? "", to } };
 
-/** Adds what an offer makes, and leads an exit to it. */
+/** Adds an item, and connects an exit to it. */
 export function added(plan: string, owner: string | null, offer: Offer, from: Part | null, names?: ReadonlySet<string>): Change[] {
   const { text, name } = header(offer, names);
   const add = { add: { plan, text, ...(owner ? { owner } : {}) } };
@@ -51,7 +51,6 @@ export function between(plan: string, offer: Offer, edge: Edge, names?: Readonly
   return [...added(plan, null, offer, from, names), ...leads];
 }
 
-/** An offer in a list. */
 export const choice = (offer: Offer, label = offer.template): Choice => ({
   id: `new ${offer.toolbox ?? ""}.${offer.template}`,
   label,
@@ -59,10 +58,10 @@ export const choice = (offer: Offer, label = offer.template): Choice => ({
   icon: offer.icon,
 });
 
-/** Those for elements: possible next elements, and possible starts. */
+/** Offers of elements: possible next elements and starts. */
 export const ofElements = (offers: readonly Offer[]): Offer[] => offers.filter((offer) => offer.kind !== "supervise");
 
-/** A target among candidates in a list. */
+/** A target among candidates, for a list. */
 export function target({ text, refused }: { text: string; refused: string | null }): Choice {
   const known: Record<string, [string, string]> = {
     terminate: [words.end, words.endHint],

@@ -1,11 +1,11 @@
-// Small pictures of plans, with only boxes and lines: the far view and the minimap.
+// Small pictures of plans with only boxes and lines, for the far view and the minimap.
 import { bent } from "./bend";
 import { svg } from "./fragment";
 import type { Carried } from "./lift";
 import { boxOf, touches, type Drawing, type Element, type Point, type Rect } from "./shapes";
 import { sight, type Size, type View } from "./view";
 
-/** Of each kind of box its fill and border, of each kind of edge its line; and of what is wrong. */
+/** Fill and border of boxes and the line of edges by kind, and colours of problems. */
 export interface Colours {
   boxes: ReadonlyMap<string, { fill: string; stroke: string }>;
   lines: ReadonlyMap<string, string>;
@@ -16,7 +16,7 @@ const BOXES = ["actor", "computation", "subplan", "supervisor", "start"];
 const LINES = ["start", "state", "event", "error", "missed"];
 const WRONG = ["error", "warning"] as const;
 
-/** The colours of the engine's style sheet, as they are inside of a drawing in the page. */
+/** The colours of the engine's style sheet, as computed in a drawing of the page. */
 export function coloursIn(root: SVGSVGElement): Colours {
   const group = svg("g");
   root.append(group);
@@ -33,12 +33,12 @@ export function coloursIn(root: SVGSVGElement): Colours {
   return found;
 }
 
-/** Pixels of the screen: borders and lines have them at any zoom, boxes at least the last. */
+/** Widths of borders and lines at any zoom, and the minimum size of boxes, in screen pixels. */
 const BORDER = 1.2;
 const LINE = 1.2;
 const LEAST = 2;
 
-/** Paints what is in sight. `size` is in CSS pixels, of which each has `density` of the canvas. */
+/** Paints the visible part. `size` is in CSS pixels, each with `density` canvas pixels. */
 export function paint(canvas: HTMLCanvasElement, drawing: Drawing, view: View, size: Size, colours: Colours, carried: Carried | null = null): void {
   const context = canvas.getContext("2d");
   if (!context) return;
@@ -58,7 +58,7 @@ function lines(context: CanvasRenderingContext2D, drawing: Drawing, seen: Rect, 
   const still: Point = [0, 0];
   context.lineWidth = width;
   for (const [kind, colour] of lines) {
-    // All lines of a colour at once: that is what makes a thousand of them cheap.
+    // All lines of a colour at once: this makes a thousand of them fast.
     context.beginPath();
     for (const edge of drawing.edges.values()) {
       if (edge.kind !== kind) continue;
@@ -99,7 +99,7 @@ function box(context: CanvasRenderingContext2D, rect: Rect, [dx, dy]: Point, zoo
 interface Small {
   rect: Rect;
   supervisors: readonly Rect[];
-  /** The worst that is wrong with it; empty where nothing is. */
+  /** Its most severe problem; empty for none. */
   wrong: "error" | "warning" | "";
 }
 
@@ -110,7 +110,7 @@ function seenSmall(element: Element): Small {
   if (known) return known;
   const has = (what: string): boolean => element.pieces.some((piece) => piece.severity === what);
   const leaving = new Set(element.pieces.filter((piece) => piece.part.kind === "exit").map((piece) => piece.item));
-  // Entries have no exits; the others that are no element are supervisors.
+  // Entries have no exits; other pieces that are not the element are supervisors.
   const watching = element.pieces.filter(({ item, part }) => part.kind === "whole" && item !== element.item && leaving.has(item));
   const found: Small = { rect: element.rect, supervisors: watching.map(({ rect }) => rect), wrong: has("error") ? "error" : has("warning") ? "warning" : "" };
   small.set(element, found);

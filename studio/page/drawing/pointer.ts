@@ -1,4 +1,4 @@
-// Pointers on the drawing: feeds the state machine of `gesture.ts` and does what it says.
+// Pointers on the drawing: feeds the state machine of `gesture.ts` and performs its effects.
 import { signal } from "@preact/signals";
 import { pen } from "../server/session";
 import { select, selected } from "../plan/selection";
@@ -20,7 +20,7 @@ import { editing } from "./value";
 import { panned, toPane, toPlan, wheelFactor, zoomed } from "./view";
 import { words } from "./words";
 
-/** A box that is being drawn, in units of the plan. */
+/** The selection box, in units of the plan. */
 export const box = signal<Rect | null>(null);
 /** The item under the pointer, and its place. */
 export const hovered = signal<{ hit: Hit; at: Point } | null>(null);
@@ -29,13 +29,13 @@ export const byKeys = signal(false);
 
 let state: State = IDLE;
 let lifted: readonly string[] = [];
-/** Ends when a finger has rested. */
+/** Timer of a resting finger. */
 let resting: ReturnType<typeof setTimeout>;
 
-/** Whether the space bar is held: then a drag pans, as with the middle button. */
+/** Whether the space bar is held: a drag then pans, as with the middle button. */
 let spaced = false;
 
-/** Whether a drag is under way. */
+/** Whether a drag is in progress. */
 export const busy = (): boolean => state.is !== "idle";
 
 export function pointers(host: HTMLElement, stage: Stage): () => void {
@@ -103,7 +103,7 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
   const asked = (event: MouseEvent): void => {
     event.preventDefault();
     if ((event.target as Element).closest(".over") || state.is !== "idle") return;
-    // A key asks about what is selected, at its place.
+    // A key opens the menu of the selection, at its place.
     const part = actions.focused();
     const byKey = event.button !== 2 && !(event instanceof PointerEvent && event.pointerType === "touch");
     if (byKey) openMenu(drawing.peek() && part && onOf(drawing.peek()!, part), (part && actions.below(part)) ?? at(event));
@@ -164,7 +164,7 @@ function run(stage: Stage, effect: Effect): void {
   }
 }
 
-/** Elements are taken up; one that was not selected is from now on. */
+/** Lifts elements, and selects one that was not selected. */
 function lift(elements: readonly string[]): void {
   const drawn = drawing.peek();
   lifted = elements;
@@ -174,17 +174,17 @@ function lift(elements: readonly string[]): void {
   if (!elements.every((item) => known.includes(item))) select(elements.map((item) => ({ item: drawn?.elements.get(item)?.kind === null ? planOf(item) : item })), "drawing");
 }
 
-/** The menu of what was pressed; it is selected, unless it was. */
+/** Opens the menu of a pressed item, and selects it. */
 function about(found: Hit | null, at: Point): void {
   hovered.value = null;
   if (found && !selected.peek().some((other) => same(other, found.part))) select([found.part], "drawing");
   openMenu(found?.on ?? null, beside(found, at));
 }
 
-/** Room for the menu, in pixels. */
+/** Space for the menu, pixels. */
 const MENU = 300;
 
-/** A place beside the element that was pressed, so that its menu covers nothing of it. */
+/** A place next to the pressed element, so that its menu does not cover it. */
 function beside(found: Hit | null, at: Point): Point {
   const outer = found && "element" in found ? drawing.peek()?.elements.get(found.element)?.outer : undefined;
   if (!outer) return at;
@@ -203,12 +203,12 @@ function click(found: Hit | null, at: Point, add: boolean): void {
   const known = before.some((other) => same(other, part));
   select(add ? (known ? before.filter((other) => !same(other, part)) : [...before, part]) : [part], "drawing");
   if (add || !pen.peek()) return;
-  // Below what was clicked, so that it stays in sight.
+  // Below the click, so that it stays visible.
   if (found.on === "exit") void actions.whatThen(part);
   if (found.on === "port") editing.value = { part, at: actions.below(part) ?? at };
 }
 
-/** Elements are put down: one request, whose answer replaces the preview. */
+/** Drops elements: one request, whose answer replaces the preview. */
 async function drop(stage: Stage, by: Point, free: boolean): Promise<void> {
   const drawn = drawing.peek();
   const elements = lifted;
@@ -218,7 +218,7 @@ async function drop(stage: Stage, by: Point, free: boolean): Promise<void> {
   await placed(stage, elements, moved);
 }
 
-/** Writes new places of elements that are shown there already. */
+/** Writes the positions of elements that are already shown there. */
 export async function placed(stage: Stage, elements: readonly string[], by: Point): Promise<void> {
   const drawn = drawing.peek();
   if (!drawn) return;

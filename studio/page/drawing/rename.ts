@@ -11,5 +11,5 @@ export interface Renaming {
 
 export const renaming = signal<Renaming | null>(null);
 
-/** A name of the language. */
+/** Whether it is an identifier. */
 export const isName = (name: string): boolean => /^[A-Za-z_]\w*$/.test(name);

@@ -1,4 +1,4 @@
-// Elements into a plan of their own, and the elements of a plan in place of it.
+// Extracting elements into a plan, and inlining a sub-plan.
 import { askLine } from "../screen/dialogs";
 import { select, selected } from "../plan/selection";
 import * as actions from "./actions";
@@ -9,14 +9,14 @@ import { refuse } from "./say";
 import { holderOf, nameOf } from "./shapes";
 import { words } from "./words";
 
-/** The elements that are selected: of a supervisor, the one that it belongs to. */
+/** The selected elements; for a supervisor, its owner. */
 export function chosen(): string[] {
   const at = actions.here();
   const found = at ? selected.peek().map((part) => holderOf(at.drawn, part.item)) : [];
   return [...new Set(found.flatMap((element) => (element && element.kind !== null ? [element.item] : [])))];
 }
 
-/** A name that is free: the one that is wished for, or with the least number behind it. */
+/** A free name: the preferred one, possibly with the least free number. */
 function free(wished: string, names: ReadonlySet<string>): string {
   for (let nth = 1; ; nth++) {
     const name = nth === 1 ? wished : `${wished}${nth}`;
@@ -24,7 +24,7 @@ function free(wished: string, names: ReadonlySet<string>): string {
   }
 }
 
-/** Makes a plan of the selected elements and puts a sub-plan in their place. */
+/** Extracts the selected elements into a plan and replaces them by a sub-plan. */
 export async function extract(): Promise<void> {
   const at = actions.here();
   const elements = chosen();
@@ -43,13 +43,12 @@ export async function extract(): Promise<void> {
   await ask.edit([extracted], {}, [{ item: `${at.plan}.${extracted.extract!.element}` }]);
 }
 
-/** Whether one sub-plan is selected. */
 export function isSubPlan(): boolean {
   const [item, more] = chosen();
   return item !== undefined && more === undefined && actions.here()?.drawn.elements.get(item)?.plan != null;
 }
 
-/** Puts the elements of the selected sub-plan in its place. */
+/** Replaces the selected sub-plan by its elements. */
 export async function inline(): Promise<void> {
   const at = actions.here();
   const [item] = chosen();

@@ -1,4 +1,4 @@
-// Texts for people: names of parts for screen readers, the live region, and visible notices.
+// Texts for users: names of parts for screen readers, the live region, and notices.
 import { signal } from "@preact/signals";
 import { holderOf, nameOf, type Drawing, type Element, type Part } from "./shapes";
 import { words } from "./words";
@@ -9,14 +9,14 @@ export const said = signal("");
 export const notice = signal("");
 
 let ends: ReturnType<typeof setTimeout> | undefined;
-/** Milliseconds that a notice stays. */
+/** Duration of a notice, milliseconds. */
 const STAYS = 7000;
 
 export function say(text: string): void {
   said.value = text;
 }
 
-/** Says and shows why something was not done. */
+/** Announces and shows a rejection. */
 export function refuse(why: unknown): void {
   notice.value = why instanceof Error ? why.message : String(why);
   say(notice.value);
@@ -24,7 +24,7 @@ export function refuse(why: unknown): void {
   ends = setTimeout(() => (notice.value = ""), STAYS);
 }
 
-/** The name of an element, a supervisor, an exit, a port or an entry, as a screen reader says it. */
+/** The name of an element, supervisor, exit, port or entry, for screen readers. */
 export function spoken(drawing: Drawing, part: Part): string {
   const { item } = part;
   const { kind = "whole", name = "" } = part.part ?? {};

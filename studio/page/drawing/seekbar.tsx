@@ -1,4 +1,5 @@
-// The field of what is looked for: `Enter` goes to the next place, `Shift+Enter` to the one before, `Escape` ends it.
+// The search field: `Enter` goes to the next match, `Shift+Enter` to the previous one, `Escape`
+// closes it.
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { Tool } from "../screen/bar";
 import { sought } from "../plan/seek";
@@ -12,7 +13,7 @@ export function SeekBar() {
 function Field() {
   const field = useRef<HTMLInputElement>(null);
   useLayoutEffect(() => {
-    // The text has a field of its own, from which this one may have been opened.
+    // The text editor's own search may have opened this one.
     if (document.activeElement?.closest(".cm-editor")) return;
     field.current?.focus();
     field.current?.select();

@@ -1,4 +1,4 @@
-// The search in the drawing: parts whose names or texts match, selected one after the other.
+// The search in the drawing: selects parts with matching names or texts one after the other.
 import { computed } from "@preact/signals";
 import { select, selected } from "../plan/selection";
 import { sought } from "../plan/seek";
@@ -31,7 +31,7 @@ function within(element: Element, wanted: string): Part[] {
   return parts.length ? parts : [{ item: element.item }];
 }
 
-/** The parts of a drawing that hold a text, in reading order. */
+/** The matching parts of a drawing, in reading order. */
 export function found(drawing: Drawing, text: string): Part[] {
   const wanted = text.trim().toLowerCase();
   return wanted ? reading(drawing).flatMap((element) => within(element, wanted)) : [];
@@ -39,13 +39,13 @@ export function found(drawing: Drawing, text: string): Part[] {
 
 export const hits = computed(() => (drawing.value && sought.value !== null ? found(drawing.value, sought.value) : []));
 
-/** Which of the hits is selected; -1 for none. */
+/** Index of the selected match; -1 for none. */
 export const nth = computed(() => {
   const last = selected.value.at(-1);
   return last ? hits.value.findIndex((hit) => same(hit, last)) : -1;
 });
 
-/** Selects the next hit, or the one before. */
+/** Selects the next or previous match. */
 export function next(by: 1 | -1): void {
   const all = hits.peek();
   const drawn = drawing.peek();

@@ -1,4 +1,5 @@
-// Selecting several things with a finger: while it is on, taps add to the selection and a drag of the ground draws a box.
+// Multiple selection by touch: while on, taps add to the selection and dragging the ground draws a
+// box.
 import { signal } from "@preact/signals";
 import { say } from "./say";
 import { words } from "./words";

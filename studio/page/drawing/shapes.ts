@@ -1,15 +1,15 @@
-// The shapes of the engine's messages about a drawing, and the geometry that reads them. Nothing is imported: editors check what
-// they take of the page without its packages.
+// Types of the engine's messages about a drawing, and their geometry. It has no imports, so that
+// editors can check it without the page's packages.
 
 /** An item of a plan, or a part of it. */
 export interface Part {
-  /** The path of an item, as `WallFollowing.followWall`. */
+  /** Path of an item, such as `WallFollowing.followWall`. */
   item: string;
   part?: { kind: string; name?: string; nth?: number };
 }
 
 export type Point = readonly [x: number, y: number];
-/** left, top, width, height in units of the plan */
+/** Left, top, width and height, in units of the plan. */
 export type Rect = readonly [x: number, y: number, width: number, height: number];
 
 /** A part of an item, as the engine names it. */
@@ -20,24 +20,24 @@ export interface Piece {
   part: PartOf;
   rect: Rect;
   severity: "error" | "warning" | null;
-  /** the tag of an exit that leads nowhere */
+  /** Tag of an unconnected exit. */
   tag: Rect | null;
 }
 
 export interface Element {
   item: string;
-  /** the box itself */
+  /** The box itself. */
   rect: Rect;
-  /** the box with its supervisors, ports and exits */
+  /** The box with its supervisors, ports and exits. */
   outer: Rect;
   svg: string;
   pieces: Piece[];
-  /** null for the start with the entries */
+  /** Null for the start with the entries. */
   kind: string | null;
   template: string | null;
-  /** the plan behind a sub-plan */
+  /** The plan of a sub-plan. */
   plan: string | null;
-  /** the address of its file, where that is another one */
+  /** Address of its file, if that is another one. */
   file: string | null;
   help: string | null;
   note: string | null;
@@ -86,7 +86,7 @@ export interface Changed extends Answer {
   gone: string[];
 }
 
-/** A drawing as the page keeps it; never changed, always replaced. */
+/** A drawing in the page; immutable. */
 export interface Drawing {
   uri: string;
   plan: string | null;
@@ -101,12 +101,11 @@ export interface Drawing {
 /** The last name of a path: `touch` of `P.go.touch`. */
 export const nameOf = (item: string): string => item.slice(item.lastIndexOf(".") + 1);
 
-/** The plan of a path. */
 export const planOf = (item: string): string => item.split(".", 1)[0] ?? "";
 
 /**
- * The path of the element that an item is drawn with: its own, or that of a supervisor's owner;
- * the start carries the plan, its entries and its own supervisors.
+ * The element that an item is drawn with: itself, or a supervisor's owner; the start holds the
+ * plan, its entries and its supervisors.
  */
 export function holderOf(drawing: Drawing, item: string): Element | undefined {
   const own = drawing.elements.get(item);
@@ -116,7 +115,7 @@ export function holderOf(drawing: Drawing, item: string): Element | undefined {
   return owner ?? drawing.elements.get(`${names[0] ?? ""}.start`);
 }
 
-/** The key of a part: two parts are the same when their keys are. */
+/** The key of a part, for comparison. */
 export function keyOf(part: Part): string {
   const { kind = "whole", name = "", nth = 1 } = part.part ?? {};
   return `${part.item} ${kind} ${name} ${nth}`;
@@ -132,7 +131,7 @@ export const touches = (one: Rect, two: Rect): boolean =>
 
 export const centre = ([x, y, width, height]: Rect): Point => [x + width / 2, y + height / 2];
 
-/** The smallest rectangle around all; `null` around nothing. */
+/** The bounding rectangle; null for none. */
 export function around(rects: Iterable<Rect>): Rect | null {
   let found: [number, number, number, number] | null = null;
   for (const [x, y, width, height] of rects) {
@@ -145,7 +144,7 @@ export function around(rects: Iterable<Rect>): Rect | null {
 
 const boxes = new WeakMap<Edge, Rect>();
 
-/** The smallest rectangle around an edge; edges are never changed, so it is computed once. */
+/** The bounding rectangle of an edge, cached since edges are immutable. */
 export function boxOf(edge: Edge): Rect {
   const known = boxes.get(edge);
   if (known) return known;
@@ -154,7 +153,7 @@ export function boxOf(edge: Edge): Rect {
   return box;
 }
 
-/** How far a point is from a line of several pieces. */
+/** Distance of a point from a polyline. */
 export function distance(points: readonly Point[], [px, py]: Point): number {
   let least = Infinity;
   for (let i = 1; i < points.length; i++) {
@@ -167,7 +166,7 @@ export function distance(points: readonly Point[], [px, py]: Point): number {
   return least;
 }
 
-/** Where a part is drawn: its piece, or that of its item; null for what is not drawn yet. */
+/** The rectangle of a part: its piece, or its item's; null if not drawn yet. */
 export function rectOf(drawing: Drawing, part: Part): Rect | null {
   const holder = holderOf(drawing, part.item);
   if (!holder) return null;

@@ -1,5 +1,5 @@
-// The drawing in the page: one SVG with a group for each element and edge, changed only if the
-// drawing has changed. `fill.ts` fills a group when it comes into view.
+// The drawing in the page: one SVG with a group for each element and edge, updated only if the
+// drawing has changed. `fill.ts` fills a group when it becomes visible.
 import { effect, signal } from "@preact/signals";
 import { nodes, svg } from "./fragment";
 import { spoken } from "./say";
@@ -16,16 +16,16 @@ export interface Stage {
   rings: SVGGElement;
   marks: SVGGElement;
   layers: { edges: SVGGElement; nodes: SVGGElement };
-  /** The groups of elements and edges, by item and id. */
+  /** Groups of elements and edges, by item and id. */
   nodes: Map<string, SVGGElement>;
   edges: Map<string, SVGGElement>;
-  /** The content of each group. A missing group is empty or shows a preview. */
+  /** Content of each group. A missing group is empty or shows a preview. */
   filled: WeakMap<SVGGElement, Element | Edge>;
-  /** The id in the page of what a part is drawn with. */
+  /** The page's id of a part's group. */
   idOf(part: Part, drawing: Drawing): string | null;
 }
 
-/** Milliseconds for an element to reach its new place. */
+/** Duration of an element's move, milliseconds. */
 const TRAVELS = 160;
 
 const still = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -58,7 +58,7 @@ export function stage(): Stage {
 
 const domId = (item: string): string => `element-${item.replace(/[^\w.-]/g, "_")}`;
 
-/** Shows a drawing in place of another one. */
+/** Replaces a drawing. */
 export function show(stage: Stage, before: Drawing | null, after: Drawing | null): void {
   symbols(stage, after);
   [stage.rings, stage.marks].forEach((layer) => layer.removeAttribute("transform"));
@@ -89,7 +89,7 @@ function symbols(stage: Stage, drawing: Drawing | null): void {
   for (const { svg } of missing) defs.append(...nodes(svg));
 }
 
-/** A group for each element or edge that there is, and none for others. */
+/** Creates and removes groups to match the elements or edges. */
 function replace(stage: Stage, layer: "edges" | "nodes", after: ReadonlyMap<string, unknown>): void {
   const groups = stage[layer];
   for (const [id, group] of groups) {
@@ -100,7 +100,7 @@ function replace(stage: Stage, layer: "edges" | "nodes", after: ReadonlyMap<stri
   const fresh: SVGGElement[] = [];
   for (const id of after.keys()) {
     const known = groups.get(id);
-    // A preview may stand where the answer says nothing new.
+    // A preview may remain if the answer changes nothing.
     known?.removeAttribute("transform");
     if (known) continue;
     const group = svg("g", { class: layer === "edges" ? "way" : "node", display: "none" });
@@ -110,14 +110,14 @@ function replace(stage: Stage, layer: "edges" | "nodes", after: ReadonlyMap<stri
   stage.layers[layer].append(...fresh);
 }
 
-/** Says what an element is to who cannot see it. */
+/** Sets the accessible description of an element. */
 export function name(group: SVGGElement, element: Element, drawing: Drawing): void {
   group.id = domId(element.item);
   group.setAttribute("role", "img");
   group.setAttribute("aria-label", spoken(drawing, { item: element.kind === null ? (drawing.plan ?? element.item) : element.item }));
 }
 
-/** An element that the engine has put elsewhere goes there; one that was dragged is there already. */
+/** Animates an element that the engine has moved; a dragged one is already there. */
 function travel(group: SVGGElement, from: Element, to: Element): void {
   const [dx, dy] = [from.outer[0] - to.outer[0], from.outer[1] - to.outer[1]];
   if ((dx === 0 && dy === 0) || still() || group.dataset.dropped || group.hasAttribute("display")) return;

@@ -2,10 +2,10 @@
 
 let presses = 0;
 
-/** Something was pressed on the drawing. */
+/** Counts a press on the drawing. */
 export const pressed = (): void => void presses++;
 
-/** Says later whether nothing has been pressed since. */
+/** Returns a function that tells whether there was no press since. */
 export function turn(): () => boolean {
   const mine = presses;
   return () => mine === presses;

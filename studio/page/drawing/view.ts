@@ -16,7 +16,7 @@ export interface Size {
 
 export const LEAST = 0.1;
 export const MOST = 4;
-/** Free space around a drawing that is fitted into its pane. */
+/** Margin around a fitted drawing. */
 export const MARGIN = 24;
 /** Below this, templates and ports are hidden; below the second, only boxes and lines are shown. */
 export const NEAR = 0.8;
@@ -30,14 +30,14 @@ export const toPane = (view: View, [x, y]: Point): Point => [x * view.zoom + vie
 
 export const panned = (view: View, dx: number, dy: number): View => ({ ...view, x: view.x + dx, y: view.y + dy });
 
-/** Zooms by a factor and keeps the point `at` in place. */
+/** Zooms around the point `at`. */
 export function zoomed(view: View, factor: number, at: Point): View {
   const zoom = clamp(view.zoom * factor, LEAST, MOST);
   const [x, y] = toPlan(view, at);
   return { zoom, x: at[0] - x * zoom, y: at[1] - y * zoom };
 }
 
-/** All of a rectangle in sight, in the middle, never larger than 1:1. */
+/** Fits a rectangle into the middle of the pane, at most 1:1. */
 export function fitted(rect: Rect, size: Size, least = LEAST, margin = MARGIN): View {
   const [x, y, width, height] = rect;
   const room = Math.min((size.width - 2 * margin) / Math.max(width, 1), (size.height - 2 * margin) / Math.max(height, 1));
@@ -47,7 +47,7 @@ export function fitted(rect: Rect, size: Size, least = LEAST, margin = MARGIN): 
   return { zoom, x: Math.max(left, margin) - x * zoom, y: Math.max(top, margin) - y * zoom };
 }
 
-/** The same zoom, with a point of the plan in the middle. */
+/** Centres a point of the plan at the same zoom. */
 export const centred = (view: View, [x, y]: Point, size: Size): View => ({
   zoom: view.zoom,
   x: size.width / 2 - x * view.zoom,
@@ -70,7 +70,7 @@ export function first({ bounds, plan, elements }: Shown, size: Size): View {
   return start ? shown(view, start.rect, size) : view;
 }
 
-/** Moved as little as brings a rectangle into sight; the same view when it is. */
+/** Reveals a rectangle with the smallest move. */
 export function shown(view: View, rect: Rect, size: Size): View {
   const [left, top] = toPane(view, [rect[0], rect[1]]);
   const [right, bottom] = toPane(view, [rect[0] + rect[2], rect[1] + rect[3]]);
@@ -84,14 +84,14 @@ export function shown(view: View, rect: Rect, size: Size): View {
   return dx === 0 && dy === 0 ? view : panned(view, dx, dy);
 }
 
-/** The part of the plan that is in sight. */
+/** The visible part of the plan. */
 export function sight(view: View, size: Size): Rect {
   const [x, y] = toPlan(view, [0, 0]);
   return [x, y, size.width / view.zoom, size.height / view.zoom];
 }
 
-/** The steps of `+` and `-`. */
+/** The zoom factor of `+` and `-`. */
 export const STEP = 1.25;
 
-/** The zoom factor of the wheel; pinches of touchpads come as small turns with `Ctrl`. */
+/** The zoom factor of the wheel; pinches of touchpads arrive as small turns with `Ctrl`. */
 export const wheelFactor = (deltaY: number): number => Math.exp(-clamp(deltaY, -14, 14) / 120);

@@ -1,5 +1,4 @@
-// The words of drawing, palette, value and inspector. Reasons, help and labels come from the
-// engine.
+// Texts of drawing, palette, value and inspector. Reasons, help and labels come from the engine.
 
 const many = (count: number, what: string): string => (count === 0 ? "" : `${count} ${what}${count === 1 ? "" : "s"}`);
 

@@ -1,4 +1,4 @@
-// Jobs of the server for the page: running ones, their output, their results.
+// Jobs of the server: running ones, output, results.
 import { signal } from "@preact/signals";
 import { going, lsp, type Going, type Order } from "../server/session";
 import { trusted } from "./trust";
@@ -7,7 +7,7 @@ import { words } from "../words";
 export interface Done {
   id: number;
   ok: boolean;
-  /** The exit code; null where it was ended. */
+  /** Exit code; null if it was killed. */
   code: number | null;
   results: readonly any[];
   said: string;
@@ -16,28 +16,27 @@ export interface Done {
 export interface Job {
   id: number;
   title: string;
-  /** The last thing that it has said. */
+  /** Its last line. */
   last: string;
 }
 
-/** The running jobs. */
 export const running = signal<readonly Job[]>([]);
-/** Everything that jobs have said, a line each. */
+/** Output of all jobs, by line. */
 export const said = signal<readonly string[]>([]);
-/** Lines that are kept. */
+/** Maximum number of lines. */
 const MOST = 2000;
 
 const waiting = new Map<number, (done: Done) => void>();
 const early = new Map<number, Done>();
 
-/** Does a job and waits for its end; null where the folder is not trusted. */
+/** Runs a job and waits for its end; null if the folder is not trusted. */
 export async function run(title: string, order: Order): Promise<Done | null> {
   if (order.kind !== "new" && !(await trusted(order.file, order.kind === "build"))) return null;
   const { id } = await lsp().request<{ id: number }>("afp/job", order);
   return endOf(id, title, []);
 }
 
-/** Takes over a job from before a reload, and waits for its end. */
+/** Resumes a job from before a reload, and waits for its end. */
 export const takeUp = ({ id, said }: Going, title: string): Promise<Done> => endOf(id, title, said ? said.split("\n") : []);
 
 async function endOf(id: number, title: string, lines: readonly string[]): Promise<Done> {
@@ -55,7 +54,7 @@ function say(lines: readonly string[]): void {
   said.value = [...said.peek(), ...lines].slice(-MOST);
 }
 
-/** Begins to hear of them; `resume` takes up those that go on though the page knows nothing of them. */
+/** Subscribes to jobs; `resume` gets running jobs unknown to the page. */
 export function begin(resume: (job: Going) => void): void {
   lsp().on("afp/jobSaid", ({ id, text }: { id: number; text: string }) => {
     const lines = text.split("\n");
@@ -68,7 +67,7 @@ export function begin(resume: (job: Going) => void): void {
     if (wait) wait(done);
     else early.set(done.id, done);
   });
-  // On each connection: another server knows nothing of them, and one that has waited too long has ended them.
+  // On each connection: a new server does not know old jobs, and an idle server has ended them.
   going.subscribe((jobs) => {
     for (const [id, wait] of waiting) {
       if (jobs.some((job) => job.id === id)) continue;

@@ -1,16 +1,16 @@
-// An error, warning or note from the command line's `--json`: from the compiler of plans, the
-// reader of the project file, or the Rust compiler, mapped to the plan.
+// Errors, warnings and notes from the command line's `--json`: from the plan compiler, the project
+// file's reader, or the Rust compiler, mapped to the plan.
 
-/** Where; line and column count from 1. */
+/** A source position; line and column count from 1. */
 export interface Place {
-  /** As the command line names it. */
+  /** Path as in the command line's output. */
   file: string;
   line: number;
   column: number;
 }
 
 export interface Mistake {
-  /** The code of a page in the book; Rust errors have none. */
+  /** Code of a page in the book; Rust errors have none. */
   code: string | null;
   message: string;
   place: Place | null;
@@ -18,5 +18,5 @@ export interface Mistake {
   help: string;
 }
 
-/** The errors among the objects of a job. */
+/** The errors among a job's objects. */
 export const mistakes = (objects: readonly any[]): Mistake[] => objects.filter(({ severity }) => severity === "error");

@@ -1,4 +1,4 @@
-// Results of scenarios, sweeps and builds of the page, kept until the next ones.
+// Results of scenarios, sweeps and builds, until the next ones.
 import { batch, computed, signal } from "@preact/signals";
 import { uriOf } from "../documents/addresses";
 import { openLogAt } from "../debug/logs";
@@ -29,11 +29,11 @@ export interface Result {
   log: string | null;
   simulated_s?: number;
   broken?: readonly Broken[];
-  /** The error of the scenario itself. */
+  /** An error of the scenario itself. */
   error?: string;
 }
 
-/** How often something was used by scenarios: its path in the plan. */
+/** Usage count of an item in scenarios, by path. */
 export interface Part {
   kind: string;
   name: string;
@@ -42,24 +42,21 @@ export interface Part {
 
 export const results = signal<readonly Result[] | null>(null);
 export const coverage = signal<readonly { coverage: string; parts: readonly Part[] }[]>([]);
-/** Whether the drawing shows what was used. */
+/** Whether the drawing shows usage. */
 export const shown = signal(true);
-/** Which scenarios go on. */
+/** The running scenarios. */
 export const busy = signal("");
 
-/**
- * The results of the last sweep, a line per run, with the summary and the world, null for the
- * plan's.
- */
+/** Results of the last sweep: a line per run, the summary, and the world (null for the plan's). */
 export const swept = signal<readonly object[]>([]);
 export const sweptIn = signal<string | null>(null);
-/** An error with its document, if it has a place, and the item of that document's drawing that it is about. */
+/** An error with its document, if known, and the item of that document's drawing. */
 export interface Wrong extends Mistake {
   uri: string | null;
   item: string | null;
 }
 
-/** The result of the last build, with its errors. */
+/** Result of the last build, with its errors. */
 export const built = signal<{ ok: boolean; wrong: readonly Wrong[] } | null>(null);
 
 async function doing<T>(what: string, work: () => Promise<T>): Promise<T | null> {
@@ -76,7 +73,7 @@ async function doing<T>(what: string, work: () => Promise<T>): Promise<T | null>
   }
 }
 
-/** The kinds of jobs: name, progress text, and the handling of results. */
+/** A kind of job: name, progress text, and the handling of results. */
 interface Kind {
   title: string;
   meanwhile: string;
@@ -129,7 +126,7 @@ const start = (kind: string, more: object = {}): Promise<void | null> => {
   });
 };
 
-/** Takes over a job that continued during a reload. */
+/** Resumes a job that continued during a reload. */
 export function resume(job: Going): void {
   const kind = KINDS[job.order.kind];
   const done = takeUp(job, kind?.title ?? words.newProject);
@@ -138,13 +135,12 @@ export function resume(job: Going): void {
 
 const shownPlan = () => ({ file: current.peek(), plan: drawing.peek()?.plan ?? "" });
 
-/** Writes scenarios for the plan that is shown. */
+/** Generates scenarios for the displayed plan. */
 export const writeSome = () => start("generate", { file: current.peek() });
 
-/** Runs all scenarios of the folder. */
 export const runAll = () => start("test");
 
-/** Runs the plan many times, in the world that is chosen. */
+/** Runs the plan many times, in the selected world. */
 export const sweep = (seeds: string, vary: readonly string[], until: string) =>
   start("sweep", { ...shownPlan(), seeds, vary, until, ...(world.peek() === null ? {} : { world: world.peek() }) });
 
@@ -152,14 +148,14 @@ export const build = () => start("build", shownPlan());
 
 let textsChange: (() => void) | null = null;
 
-/** Of a text that has changed since, nothing is known any more of what its errors are about. */
+/** After a change of a text, the items of its errors are unknown. */
 function outdate(uri: string): void {
   const last = built.peek();
   if (!last?.wrong.some((one) => one.uri === uri && one.item)) return;
   built.value = { ...last, wrong: last.wrong.map((one) => (one.uri === uri ? { ...one, item: null } : one)) };
 }
 
-/** A mistake with its document and what it is about there. */
+/** Adds the document and item of an error. */
 async function placed(mistake: Mistake): Promise<Wrong> {
   const { place } = mistake;
   if (!place) return { ...mistake, uri: null, item: null };
@@ -168,14 +164,13 @@ async function placed(mistake: Mistake): Promise<Wrong> {
   return { ...mistake, uri, item: found?.item ?? null };
 }
 
-/** Where the text shows it. */
 export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1, character: column - 1 });
 
 const FIELDS = { seeds: words.seeds, vary: words.vary, until: words.until } as const;
 
 /**
- * A text of the command line without colours, with the page's fields instead of options, and
- * without advice for the command line.
+ * Text of the command line without colours, with the page's fields instead of options, and without
+ * advice for the command line.
  */
 export const plain = (text: string): string =>
   text
@@ -184,7 +179,7 @@ export const plain = (text: string): string =>
     .replace(/^For more information, try '--help'\.\s*$/m, "")
     .trim();
 
-/** Shows the moment at which a scenario failed. */
+/** Shows the moment of a scenario's failure. */
 export async function showFailure({ log, broken, file }: Result): Promise<void> {
   if (!log) {
     trouble.value = words.noLog(nameOf(uriOf(file)));
@@ -193,7 +188,7 @@ export async function showFailure({ log, broken, file }: Result): Promise<void> 
   await openLogAt(uriOf(log), broken?.[0]?.at_s ?? 0);
 }
 
-/** The items of a plan that a text names by their paths: the longest ones. */
+/** The items of a plan whose paths a text contains; the longest ones. */
 export function named(text: string, plan: string, items: Iterable<string>): string[] {
   const known = new Set(items);
   const words = text.match(/[A-Za-z_][\w.]*/g) ?? [];
@@ -208,11 +203,11 @@ export function named(text: string, plan: string, items: Iterable<string>): stri
   return [...new Set(found)];
 }
 
-/** The items of the drawing: elements, and what hangs on them. */
+/** The items of the drawing: elements and their parts. */
 export const itemsOf = (drawn: { elements: ReadonlyMap<string, { item: string; pieces: readonly { item: string }[] }> }): Set<string> =>
   new Set([...drawn.elements.values()].flatMap(({ item, pieces }) => [item, ...pieces.map((piece) => piece.item)]));
 
-/** How many failed scenarios and errors of the last build are about each item of the drawing, and which items no scenario made use of. */
+/** Number of failed scenarios and build errors per item, and unused items. */
 export const onDrawing = computed<{ failed: ReadonlyMap<string, number>; unused: ReadonlySet<string> }>(() => {
   const [drawn, all, wrong] = [drawing.value, results.value, built.value?.wrong ?? []];
   const failed = new Map<string, number>();

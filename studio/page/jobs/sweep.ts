@@ -1,11 +1,9 @@
-// The results of a sweep as a map: each run in the cell of its values. Pure, for tests without a
-// page.
+// Outcome map of a sweep: each run in the cell of its values. Pure, for tests without a page.
 
-/** How a run ended, as the command line names it; the good ones first. */
+/** Endings in the command line's terms, successful ones first. */
 export const ENDINGS = ["ok", "interrupted", "time_limit", "error", "not_started", "panicked"] as const;
 export type Ending = (typeof ENDINGS)[number];
 
-/** A run of a sweep. */
 export interface Run {
   run: number;
   ending: Ending;
@@ -13,13 +11,13 @@ export interface Run {
   why: string;
   time_s: number;
   seed: number;
-  /** null for that of the plan */
+  /** Null for the plan's world. */
   world: string | null;
-  /** The varied value, as text and as a number in SI units. */
+  /** The varied values, as text and in SI units. */
   values: Readonly<Record<string, { text: string; si: number }>>;
-  /** Touched things with their durations, in seconds. */
+  /** Touched objects with durations, in seconds. */
   touched: Readonly<Record<string, number>>;
-  /** The command that repeats only this run. */
+  /** Command that repeats only this run. */
   command: string;
 }
 
@@ -31,36 +29,35 @@ export interface Axis {
 /** Runs by columns and rows: `cells[row][column]`. */
 export interface OutcomeMap {
   across: Axis;
-  /** Without a name where the rows go on with the columns. */
+  /** Without a name if rows continue the columns. */
   down: Axis;
   cells: readonly (readonly (readonly Run[])[])[];
 }
 
-/** Seeds in a row, where nothing else was varied. */
+/** Seeds per row, if only the seed varies. */
 export const ROW = 20;
 
 export const SEED = "seed";
 const WORLD = "world";
 
-/** The axes of runs: the label of each value, and its order. */
+/** An axis of runs: the label of each value, and its order. */
 interface Difference {
   name: string;
   of: (run: Run) => string;
   order: (run: Run) => number;
 }
 
-/** The summary of a sweep's runs. */
 export interface Sum {
   runs: number;
-  /** So many there were to be. */
+  /** Planned number of runs. */
   of: number;
   endings: Readonly<Partial<Record<Ending, number>>>;
 }
 
-/** The summary of the runs: the last line of a sweep, unless it was killed. */
+/** The summary: the last line of a sweep, unless it was killed. */
 export const sumOf = (lines: readonly unknown[]): Sum | null => (lines.at(-1) as { summary?: Sum } | undefined)?.summary ?? null;
 
-/** The lines of a sweep that are runs; the last one is what they came to together. */
+/** The lines that are runs; the last line is the summary. */
 export const runsOf = (lines: readonly unknown[]): Run[] => lines.filter((line): line is Run => typeof (line as Run).run === "number");
 
 function differences(runs: readonly Run[]): Difference[] {
@@ -89,7 +86,7 @@ export function mapOf(runs: readonly Run[]): OutcomeMap {
   return { across, down, cells };
 }
 
-/** One thing was varied: its values go on in the next row where they are many. */
+/** A single axis: many values wrap into rows. */
 function wrapped(runs: readonly Run[], { name, labels }: Axis, { of }: Difference): OutcomeMap {
   const all = labels.map((label) => runs.filter((run) => of(run) === label));
   const rows = Array.from({ length: Math.ceil(all.length / ROW) }, (_, row) => all.slice(row * ROW, (row + 1) * ROW));
@@ -98,15 +95,15 @@ function wrapped(runs: readonly Run[], { name, labels }: Axis, { of }: Differenc
   return { across: { name, labels: columns }, down: { name: "", labels: rows.map((_, row) => labels[row * ROW]!) }, cells: rows };
 }
 
-/** How often all runs of a sweep ended how: of many not all are listed. */
+/** Number of runs per ending, from the summary, since not all runs are listed. */
 export const countedAll = (runs: readonly Run[], sum: Sum | null): { ending: Ending; count: number }[] =>
   sum ? ENDINGS.map((ending) => ({ ending, count: sum.endings[ending] ?? 0 })).filter(({ count }) => count > 0) : counted(runs);
 
-/** How often runs ended how, in the order of the endings; only what there is. */
+/** Number of runs per ending, in order, without zeros. */
 export const counted = (runs: readonly Run[]): { ending: Ending; count: number }[] =>
   ENDINGS.map((ending) => ({ ending, count: runs.filter((run) => run.ending === ending).length })).filter(({ count }) => count > 0);
 
-/** Runs that came to the same, with how many; the most frequent first. */
+/** Runs with equal results and their number; the most frequent first. */
 export function grouped(runs: readonly Run[]): { run: Run; count: number }[] {
   const groups = new Map<string, { run: Run; count: number }>();
   for (const run of runs) {
@@ -118,5 +115,5 @@ export function grouped(runs: readonly Run[]): { run: Run; count: number }[] {
   return [...groups.values()].sort((one, two) => two.count - one.count);
 }
 
-/** Whether the simulator here can repeat a run: only the command line varies worlds. */
+/** Whether the studio can repeat a run: only the command line varies worlds. */
 export const isRepeatable = ({ values }: Run): boolean => !Object.keys(values).some((name) => name.startsWith("world."));

@@ -1,4 +1,4 @@
-// The files of the folder: opened, begun, copied from examples; and what is shown while there is none.
+// Files of the folder: open, create, copy examples; and the welcome page of a folder without plans.
 import { effect, signal } from "@preact/signals";
 import { uriOf } from "../documents/addresses";
 import { create, current, isOpen, nameOf, open } from "../documents/documents";
@@ -11,7 +11,7 @@ import { run } from "../jobs/jobs";
 import { files, hello, more, pen } from "../server/session";
 import { planText, words } from "../words";
 
-/** What went wrong last, as a sentence; shown until it is closed. */
+/** The last error message, shown until closed. */
 export const trouble = signal<string | null>(null);
 export const report = (why: unknown): void => {
   console.error(why);
@@ -32,11 +32,13 @@ export async function show(uri: string): Promise<void> {
   }
 }
 
-/** Opens what the address asks for, else what was open before, else what the server was started with, else the first plan. */
+/**
+ * Opens the file of the address, else the last open file, else the server's, else the first plan.
+ */
 export async function showFirst(): Promise<void> {
   const known = (uri: string | null): string | null => plans().find((file) => file.uri === uri)?.uri ?? null;
   const first = known(location.hash.slice(1)) ?? known(sessionStorage.getItem(KEY)) ?? hello.value?.open ?? plans()[0]?.uri;
-  // What was shown once is asked for no more: a reload shows what is open then.
+  // The address counts once: a reload shows the open file.
   if (location.hash) history.replaceState(null, "", location.pathname);
   if (first) await show(first);
 }
@@ -61,7 +63,7 @@ async function make(name: string, what: { text: string } | { example: string }, 
 }
 
 export const makeFirst = (): Promise<void> => make(free("plan", ".afp"), { text: planText("Plan") }, guide);
-/** In a folder of plans, since the world of a plan lies in the folder beside that. */
+/** In a folder of plans, because a plan's world is in a folder next to it. */
 export const makeExample = (name: string): Promise<void> => make(free(`plans/${name.replace(/\.afp$/, "")}`, ".afp"), { example: name });
 
 export async function makeNew(): Promise<void> {
@@ -71,7 +73,7 @@ export async function makeNew(): Promise<void> {
   if (name) await make(`${name}.afp`, { text: planText(planName(name)) });
 }
 
-/** Makes a project in a folder of its own, as `afpc new` does, and shows its plan. */
+/** Creates a project in its own folder, like `afpc new`, and shows its plan. */
 export async function makeProject(): Promise<void> {
   const wrong = (name: string) => (!/^[a-z][a-z0-9_]*$/.test(name) ? words.projectWrong : files.value.some((file) => file.name.startsWith(`${name}/`)) ? words.nameTaken(name) : null);
   const name = await askLine(words.newProjectName, words.newProjectHint, "patrol", words.create, wrong);
@@ -86,7 +88,7 @@ export async function makeProject(): Promise<void> {
   }
 }
 
-/** The name of the file that is shown without its ending, as a question begins with it. */
+/** The file's name without extension, as the default answer. */
 const shown = (): string => nameOf(current.peek()).replace(/\.afp$/, "");
 const wrongFile = (name: string): string | null =>
   !/^([\w-]+\/)*[A-Za-z][\w-]*$/.test(name) ? words.nameWrong : isTaken(`${name}.afp`) ? words.nameTaken(`${name}.afp`) : null;
@@ -110,10 +112,10 @@ async function removeFile(): Promise<void> {
   }
 }
 
-/** Puts back the file that was removed last, and shows it. */
+/** Restores the last removed file and shows it. */
 export const putFileBack = (): Promise<void> => putBack().then((uri) => (uri ? show(uri) : undefined), report);
 
-/** Waits until the folder has a file; its address. */
+/** Waits until the folder has a file; returns its address. */
 const appears = (wanted: (file: { uri: string; name: string }) => boolean): Promise<string> =>
   new Promise((done) => {
     const ends = effect(() => {
@@ -124,7 +126,7 @@ const appears = (wanted: (file: { uri: string; name: string }) => boolean): Prom
     });
   });
 
-/** The menu of files. */
+/** The file menu. */
 export function Files({ done }: { done: () => void }) {
   const pick = (run: () => unknown) => () => {
     done();
@@ -176,7 +178,7 @@ export function Files({ done }: { done: () => void }) {
   );
 }
 
-/** What stands in place of the drawing while the folder has no plan. */
+/** Shown instead of the drawing if the folder has no plan. */
 export function Welcome() {
   const folder = decodeURIComponent(hello.value?.root.replace(/\/$/, "").split("/").at(-1) ?? "");
   const examples = hello.value?.examples ?? [];

@@ -1,5 +1,5 @@
-// The floor from above: what stands on it, the robot at its pose, the path that it has driven; the robot and what is loose can
-// be dragged.
+// The floor from above: objects, the robot and its path; the robot and movable objects can be
+// dragged.
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { start } from "../debug/arranged";
 import { active, state } from "../debug/run";
@@ -11,7 +11,7 @@ import { sensed } from "../world/sensed";
 import { path, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
 
-/** Pixels of a name: its height, and the width of a letter. */
+/** Height of a name and width of a letter, pixels. */
 const TALL = 11;
 const LETTER = 6;
 
@@ -43,7 +43,7 @@ export function Floor({ world }: { world: Surroundings }) {
   );
 }
 
-/** What makes something on the floor a thing to hold: by pointer, and by arrows where it has the focus. */
+/** Makes an object on the floor draggable, by pointer and by arrow keys. */
 const grip = (what: Held, name: string, world: Surroundings) => ({
   tabindex: 0,
   role: "button" as const,
@@ -74,23 +74,23 @@ const Label = ({ name, at: [x, y], size }: { name: string; at: Point; size: stri
   <text class="label" transform={`translate(${short(x)} ${short(y)}) scale(1 -1)`} font-size={size} dy=".35em">{name}</text>
 );
 
-/** In pieces, so that an hour of driving costs no more a frame than the first minute. */
+/** In pieces, so that the cost of a frame does not grow with the path. */
 const Driven = () => <>{path.value.map((piece, at) => <polyline class="driven" points={points(piece)} key={at} />)}</>;
 
-/** What range sensors heard last. */
+/** Latest readings of range sensors. */
 const Cones = () => (
   <>{sensed.value?.sensed.map(({ signal, cone }) => cone && cone.range !== null && <path class="cone" d={sector(cone.pose, cone.half, cone.range)} key={signal} />)}</>
 );
 
-/** Where what is held would be put. */
+/** Preview of the dragged object. */
 const Ghost = ({ world }: { world: Surroundings }) => (held.value ? <polygon class="ghost" points={points(ghost(held.value, world))} /> : null);
 
 const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
-/** The robot, moved by one attribute at every frame while there is a way to go; at its nose it is turned. */
+/** The robot, moved by one attribute per frame during a motion; its nose turns it. */
 function Robot({ world }: { world: Surroundings }) {
   const host = useRef<SVGGElement>(null);
-  // Before it is painted for the first time: it never stands at the origin.
+  // Before the first paint, so that it is never at the origin.
   useLayoutEffect(() => {
     let motion: Motion | null = null;
     let waiting = 0;

@@ -1,10 +1,11 @@
-// What is forced in a run: a bar that cannot be folded, with what ends it; and the form that forces an entry.
+// Forced values of a run: a bar that stays visible, with an end button, and the form that forces an
+// entry.
 import { useState } from "preact/hooks";
 import { active, order, state, stop } from "../debug/run";
 import { Sign } from "../screen/icons";
 import { words } from "../words";
 
-/** Seconds that something is forced for. */
+/** Durations in seconds. */
 const SECONDS = [10, 60, 600] as const;
 
 export function ForcedBar() {
@@ -25,7 +26,7 @@ export function ForcedBar() {
   );
 }
 
-/** Forces an entry: a value as people write it, for a while. */
+/** Forces an entry to a value, with a unit, for a while. */
 export function Force({ entry, value, done }: { entry: string; value: string; done: () => void }) {
   const [text, setText] = useState(value);
   const [seconds, setSeconds] = useState<number>(SECONDS[0]);

@@ -1,4 +1,4 @@
-// The card of the guide: one sentence about what to do next, and how far it is.
+// The guide's card: the next step in one sentence, and the progress.
 import { leave, progress, step } from "../plan/guide";
 import { Tool } from "../screen/bar";
 import { words } from "../words";

@@ -1,4 +1,5 @@
-// What is selected, as a form: name, template, ports, exits, timing and help; the plan with its entries where nothing is.
+// The selection as a form: name, template, ports, exits, timing and help; without a selection, the
+// plan with its entries.
 import { useEffect, useRef, useState } from "preact/hooks";
 import * as actions from "../drawing/actions";
 import { anatomy, worth, type Anatomy, type Port } from "../drawing/anatomy";
@@ -36,12 +37,12 @@ export function Inspector() {
 }
 
 /**
- * A line that is taken over with `Enter` or when it is left; what is wrong or refused stays to be mended, and `Escape` puts it back.
- * null while its value is fetched.
+ * A line that `Enter` or leaving writes. Invalid or rejected text stays for correction, and
+ * `Escape` reverts. Null while its value loads.
  */
 function Line({ item, label, value, take, wrong, hint, hidden }: { item: string; label: string; value: string | null; take(text: string): Promise<unknown>; wrong?(text: string): string | null; hint?: string; hidden?: boolean }) {
   const field = `${item} ${label}`;
-  // What is typed counts over the value that it was typed over, from the first key on.
+  // From the first key, the typed text overrides the value.
   const [typed, setTyped] = useState({ over: value, text: draft(field) ?? value ?? "" });
   const [refused, setRefused] = useState(draft(field) !== undefined);
   const text = typed.over === value || refused ? typed.text : (value ?? "");
@@ -75,7 +76,7 @@ const Name = ({ item }: { item: string }) => (
   <Line item={item} label={words.name} value={nameOf(item)} wrong={(name) => (isName(name) ? null : words.nameHint)} take={(to) => ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }])} />
 );
 
-/** The help above an item, as one line. */
+/** The help text of an item, as one line. */
 function Help({ item, drawn }: { item: string; drawn: Drawing }) {
   const [text, setText] = useState<string | null>(null);
   useEffect(() => {
@@ -98,7 +99,7 @@ function Wrong({ drawn, part }: { drawn: Drawing; part: Part }) {
   );
 }
 
-/** Periods that are set without a keyboard. */
+/** Periods for selection without a keyboard. */
 const PERIODS = ["5 ms", "10 ms", "20 ms", "50 ms", "100 ms"];
 
 function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
@@ -143,7 +144,7 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
 function PortRow({ port }: { port: Port }) {
   const [open, setOpen] = useState(false);
   const host = useRef<HTMLDivElement>(null);
-  // The controls of a value that is opened are in sight at once.
+  // Scrolls the controls of an opened value into view.
   useEffect(() => void (open && host.current?.scrollIntoView({ block: "nearest" })), [open]);
   const { answer, name, out, part } = port;
   const missing = !answer?.value && !answer?.default && !out;

@@ -1,4 +1,4 @@
-// Builds and sweeps: the plan made into a program, the plan run many times, with what jobs have said.
+// Builds and sweeps, with the output of jobs.
 import { effect, signal } from "@preact/signals";
 import { Code } from "../screen/book";
 import { nameOf } from "../documents/documents";
@@ -13,18 +13,18 @@ import { Busy } from "./scenarios";
 import { Sweep } from "./sweep";
 
 const seeds = signal("0..20");
-/** What is varied: one thing for the columns of the map, another one for its rows. */
+/** The varied inputs: one for the columns of the map, one for its rows. */
 const vary = signal<readonly [string, string]>(["", ""]);
 const until = signal("60 s");
 
 const KEY = "afp-studio-sweep";
 
-/** Takes up what stood in the fields before the page was loaded anew, and keeps it from now on. */
+/** Restores the fields after a reload, and starts to store them. */
 export function begin(storage: Storage): void {
   try {
     [seeds.value, vary.value, until.value] = JSON.parse(storage.getItem(KEY) ?? "") as [string, [string, string], string];
   } catch {
-    // There is nothing yet.
+    // Nothing is stored yet.
   }
   effect(() => storage.setItem(KEY, JSON.stringify([seeds.value, vary.value, until.value])));
 }
@@ -51,7 +51,9 @@ export function Jobs() {
   );
 }
 
-/** An error of a build: where it has a place, a press shows it, in the drawing too; else it says what to do. */
+/**
+ * A build error: a press shows its place, also in the drawing; without a place it shows its help.
+ */
 function Failed({ of }: { of: Wrong }) {
   const { code, message, help, uri, place } = of;
   if (uri === null || !place) {
@@ -75,7 +77,7 @@ function Failed({ of }: { of: Wrong }) {
   );
 }
 
-/** Ranges that inputs of the plan could be varied in: around what they have. */
+/** Suggested ranges for inputs, around their values. */
 function suggested(): string[] {
   return (drawing.value?.entries ?? []).flatMap(({ kind, name, value }) => {
     const found = /^(-?\d+(?:\.\d+)?) ?([A-Za-z%\u00b0/]*)$/.exec(value ?? "");

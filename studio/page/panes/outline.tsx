@@ -1,4 +1,4 @@
-// The plan as lists of buttons, one in the other: for screen readers, and for who would rather read than look.
+// The plan as nested lists of buttons, for screen readers and for readers who prefer text.
 import { drawing } from "../drawing/model";
 import { spoken } from "../drawing/say";
 import { keyOf, same, type Drawing } from "../drawing/shapes";

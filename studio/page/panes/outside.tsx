@@ -1,4 +1,4 @@
-// What a hand can do to the robot while a plan runs: press its controls, let a part of it fail.
+// Interaction with the robot during a run: pressing controls, injecting faults.
 import { computed, signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { active, log, order } from "../debug/run";
@@ -10,12 +10,12 @@ import { drop, robotAt } from "../world/hand";
 import { devices, type Fault, type Stimulus, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
 
-/** Whether there is a robot that feels what is done to it: a log is over. */
+/** Whether a robot is running: a log is not. */
 const live = computed(() => active.value && !log.value);
 
 const nameOf = (spoken: string): string => spoken.split(".").at(-1)!;
 
-/** A button for each control, those that stop first. */
+/** A button for each control, stop controls first. */
 export function Stimuli() {
   const all = devices.value.flatMap(({ stimuli }) => stimuli);
   const sorted = [...all.filter(({ stops }) => stops), ...all.filter(({ stops }) => !stops)];
@@ -51,10 +51,13 @@ function Control({ of: { words: spoken, help, stops } }: { of: Stimulus }) {
   );
 }
 
-/** Metres before the robot at which a click drops something. */
+/** Distance in front of the robot for a dropped object, metres. */
 const AHEAD = 0.6;
 
-/** Buttons that drop something into the world: dragged onto the floor, or clicked, before the robot. */
+/**
+ * Buttons for dropping objects: dragged onto the floor, or clicked for a place in front of the
+ * robot.
+ */
 export function Drops({ world }: { world: Surroundings }) {
   const dropped = useRef(false);
   if (!world.drops.length) return null;
@@ -87,13 +90,16 @@ export function Drops({ world }: { world: Surroundings }) {
   );
 }
 
-/** An outline around its middle fills a picture. */
+/** The view box of an outline around its middle. */
 function whole(outline: readonly Point[]): string {
   const reach = 1.2 * Math.max(...outline.flat().map(Math.abs), 0.01);
   return `${-reach} ${-reach} ${2 * reach} ${2 * reach}`;
 }
 
-/** What fails next, how much (null: as the robot says), and for how many seconds (null: until the end). */
+/**
+ * The next fault, its amount (null: the robot's default), and its duration in seconds (null: until
+ * the end).
+ */
 const fault = signal("");
 const amount = signal<number | null>(null);
 const lasting = signal<number | null>(5);
@@ -102,7 +108,7 @@ const SECONDS = [1, 5, 30, null] as const;
 const inject = ({ words: spoken }: Fault): unknown =>
   order("afp/fault", { fault: spoken, ...(amount.value === null ? {} : { amount: amount.value }), ...(lasting.value === null ? {} : { seconds: lasting.value }) });
 
-/** A folded list of what can fail. */
+/** A folded list of faults. */
 export function Faults() {
   const failing = devices.value.filter(({ faults }) => faults.length);
   if (!failing.length) return null;

@@ -1,4 +1,5 @@
-// What a plan can be made of: searched, grouped, added by a click after the selection or by a drag where it is dropped.
+// Templates for the plan: searched, grouped, added after the selection by a click or at a place by
+// dragging.
 import { signal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 import { current } from "../documents/documents";
@@ -62,7 +63,7 @@ function Item({ offer }: { offer: ask.Offer }) {
   );
 }
 
-/** What is carried under the pointer. */
+/** The template under the pointer during a drag. */
 function Carried({ offer }: { offer: ask.Offer }) {
   const at = carried.value!.at;
   return (

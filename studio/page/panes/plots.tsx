@@ -1,4 +1,4 @@
-// Curves above the rows of the timeline: what entries held and what sensors said, over the same window of time.
+// Curves above the timeline's rows: values of entries and sensors, in the same time window.
 import { signal } from "@preact/signals";
 import { Tool } from "../screen/bar";
 import { curves, valueAt, type Curve } from "../debug/curves";
@@ -6,13 +6,13 @@ import type { Window } from "../debug/trace";
 import { spelled } from "../drawing/value";
 import { words } from "../words";
 
-/** What is plotted, in the order in which it was chosen. */
+/** Plotted names, in the order of selection. */
 const chosen = signal<readonly string[]>([]);
-/** Pixels of a plot, and what of it is left free above and below. */
+/** Height of a plot and its margin, pixels. */
 const TALL = 66;
 const MARGIN = 8;
 
-/** Chooses what to plot besides. */
+/** Adds a plot. */
 export function Choose() {
   const others = [...curves.value.keys()].filter((name) => !chosen.value.includes(name)).sort();
   const add = (event: Event & { currentTarget: HTMLSelectElement }): void => {

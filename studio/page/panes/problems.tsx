@@ -1,4 +1,4 @@
-// What is wrong: a click selects it, a fix is made by a click.
+// Problems: a click selects the place, a button applies a fix.
 import { useEffect } from "preact/hooks";
 import { Code } from "../screen/book";
 import { Severity } from "../screen/icons";

@@ -1,4 +1,4 @@
-// The run in words: what each entry holds, and what happened, a line each; a click shows where the text says so.
+// The run as text: values of entries and messages; a click shows the source.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Tool } from "../screen/bar";
 import { active, log, phase, revealSaid, said, state, why } from "../debug/run";
@@ -6,7 +6,7 @@ import { words } from "../words";
 import { Force } from "./forced";
 import { Stops } from "./stops";
 
-/** Lines that are shown; the newest are last. */
+/** Maximum number of displayed lines; the newest are last. */
 const SHOWN = 300;
 
 export function RunPane() {
@@ -14,7 +14,7 @@ export function RunPane() {
   const list = useRef<HTMLOListElement>(null);
   const lines = said.value.slice(-SHOWN);
   const [reads, setReads] = useState(false);
-  // Who has scrolled up to read something is left there.
+  // Does not scroll if the user has scrolled up.
   useEffect(() => {
     const host = list.current;
     if (host && !reads) host.scrollTop = host.scrollHeight;

@@ -1,4 +1,4 @@
-// Scenarios: written and run from here, with what each came to; a failed one is shown at its moment.
+// Scenarios: written and run here, with results; a failed one is shown at its moment.
 import { useState } from "preact/hooks";
 import { uriOf } from "../documents/addresses";
 import { current } from "../documents/documents";
@@ -32,7 +32,7 @@ export function Scenarios() {
 
 const hasScenarios = (): boolean => files.value.some(({ name }) => /(^|\/)(tests|scenarios)\/.*\.afp$/.test(name));
 
-/** What goes on, and a way to end it. */
+/** Progress with a stop button. */
 export const Busy = () =>
   busy.value ? (
     <span class="busy" role="status">
@@ -59,7 +59,7 @@ function One({ result }: { result: Result }) {
   );
 }
 
-/** What no scenario made use of. */
+/** Items that no scenario used. */
 function Unused() {
   const unused = coverage.value.flatMap(({ coverage: plan, parts }) => parts.filter(({ count }) => count === 0).map(({ kind, name }) => `${plan}: ${kind} ${name}`));
   return (

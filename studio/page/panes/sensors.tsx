@@ -1,4 +1,4 @@
-// What the robot's sensors say while a plan runs, as a list that can be folded.
+// Sensor values during a run, as a folded list.
 import { sensed } from "../world/sensed";
 import { devices } from "../world/surroundings";
 import { words } from "../words";

@@ -1,4 +1,4 @@
-// Where a run stops, as a list: each with its line, its condition, or what it says in place of stopping.
+// Breakpoints as a list: each with its line, condition or log message.
 import { change, FILTERS, filters, stopsOf, toggle, type Stop } from "../debug/breakpoints";
 import { current, text } from "../documents/documents";
 import { reveal } from "../plan/places";

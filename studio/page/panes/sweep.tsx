@@ -1,5 +1,5 @@
-// What a sweep came to: how its runs ended, a map of them by what was varied, and the runs of the cell that was chosen, each to be
-// run again where it can be watched.
+// Results of a sweep: endings, a map by varied values, and the runs of the selected cell, which can
+// be repeated in the studio.
 import { computed, signal } from "@preact/signals";
 import { active, repeat } from "../debug/run";
 import { Severity } from "../screen/icons";
@@ -11,12 +11,12 @@ import { words } from "../words";
 const runs = computed(() => runsOf(swept.value));
 const sum = computed(() => sumOf(swept.value));
 const map = computed(() => mapOf(runs.value));
-/** The cell that was chosen, as row and column; it is one of the sweep that is shown. */
+/** Row and column of the selected cell, with its sweep. */
 const chosen = signal<{ of: OutcomeMap; row: number; column: number } | null>(null);
-/** Runs of a cell that are listed. */
+/** Maximum number of listed runs. */
 const LISTED = 30;
 
-/** The sign of an ending: never colour alone. */
+/** The icon of an ending, since colour is not enough. */
 const SIGNS: Record<Ending, string> = {
   ok: "M3 8.5l3.2 3.2L13 4.8",
   interrupted: "M8 3v6M8 12v.6",
@@ -54,7 +54,7 @@ export function Sweep() {
   );
 }
 
-/** The map: a table whose cells are pressed; arrows walk. */
+/** The map: a table of buttons; arrows move. */
 function Cells({ map: { across, down, cells } }: { map: OutcomeMap }) {
   const key = (event: KeyboardEvent & { currentTarget: HTMLTableElement }): void => {
     const way = ({ ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] } as const)[event.key as "ArrowLeft"];
@@ -97,7 +97,10 @@ function Cells({ map: { across, down, cells } }: { map: OutcomeMap }) {
   );
 }
 
-/** A part of the cell for each ending, as wide as it is frequent; the sign of the one ending, or how many ended well. */
+/**
+ * A bar for each ending in proportion to its count; the icon of a single ending, or the number of
+ * successes.
+ */
 function Cell({ runs }: { runs: readonly Run[] }) {
   const all = counted(runs);
   return (
@@ -115,7 +118,7 @@ function Cell({ runs }: { runs: readonly Run[] }) {
 const settingOf = (run: Run, withSeed = true): string =>
   [...Object.entries(run.values).map(([name, { text }]) => `${name} = ${text}`), ...(withSeed ? [words.seedOf(run.seed)] : [])].join(", ");
 
-/** The runs of a cell, or what all of them came to, each with a way to see it happen. */
+/** The runs of a cell, or all runs, each with a replay button. */
 function Chosen({ runs, all = false }: { runs: readonly Run[]; all?: boolean }) {
   const listed = all ? grouped(runs) : runs.map((run) => ({ run, count: 1 }));
   return (

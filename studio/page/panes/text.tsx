@@ -1,4 +1,4 @@
-// The text of the plan that is shown.
+// The displayed plan's text.
 import { useEffect, useRef } from "preact/hooks";
 import { command } from "../screen/commands";
 import { current, isOpen } from "../documents/documents";

@@ -1,5 +1,5 @@
-// The timeline of a run: what was active, what watched, what was written, deadlines that were missed. The ruler scrubs; rows and
-// ruler have the same window, which is zoomed and moved.
+// The timeline of a run: activity, supervisors, writes, missed deadlines. The ruler scrubs; rows
+// and ruler share a window for zoom and pan.
 import { computed, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { phase, records, seek, state } from "../debug/run";
@@ -8,13 +8,13 @@ import { Tool } from "../screen/bar";
 import { words } from "../words";
 import { Choose, Plots } from "./plots";
 
-/** What was chosen to be in sight; null follows the run. */
+/** The chosen window; null follows the run. */
 const chosen = signal<Window | null>(null);
-/** Seconds that are in sight while the run is followed. */
+/** Visible seconds while following. */
 const FOLLOWED = 20;
-/** Pixels of a row. */
+/** Height of a row, pixels. */
 const TALL = 22;
-/** Milliseconds between two moments that are asked for while the ruler is dragged. */
+/** Milliseconds between requests while the ruler is dragged. */
 const PAUSE = 80;
 
 // A new run is followed.
@@ -94,7 +94,7 @@ interface Drawn {
   width: number;
 }
 
-/** The scale, and the moment that is shown: dragged, or moved by keys from event to event. */
+/** The scale and the displayed moment: dragged, or moved by keys from event to event. */
 function Ruler({ x, of, width }: Drawn) {
   const last = useRef(0);
   const timeOf = (event: PointerEvent & { currentTarget: HTMLElement }): number => {
@@ -138,7 +138,7 @@ function Ruler({ x, of, width }: Drawn) {
   );
 }
 
-/** What of a row is in sight; marks that would lie on each other are one. */
+/** The visible part of a row; overlapping marks are merged. */
 function Lane({ row, at, x, of, width }: Drawn & { row: Row; at: number }) {
   const [top, long] = [at * TALL, (row.bars.at(-1)?.to ?? end.value) >= 0];
   const bars = row.bars.filter(({ from, to }) => from < of.to && (to ?? end.value) > of.from && long);

@@ -1,4 +1,4 @@
-// The value of a port: a quantity with steps, slider and unit, the entries that fit, or a formula as a line.
+// The value of a port: a quantity with steps, slider and unit, fitting entries, or a formula.
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import * as ask from "../drawing/ask";
 import { useInSight } from "../drawing/choices";
@@ -8,7 +8,6 @@ import type { Part } from "../drawing/shapes";
 import { editing, fieldOf, quantity, slider, spelled, stepped, converted } from "../drawing/value";
 import { words } from "../drawing/words";
 
-/** The popup over the drawing. */
 export function ValuePopup() {
   const now = editing.value;
   return now ? <Popup key={`${now.part.item} ${now.part.part?.name}`} part={now.part} at={now.at} /> : null;
@@ -37,7 +36,7 @@ function Popup({ part, at }: { part: Part; at: readonly [number, number] | null 
     event.stopPropagation();
     close();
   };
-  // The value is another one's from now on, if that has been opened meanwhile.
+  // Another value may have been opened meanwhile.
   const done = (): void => void (editing.peek()?.part === part && close());
   return (
     <div class="over value-popup" ref={host} role="dialog" aria-label={words.valueOf(name)} tabIndex={-1} onKeyDown={key}>
@@ -52,13 +51,13 @@ interface Given {
   out: boolean;
   answer: ask.PortAnswer;
   done(): void;
-  /** It was left as it was. */
+  /** Called if it was left unchanged. */
   left?(): void;
 }
 
 /**
- * The controls for a value; in the popup and in the inspector. What was set is written however it is left; what cannot be
- * stays, marked. Escape alone discards.
+ * The controls for a value, in the popup and in the inspector. Leaving writes it; invalid text
+ * stays, marked. Only `Escape` discards.
  */
 export function Value({ part, out, answer, done, left }: Given) {
   const name = part.part?.name ?? "";
@@ -68,7 +67,7 @@ export function Value({ part, out, answer, done, left }: Given) {
   const discarded = useRef(false);
   const [text, setText] = useState(draft(field) ?? first);
   const [wrong, setWrong] = useState(draft(field) !== undefined);
-  // An answer that says nothing new leaves what is being typed alone; one that does comes before the next key.
+  // An unchanged answer keeps the typed text; a changed one arrives before the next key.
   useLayoutEffect(() => setText(draft(field) ?? first), [first]);
   const set = (text: string): void => {
     setText(text);
@@ -130,10 +129,10 @@ interface Field {
   answer: ask.PortAnswer;
 }
 
-/** `−`, `+`, `±` and a slider where the range is small enough for one. */
+/** `−`, `+`, `±` and, for a small range, a slider. */
 function Steps({ text, set, answer }: Field) {
   const { number, unit } = quantity(text)!;
-  // In another unit than the usual one a step is one.
+  // In an unusual unit, a step is one.
   const step = unit === answer.unit ? answer.step! : 1;
   const by = (times: 1 | -1): void => set(spelled(stepped(number, step, times), unit));
   const range = slider(answer.range, unit, step);

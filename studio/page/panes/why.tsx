@@ -1,4 +1,4 @@
-// The card that says why an element runs or does not, and lets an outcome happen.
+// The card that explains why an element runs or not, and can inject an outcome.
 import { Tool } from "../screen/bar";
 import { log, order } from "../debug/run";
 import { close, why, type Edge } from "../debug/why";

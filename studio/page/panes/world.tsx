@@ -1,4 +1,4 @@
-// The world of a run: where it takes place, the floor from above, what a hand can do in it.
+// The world of a run: its selection, the floor, and interaction.
 import { useEffect, useRef } from "preact/hooks";
 import { Tool } from "../screen/bar";
 import { active, given, seed, world as chosen } from "../debug/run";
@@ -37,7 +37,7 @@ const Absent = () =>
     <p class="empty">{awaited.value || words.worldComes}</p>
   );
 
-/** In which world the next run takes place, and with which noise. */
+/** World and seed of the next run. */
 function Where({ world }: { world: Surroundings }) {
   const known = world.worlds.some(({ name }) => name === chosen.value);
   const value = known ? chosen.value! : (world.worlds[0]?.name ?? "");
@@ -55,14 +55,14 @@ function Where({ world }: { world: Surroundings }) {
   );
 }
 
-/** Takes over a seed; what is none is told, and the one that counts stands there again. */
+/** Sets a seed; an invalid one is reported, and the field reverts. */
 function sowIn(field: HTMLInputElement): void {
   if (sow(field.value)) return;
   field.value = String(seed.peek());
   refuse(words.seedWrong);
 }
 
-/** An input that has another value in the next runs than the plan says. */
+/** An input of the next runs that differs from the plan. */
 const Given = ({ name, text }: { name: string; text: string }) => (
   <span class="given">
     {words.givenTo(name, text)}
@@ -70,7 +70,7 @@ const Given = ({ name, text }: { name: string; text: string }) => (
   </span>
 );
 
-/** What can be dropped, everything back, the camera. */
+/** Objects to drop, reset, camera. */
 const Hand = ({ world }: { world: Surroundings }) => (
   <div class="hand">
     <Drops world={world} />

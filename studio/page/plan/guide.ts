@@ -9,14 +9,13 @@ import { number } from "./problems";
 export const STEPS = ["drive", "connect", "run", "notice", "follow", "stop", "lead", "again"] as const;
 export type Step = (typeof STEPS)[number];
 
-/** The content of a plan. */
 export interface Facts {
   actors: number;
   errors: number;
-  /** Supervisors of elements, and of the whole plan. */
+  /** Number of supervisors, of elements and of the plan. */
   watched: number;
   stoppers: number;
-  /** Runs that have ended. */
+  /** Number of ended runs. */
   runs: number;
 }
 
@@ -29,7 +28,7 @@ export function next({ actors, errors, watched, stoppers, runs }: Facts): Step |
   return runs < 2 ? "again" : null;
 }
 
-/** The content of a plan from its drawing. */
+/** Derives the facts from a drawing. */
 export function facts(drawn: Pick<Drawing, "plan" | "elements">, errors: number, runs: number): Facts {
   const elements = [...drawn.elements.values()];
   const exits = elements.flatMap(({ pieces }) => pieces).filter(({ part }) => part.kind === "exit");
@@ -44,17 +43,17 @@ export function facts(drawn: Pick<Drawing, "plan" | "elements">, errors: number,
 }
 
 const KEY = "afp-studio-guide";
-/** The plan that is guided; empty without one. */
+/** The guided plan; empty without one. */
 const guided = signal("");
 const runs = signal(0);
 
-/** The step that is shown; null without a guide for the plan that is shown. */
+/** The displayed step; null without a guide for this plan. */
 export const step = computed<Step | "done" | null>(() => {
   if (!guided.value || guided.value !== current.value || !drawing.value) return null;
   return next(facts(drawing.value, number("error"), runs.value)) ?? "done";
 });
 
-/** How much is done, of how much. */
+/** Completed steps and their total. */
 export const progress = (now: Step | "done"): [number, number] => [now === "done" ? STEPS.length : STEPS.indexOf(now), STEPS.length];
 
 export function guide(uri: string): void {
@@ -67,7 +66,7 @@ export function leave(): void {
   sessionStorage.removeItem(KEY);
 }
 
-/** Takes up the guide after a reload, and counts runs. */
+/** Restores the guide after a reload, and counts runs. */
 export function begin(): void {
   guided.value = sessionStorage.getItem(KEY) ?? "";
   ended.subscribe((end) => {

@@ -7,7 +7,10 @@ export interface Twig {
   inside: Twig[];
 }
 
-/** The plan with its entries and supervisors, then each element with its ports, supervisors and exits. */
+/**
+ * The plan with its entries and supervisors, then each element with its ports, supervisors and
+ * exits.
+ */
 export function tree(drawn: Drawing): Twig[] {
   const entries = drawn.entries.map(({ item }) => ({ part: { item }, inside: [] }));
   return reading(drawn).map((element) => {

@@ -1,4 +1,4 @@
-// Places of the text and items of the plan, each found by the other, so that cursor and selection go together.
+// Maps source positions to items and back, to keep cursor and selection in sync.
 import { effect, signal } from "@preact/signals";
 import { current, isOpen, open } from "../documents/documents";
 import type { Position, Range } from "../documents/positions";
@@ -12,18 +12,17 @@ import { origin, select, selected, type Origin } from "./selection";
  */
 export const shown = signal<{ uri: string; range: Range; focus: boolean; stays?: boolean } | null>(null);
 
-/** The item at a place of the text. */
+/** The item at a source position. */
 export const itemAt = (uri: string, position: Position): Promise<Part | null> =>
   lsp().request<Part | null>("afp/itemAt", { textDocument: { uri }, position });
 
-/** The place of an item, or of a part of it; of an item with the comments that belong to it, where they are wanted. */
+/** The source range of an item or part; optionally with its comments. */
 export const spanOf = (uri: string, { item, part }: Part, comments = false): Promise<Range | null> =>
   lsp().request<Range | null>("afp/spanOf", { textDocument: { uri }, item, comments, ...(part ? { part } : {}) });
 
-/** Something of the folder that has a name. */
+/** A named item of the folder. */
 export interface Named {
   name: string;
-  /** Its parent. */
   container: string;
   uri: string;
   range: Range;
@@ -38,7 +37,7 @@ export async function symbols(): Promise<Named[]> {
   return known.map(({ name, containerName, location }) => ({ name, container: containerName ?? "", ...location }));
 }
 
-/** The protocol's numbers of what plans, elements and entries are. */
+/** The protocol's symbol kinds of plans, elements and entries. */
 const [CLASS, FUNCTION, VARIABLE] = [5, 12, 13];
 
 /** Shows a place in the text, and its item in the drawing. */
@@ -50,7 +49,7 @@ export async function reveal(uri: string, range: Range, from: Origin, focus = fa
   if (found) select([found], from);
 }
 
-/** Shows a place of a text that is open. The cursor of who writes in the text stays: the next letter goes where it was. */
+/** Shows a place of an open text. The cursor of a typing user stays. */
 export async function point(uri: string, range: Range): Promise<void> {
   if (!document.activeElement?.closest(".cm-content")) return reveal(uri, range, "other");
   shown.value = { uri, range, focus: false, stays: true };
@@ -58,7 +57,7 @@ export async function point(uri: string, range: Range): Promise<void> {
   if (found) select([found], "text");
 }
 
-/** The cursor of the text was moved by a person: the selection follows, once it rests. */
+/** After the user moves the cursor, the selection follows with a delay. */
 let resting: ReturnType<typeof setTimeout>;
 export function cursorAt(uri: string, position: Position): void {
   clearTimeout(resting);
@@ -68,7 +67,7 @@ export function cursorAt(uri: string, position: Position): void {
   }, 80);
 }
 
-/** Begins to move the cursor where something is selected in the drawing. */
+/** Starts to move the cursor to selections in the drawing. */
 export function begin(): void {
   effect(() => {
     const last = selected.value.at(-1);

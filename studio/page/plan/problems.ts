@@ -1,4 +1,4 @@
-// The diagnostics of each text, with their fixes.
+// Diagnostics of each text, with their fixes.
 import { computed, effect, signal } from "@preact/signals";
 import { current } from "../documents/documents";
 import { apply, type WorkspaceEdit } from "../documents/edits";
@@ -24,7 +24,7 @@ export interface Action {
 }
 
 export const diagnostics = signal<ReadonlyMap<string, { version: number | null; list: Diagnostic[] }>>(new Map());
-/** The problems of the file that is shown, errors first, then as they stand in the text. */
+/** Problems of the displayed file, errors first, then in source order. */
 export const problems = computed(() => problemsOf(current.value));
 export function problemsOf(uri: string): Diagnostic[] {
   const list = diagnostics.value.get(uri)?.list ?? [];
@@ -34,13 +34,13 @@ export function problemsOf(uri: string): Diagnostic[] {
 export const number = (severity: Severity): number => problems.value.filter((each) => severityOf(each) === severity).length;
 export const severityOf = ({ severity }: Diagnostic): Severity => (severity === 2 ? "warning" : (severity ?? 1) > 2 ? "note" : "error");
 
-/** The message and its help. */
+/** Splits a message and its help. */
 export function said({ message }: Diagnostic): { message: string; help: string | null } {
   const [first, ...rest] = message.split("\nhelp: ");
   return { message: first!, help: rest.length ? rest.join("\n") : null };
 }
 
-/** Everything that can be done at a place. */
+/** The code actions at a place. */
 export const actionsAt = async (uri: string, range: Range, list: Diagnostic[], only?: string[]): Promise<Action[]> =>
   (await lsp().request<Action[] | null>("textDocument/codeAction", {
     textDocument: { uri },
@@ -48,7 +48,6 @@ export const actionsAt = async (uri: string, range: Range, list: Diagnostic[], o
     context: { diagnostics: list, ...(only ? { only } : {}) },
   })) ?? [];
 
-/** The fixes of a problem. */
 export async function fixesOf(uri: string, problem: Diagnostic): Promise<Action[]> {
   const all = await actionsAt(uri, problem.range, [problem], ["quickfix"]);
   return all.filter((each) => each.diagnostics?.some((mended) => mended.code === problem.code && samePlace(mended.range, problem.range)));
@@ -56,14 +55,14 @@ export async function fixesOf(uri: string, problem: Diagnostic): Promise<Action[
 
 const samePlace = (a: Range, b: Range): boolean => JSON.stringify(a) === JSON.stringify(b);
 
-/** Makes a fix as one entry of the history. */
+/** Applies a fix as one history entry. */
 export const mend = (action: Action): Promise<void> => apply(action.edit, action.title);
 
-/** The fixes of the problems that are shown, asked for while somebody shows them. */
+/** Fixes of the displayed problems, requested while visible. */
 export const fixes = signal<ReadonlyMap<Diagnostic, Action[]>>(new Map());
 const wanted = signal(0);
 
-/** Asks for fixes until the answer is called. */
+/** Requests fixes until the returned function is called. */
 export function askFixes(): () => void {
   wanted.value = wanted.peek() + 1;
   return () => {
@@ -71,7 +70,6 @@ export function askFixes(): () => void {
   };
 }
 
-/** Begins to hear what is wrong. */
 export function begin(): void {
   lsp().on("textDocument/publishDiagnostics", ({ uri, version, diagnostics: list }) => {
     diagnostics.value = new Map(diagnostics.peek()).set(uri, { version: version ?? null, list });

@@ -1,4 +1,4 @@
-// The commands of the page itself: history, panes, files, keys.
+// The page's commands: history, panes, files, keys.
 import { command } from "./commands";
 import { finding, showingKeys } from "./finder";
 import { redo, redoLabel, undo, undoLabel } from "../documents/history";
@@ -33,7 +33,7 @@ export function register(): void {
   command({ id: "new", label: words.newPlan, run: makeNew });
 }
 
-/** Says that everything is saved, once it is: nobody has to do that. */
+/** Announces that everything is saved: saving is automatic. */
 async function announce(): Promise<void> {
   refuse((await isWritten()) ? words.savedBySelf : words.notSaved);
 }
@@ -50,7 +50,7 @@ function toggle(name: Narrow): void {
   if (open) narrow.value = "drawing";
 }
 
-/** Puts the focus into the pane after or before the one that has it. */
+/** Focuses the next or previous pane. */
 function step(by: number): void {
   const panes = [...document.querySelectorAll("[data-pane], .bar")];
   const at = panes.findIndex((each) => each.contains(document.activeElement));
@@ -58,16 +58,16 @@ function step(by: number): void {
   enter(panes[(start + by + panes.length) % panes.length] ?? null);
 }
 
-/** Puts the focus into a pane that is about to appear, unless it has gone elsewhere before. */
+/** Focuses a pane when it appears, unless the focus has moved. */
 function enterSoon(name: string, before = document.activeElement, end = performance.now() + ENTERED_WITHIN): void {
   const pane = document.querySelector(`[data-when=${name}]`);
-  // The editor comes a frame after its pane.
+  // The editor appears a frame after its pane.
   const early = !pane || (name === "text" && !pane.querySelector(".cm-content"));
   if (!early) enter(pane);
   else if (document.activeElement === before && performance.now() < end) requestAnimationFrame(() => enterSoon(name, before, end));
 }
 
-/** So many milliseconds a pane may take to appear: the text's editor is loaded when it is first wanted. */
+/** Maximum time for a pane to appear, milliseconds: the editor is loaded on first use. */
 const ENTERED_WITHIN = 10_000;
 
 /** The first focusable part of a pane. */

@@ -1,4 +1,4 @@
-// The bar at the top: file, plans, what is saved, undo and redo, problems.
+// The top bar: file, plans, saved state, undo and redo, problems.
 import { batch } from "@preact/signals";
 import { current, isFailed, nameOf, saved } from "../documents/documents";
 import { Controls } from "../debug/controls";
@@ -39,7 +39,7 @@ const FileName = () => (
   </>
 );
 
-/** The plans that lead to the one that is shown, and the others of the file. */
+/** The path to the displayed plan, and the file's other plans. */
 function Breadcrumb() {
   const plans = drawing.value?.plans ?? [];
   if (!current.value || !plan.value) return null;
@@ -67,7 +67,7 @@ function Breadcrumb() {
   );
 }
 
-/** Shows a plan by its name: nothing has led to it. */
+/** Shows a plan by name, without a path. */
 function goTo(name: string): void {
   batch(() => {
     [trail.value, wanted.value] = [[], name];
@@ -79,7 +79,7 @@ function Saved() {
   if (!current.value) return null;
   const failed = isFailed(state);
   const not = failed || state === "disputed";
-  // What is shown is no text then.
+  // A log is displayed instead of a text.
   const shown = log.value.split("/").at(-1);
   if (shown && !not) return <span class="saved log" role="status" title={words.logOf(shown)}>{words.logShown(shown)}</span>;
   return (
@@ -89,7 +89,7 @@ function Saved() {
   );
 }
 
-/** Whether what is shown is drawn, and nothing of it is a plan. */
+/** Whether the displayed file is drawn and has no plan. */
 export const hasNoPlan = (): boolean => drawing.value?.uri === current.value && drawing.value.plan === null;
 
 function ProblemCount() {
@@ -105,7 +105,7 @@ function ProblemCount() {
   );
 }
 
-/** A button with a sign alone; its name is said and shown on hover. */
+/** An icon button; its name is its label and tooltip. */
 export const Tool = ({ icon, label, run, disabled = false }: { icon: Icon; label: string; run: () => unknown; disabled?: boolean }) => (
   <button class="tool" aria-label={label} title={label} disabled={disabled} onClick={() => void run()}>
     <Sign name={icon} />

@@ -1,5 +1,5 @@
-// The book inside the page: what a code of a problem means, with the example that has the mistake and the one that has not; and
-// all that there is to say of a template.
+// The book in the page: the explanation of a problem's code, with a wrong and a right example, and
+// template references.
 import { signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { current, text } from "../documents/documents";
@@ -12,7 +12,7 @@ import { offset, position } from "../documents/positions";
 import { lsp } from "../server/session";
 import { words } from "../words";
 
-/** The page that is open. */
+/** The open page. */
 const page = signal<{ title: string; text: string } | null>(null);
 
 /** Opens the page of a code. */
@@ -25,7 +25,7 @@ async function explain(code: string): Promise<void> {
   }
 }
 
-/** Opens what there is to say of the template of an element or supervisor: its ports, states and bounds. */
+/** Opens the reference of an element's or supervisor's template: ports, states and bounds. */
 async function explainTemplate(item: string, template: string): Promise<void> {
   const uri = current.peek();
   try {
@@ -42,12 +42,12 @@ async function explainTemplate(item: string, template: string): Promise<void> {
   }
 }
 
-/** The code of a problem, which opens its page. */
+/** The code of a problem, as a link to its page. */
 export const Code = ({ of: code }: { of: string }) => (
   <button type="button" class="code" aria-label={words.meaning(code)} title={words.meaning(code)} onClick={() => void explain(code)}>{code}</button>
 );
 
-/** Opens the page of the template of an item. */
+/** A link to the page of an item's template. */
 export const AllAbout = ({ item, template }: { item: string; template: string }) => (
   <button type="button" class="quiet" onClick={() => void explainTemplate(item, template)}>{words.about(template)}</button>
 );

@@ -1,10 +1,13 @@
-// All named commands, for `Ctrl+K`, the keys and the bar.
+// Named commands for `Ctrl+K`, keys and bar.
 import { signal } from "@preact/signals";
 
 export interface Command {
   id: string;
   label: string;
-  /** As `Ctrl+Shift+Z`, `F2`, `A`; several where a Mac or a Chromebook has others. `Ctrl` is `Cmd` on a Mac. */
+  /**
+   * Such as `Ctrl+Shift+Z`, `F2`, `A`; several for the variants of Macs and Chromebooks. `Ctrl` is
+   * `Cmd` on a Mac.
+   */
   key?: string | string[];
   run(): unknown;
   enabled?(): boolean;
@@ -14,7 +17,7 @@ export interface Command {
 
 export const commands = signal<readonly Command[]>([]);
 
-/** Adds a command, in place of one of the same name; the answer takes it away again. */
+/** Adds or replaces a command; returns a function that removes it. */
 export function command(one: Command): () => void {
   commands.value = [...commands.peek().filter((each) => each.id !== one.id), one];
   return () => (commands.value = commands.peek().filter((each) => each !== one));
@@ -31,7 +34,7 @@ interface Pressed {
   shiftKey: boolean;
 }
 
-/** How a key is written that was pressed. Signs that need `Shift` are written without it. */
+/** The name of a pressed key. Characters that need `Shift` are written without it. */
 export function keyName(event: Pressed, mac = false): string {
   const main = mac ? event.metaKey : event.ctrlKey;
   const key = event.key === " " ? "Space" : event.key.length === 1 ? event.key.toUpperCase() : event.key.replace(/^Arrow/, "");
@@ -39,14 +42,14 @@ export function keyName(event: Pressed, mac = false): string {
   return `${main ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${event.shiftKey && letter ? "Shift+" : ""}${key}`;
 }
 
-/** The command of a key, `in` the drawing or elsewhere. */
+/** The command of a key, in the drawing or elsewhere. */
 export function commandFor(key: string, inDrawing: boolean, all = commands.peek()): Command | undefined {
   const fits = (each: Command) => keysOf(each).includes(key) && (each.where === undefined || inDrawing);
-  // Where two have the key, that of the drawing is nearer.
+  // The drawing's command has precedence.
   return all.find((each) => each.where === "drawing" && fits(each) && isEnabled(each)) ?? all.find((each) => fits(each) && isEnabled(each));
 }
 
-/** Whether a key belongs to a field that is written into, as letters and its own undo do. */
+/** Whether a key belongs to a text field, such as letters and undo. */
 export const isForField = (key: string): boolean => !/^(F\d+|Shift\+F\d+|Ctrl\+[KP.])$/.test(key);
 
 /** Handles keys of the page; earlier handlers call `preventDefault`. */
@@ -59,7 +62,7 @@ export function listen(page: Window): void {
     const field = target.matches("input, textarea, select");
     if ((field || target.closest("dialog")) && isForField(key)) return;
     const found = commandFor(key, target.closest("[data-pane=drawing]") !== null);
-    // Letters are the text pane's own.
+    // Letters belong to the text pane.
     if (!found || (key.length === 1 && target.closest("[contenteditable=true]"))) return;
     event.preventDefault();
     found.run();

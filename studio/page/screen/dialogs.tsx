@@ -1,4 +1,4 @@
-// Questions that stand before everything else: choices, and one line to be written.
+// Modal dialogs: choices, and one line of input.
 import { signal } from "@preact/signals";
 import { useModal } from "./modal";
 import { words } from "../words";
@@ -7,7 +7,7 @@ interface Question {
   title: string;
   body: string;
   choices: string[];
-  /** A line to be written, with what stands in it first and what is wrong with another. */
+  /** A line of input: its initial value, and its check. */
   line?: { value: string; wrong(value: string): string | null };
   answer(chosen: string | null): void;
 }
@@ -28,10 +28,10 @@ const put = (question: Omit<Question, "answer">): Promise<string | null> =>
     asked.value = [...asked.value, one];
   });
 
-/** Asks for one of the choices; null where none was chosen. */
+/** Asks for a choice; null if cancelled. */
 export const ask = (title: string, body: string, choices: string[]): Promise<string | null> => put({ title, body, choices });
 
-/** Asks for a line; null where none was given. */
+/** Asks for a line; null if cancelled. */
 export const askLine = (title: string, body: string, first: string, done: string, wrong: (value: string) => string | null = () => null) =>
   put({ title, body, choices: [done], line: { value: first, wrong } });
 

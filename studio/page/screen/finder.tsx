@@ -1,4 +1,4 @@
-// `Ctrl+K`: every command by its name; `Ctrl+P`: every plan, element and entry; `?`: every key.
+// `Ctrl+K`: commands by name; `Ctrl+P`: plans, elements and entries; `?`: keys.
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
@@ -10,7 +10,7 @@ import { reveal, symbols } from "../plan/places";
 import { matching } from "./ranking";
 import { words } from "../words";
 
-/** Which list is open. */
+/** The open list. */
 export const finding = signal<"commands" | "things" | null>(null);
 export const showingKeys = signal(false);
 
@@ -26,7 +26,7 @@ export function Finder() {
 
 function useClosing(close: () => void, opened?: (dialog: HTMLDialogElement) => void) {
   const dialog = useModal(opened);
-  // A click beside the dialog is one on its ground.
+  // A click outside hits the dialog's backdrop.
   const click = (event: MouseEvent): void => {
     if (event.target === dialog.current) close();
   };
@@ -44,11 +44,11 @@ interface Given {
   label: string;
   hint: string;
   nothing: string;
-  /** What has the words that were typed, the best first. */
+  /** Matches of the typed words, best first. */
   find(typed: string): readonly Found[];
 }
 
-/** A field, and below it what was found; `Enter` or a click takes one. */
+/** A field with results below; `Enter` or a click selects one. */
 function Picker({ label, hint, nothing, find }: Given) {
   const [typed, setTyped] = useState("");
   const [chosen, setChosen] = useState(0);
@@ -61,7 +61,7 @@ function Picker({ label, hint, nothing, find }: Given) {
   const run = (one: Found | undefined): void => {
     if (!one) return;
     close();
-    // Once the focus is back where it was.
+    // After the focus has returned.
     setTimeout(() => one.run());
   };
   const key = (event: KeyboardEvent): void => {
@@ -97,14 +97,13 @@ function Commands() {
   return <Picker label={words.commands} hint={words.findCommand} nothing={words.noCommand} find={find} />;
 }
 
-/** Every plan, element and entry of the folder. */
 function Things() {
   const [all, setAll] = useState<readonly Found[]>([]);
   useEffect(() => void things().then(setAll, report), []);
   return <Picker label={words.goto} hint={words.gotoHint} nothing={words.noThing} find={(typed) => matching(typed, all).slice(0, MOST)} />;
 }
 
-/** So many are shown; who types more of the name sees the others. */
+/** Maximum number of results; more typing narrows them. */
 const MOST = 60;
 
 async function things(): Promise<Found[]> {
@@ -121,7 +120,7 @@ function Keys() {
   const close = (): void => {
     showingKeys.value = false;
   };
-  // Its only button stands at the end.
+  // The only button is at the end.
   const given = useClosing(close, (dialog) => dialog.querySelector("h2")?.focus());
   const all = commands.value.filter((each) => keysOf(each).length > 0);
   return (

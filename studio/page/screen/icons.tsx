@@ -1,4 +1,4 @@
-// The signs of the page's buttons: lines of one width in a square of 16.
+// Icons of buttons: lines of one width in a square of 16.
 
 const PATHS = {
   menu: "M2.5 4h11M2.5 8h11M2.5 12h11",
@@ -45,7 +45,7 @@ export const Sign = ({ name }: { name: Icon }) => (
   </svg>
 );
 
-/** The sign of a severity: an octagon, a triangle, a circle; never colour alone. */
+/** The icon of a severity: octagon, triangle, circle; colour is not enough. */
 export const Severity = ({ of }: { of: "error" | "warning" | "note" }) => (
   <svg class={`severity ${of}`} viewBox="0 0 16 16" width="14" height="14" aria-hidden="true">
     <path d={of === "error" ? "M5.2 1h5.6L15 5.2v5.6L10.8 15H5.2L1 10.8V5.2z" : of === "warning" ? "M8 1.2 15.4 14.4H.6z" : "M8 1a7 7 0 1 0 0 14A7 7 0 0 0 8 1z"} />

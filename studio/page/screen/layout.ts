@@ -1,4 +1,4 @@
-// Which panes are open, and how wide they are; remembered by the browser.
+// Open panes and their widths; stored by the browser.
 import { effect, signal } from "@preact/signals";
 
 export type Right = "inspector" | "text" | "outline";
@@ -7,7 +7,7 @@ export const BOTTOMS: readonly Bottom[] = ["problems", "run", "timeline", "scena
 export type Narrow = "palette" | "drawing" | "world" | Right | Bottom;
 
 export const palette = signal(true);
-/** Over what is open at the right. */
+/** Above the open right pane. */
 export const world = signal(true);
 export const right = signal<Right | null>("inspector");
 export const bottom = signal<Bottom | null>(null);
@@ -18,7 +18,7 @@ export const narrow = signal<Narrow>("drawing");
 
 const KEY = "afp-studio-layout";
 
-/** Takes up what was remembered, and remembers from now on. */
+/** Restores the layout and starts to store it. */
 export function begin(storage: Storage): void {
   try {
     const kept = JSON.parse(storage.getItem(KEY) ?? "{}");
@@ -43,7 +43,6 @@ export const clamp = (width: number): number => Math.round(Math.min(900, Math.ma
 
 export const isBottom = (pane: string): pane is Bottom => BOTTOMS.some((each) => each === pane);
 
-/** Shows a pane, wherever it is. */
 export function show(pane: Narrow): void {
   narrow.value = pane;
   if (pane === "palette") palette.value = true;

@@ -1,5 +1,6 @@
-// Markdown of the engine's help, made into nodes: paragraphs, lists, blocks of code, and in lines `code`, **strong**, *emphasis*.
-// Foreign words never become markup: everything is put in as text. Addresses are shown, not followed.
+// Markdown of the engine's help as nodes: paragraphs, lists, code blocks, and inline `code`,
+// **strong**, *emphasis*. Everything is inserted as text, so third-party texts never become markup.
+// Addresses are not links.
 
 export type Inline = { kind: "text" | "code" | "strong" | "em"; text: string };
 export type Block =
@@ -36,7 +37,7 @@ export function blocks(source: string): Block[] {
   return found;
 }
 
-/** The items of a list; a line without a sign goes on with the one before. */
+/** The items of a list; a line without a bullet continues the item. */
 function items(lines: string[]): string[] {
   const found: string[] = [];
   for (const line of lines) {

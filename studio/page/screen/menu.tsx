@@ -1,4 +1,4 @@
-// A button that opens a list below itself: arrows walk, `Escape` and a click elsewhere close it.
+// A button with a drop-down list: arrows move, `Escape` and an outside click close it.
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 

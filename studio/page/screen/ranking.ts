@@ -1,4 +1,4 @@
-// Matches of a search, best first: commands, places, choices of the drawing.
+// Ranked search matches: commands, places, choices of the drawing.
 
 interface Rules<T> {
   /** The searched text; the default is the label. */
@@ -7,7 +7,7 @@ interface Rules<T> {
   isLast?(each: T): boolean;
 }
 
-/** Those that hold all words that were typed, those that fit best first, else in their order. */
+/** The items that match all typed words, best first, otherwise in order. */
 export function matching<T extends { label: string }>(typed: string, all: readonly T[], { text = labelOf, isLast = () => false }: Rules<T> = {}): T[] {
   const words = wordsOf(typed);
   const fits = all.filter((each) => words.every((word) => text(each).toLowerCase().includes(word)));
@@ -15,10 +15,13 @@ export function matching<T extends { label: string }>(typed: string, all: readon
   return fits.sort((one, two) => rank(one) - rank(two));
 }
 
-/** More than any name's own rank. */
+/** Greater than any name's rank. */
 const LAST = 10;
 
-/** Less is better: the name itself, then what begins with all that was typed; then what begins with the first word, and has all of them. */
+/**
+ * Lower is better: the name itself, then the whole typed prefix, then the first word as prefix with
+ * all words.
+ */
 function rankOf(label: string, typed: string): number {
   const name = label.toLowerCase();
   const [wanted, words] = [typed.trim().toLowerCase(), wordsOf(typed)];

@@ -1,4 +1,4 @@
-// The screen: bar, palette, drawing, panes at the right and below, each where studio and browser window have room.
+// The screen: bar, palette, drawing, right and bottom panes, depending on the window size.
 import { h, type ComponentChild } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { pathOf } from "../documents/addresses";
@@ -125,9 +125,9 @@ const TABS: { name: Beside; label: string }[] = [
   { name: "outline", label: words.outline },
 ];
 
-/** Beside the drawing: the world, and below it what else is open. */
+/** The right pane: the world, and below it the open pane. */
 function RightPanes() {
-  // Before there is a plan, there is its world.
+  // A world is available before a plan.
   const open = current.value ? right.value : null;
   const of: Beside | null = open ?? (world.value ? "world" : null);
   const isOpen = (name: Beside): boolean => (name === "world" ? world.value : open === name);
@@ -165,7 +165,7 @@ function RightPanes() {
   );
 }
 
-/** The line between drawing and pane: dragged, or moved by arrows. */
+/** The divider between drawing and pane: dragged, or moved by arrows. */
 function Divider({ of }: { of: Beside }) {
   const put = (width: number): void => {
     widths.value = { ...widths.value, [of]: clamp(width) };
@@ -201,7 +201,7 @@ const LOWER: { name: Lower; label: string }[] = [
 
 const LOWER_PANES: Record<Lower, () => ComponentChild> = { problems: Problems, run: RunPane, timeline: Timeline, scenarios: Scenarios, jobs: Jobs };
 
-/** The pane below: what is open of it, or what was chosen where there is room for one pane alone. */
+/** The bottom pane; on a narrow page, the selected pane. */
 function Bottom() {
   const alone = LOWER.find(({ name }) => name === narrow.value)?.name;
   const open = alone ?? bottom.value;
@@ -231,7 +231,7 @@ const NARROW: { name: Narrow; label: string }[] = [
   ...LOWER,
 ];
 
-/** Where there is room for one pane alone: which one. */
+/** Selects the pane of a narrow page. */
 const NarrowBar = () => (
   <nav class="narrow" aria-label={words.panes}>
     {NARROW.map(({ name, label }) => (

@@ -1,16 +1,17 @@
-// The socket to the debugger: the Debug Adapter Protocol, one message a text frame. One connection is one run.
+// The debugger's socket: Debug Adapter Protocol, one message per text frame. One connection is one
+// run.
 import type { Socket } from "./lsp";
 import { words } from "../words";
 
 export interface Dap {
   /** Sends a request; a rejection becomes an error with a sentence. */
   request<T>(command: string, args?: unknown): Promise<T>;
-  /** Hears of an event. */
+  /** Subscribes to an event. */
   on(event: string, take: (body: any) => void): void;
   close(): void;
 }
 
-/** Connects once; `lost` is called when the connection ends by itself. */
+/** Connects once; `lost` is called if the connection breaks. */
 export function connect(url: string, lost: () => void, make: (url: string) => Socket = (at) => new WebSocket(at) as Socket): Dap {
   const asked = new Map<number, { resolve(value: any): void; reject(why: Error): void }>();
   const takers = new Map<string, (body: any) => void>();

@@ -8,23 +8,23 @@ export interface Lsp {
   request<T>(method: string, params: unknown): Promise<T>;
   /** Sends a notification; without a connection it is dropped. */
   notify(method: string, params: unknown): void;
-  /** Hears of a notification of the server; the answer ends that. */
+  /** Subscribes to a server notification; returns a function that ends it. */
   on(method: string, take: (params: any) => void): () => void;
-  /** Whether server and client know each other. */
+  /** Whether the handshake is complete. */
   readonly open: Signal<boolean>;
 }
 
-/** An answer that is an error: a sentence for people, and its number in the protocol. */
+/** An error response: a sentence for users, and its code in the protocol. */
 export class Refused extends Error {
   constructor(readonly code: number, message: string) {
     super(message);
   }
 }
 
-/** The number of an answer that will not come: the connection was lost. */
+/** Code of a response lost with the connection. */
 export const LOST = 0;
 
-/** The part of a WebSocket that is used, so that tests bring their own. */
+/** The used part of WebSocket, so that tests can replace it. */
 export interface Socket {
   send(text: string): void;
   close(): void;
@@ -43,7 +43,7 @@ interface Asked {
   reject(why: Error): void;
 }
 
-/** Milliseconds between a lost connection and the next attempt, growing. */
+/** Delays before reconnection attempts, milliseconds. */
 const WAITS = [200, 500, 1000, 2000, 5000];
 
 /**
@@ -82,7 +82,7 @@ export function connect(
     const message = JSON.parse(text);
     if (message.method !== undefined) {
       for (const each of [...(takers.get(message.method) ?? [])]) each(message.params);
-      // The server's requests ask for nothing but to be heard.
+      // The server's requests only need an acknowledgement.
       if (message.id !== undefined) socket?.send(JSON.stringify({ jsonrpc: "2.0", id: message.id, result: null }));
       return;
     }

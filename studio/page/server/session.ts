@@ -1,4 +1,4 @@
-// This page's conversation with the server: greeting, content of the folder, editing client.
+// The session with the server: greeting, content of the folder, editing client.
 import { signal } from "@preact/signals";
 import { connect, type Finish, type Lsp } from "./lsp";
 
@@ -15,7 +15,7 @@ export interface Order {
   [more: string]: unknown;
 }
 
-/** A job of this page that goes on. */
+/** A running job of this page. */
 export interface Going {
   id: number;
   order: Order;
@@ -31,22 +31,22 @@ export interface Hello {
   files: { uri: string; name: string }[];
   more?: boolean;
   jobs: Going[];
-  /** Bytes that a text may have. */
+  /** Maximum size of a text, bytes. */
   longest: number;
   examples: { name: string; title: string }[];
 }
 
 /** The server's greeting; null before it. */
 export const hello = signal<Hello | null>(null);
-/** The files of the folder that can be opened. */
+/** Files of the folder that can be opened. */
 export const files = signal<{ uri: string; name: string }[]>([]);
-/** Whether there are more files than those: the folder is too large to be looked through. */
+/** Whether the list is incomplete, because the folder is too large. */
 export const more = signal(false);
-/** The jobs that go on, as the server greets with them. */
+/** Running jobs from the greeting. */
 export const going = signal<readonly Going[]>([]);
-/** Whether this page changes texts, or watches. */
+/** Whether this page holds the edit lock. */
 export const pen = signal(true);
-/** The names of kinds and modifiers in semantic tokens. */
+/** Names of semantic token types and modifiers. */
 export const legend = signal<{ tokenTypes: string[]; tokenModifiers: string[] }>({ tokenTypes: [], tokenModifiers: [] });
 
 let connection: Lsp | null = null;
@@ -70,8 +70,8 @@ const CAPABILITIES = {
 const CLIENT = "afp-studio-client";
 
 /**
- * Connects to a server and greets it on each connection. `again` runs on each but the first, before
- * other requests. `storage` outlives a reload of the page, so that it stays the same client.
+ * Connects to a server and greets it on each connection. `again` runs on reconnections, before
+ * other requests. `storage` outlives a reload, so that the client stays the same.
  */
 export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = connect, storage?: Storage): Lsp {
   let client = storage?.getItem(CLIENT) ?? null;
@@ -80,7 +80,7 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = 
     const begun = hello.value !== null;
     client = String(said.client);
     storage?.setItem(CLIENT, client);
-    // At once: the server's next message is newer.
+    // Immediately: the server's next message is newer.
     [files.value, more.value] = [said.files, said.more ?? false];
     pen.value = said.pen;
     const params = { processId: null, rootUri: said.root, workspaceFolders: [{ uri: said.root, name: "root" }], capabilities: CAPABILITIES };

@@ -1,4 +1,4 @@
-// The editor of one text: CodeMirror without its own history, fed by `documents.ts` and feeding it.
+// The editor of one text: CodeMirror without its own history, synchronised with `documents.ts`.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, indentWithTab } from "@codemirror/commands";
 import { bracketMatching, indentOnInput, indentService, indentUnit } from "@codemirror/language";
@@ -28,7 +28,7 @@ import { theme } from "./theme";
 const fromPage = Annotation.define<boolean>();
 const highlight = StateEffect.define<{ from: number; to: number } | null>();
 
-/** Takes no change of a person that would make the text too long, and says why. */
+/** Rejects user input that would make the text too long, with a message. */
 const short = EditorState.transactionFilter.of((each) => {
   const why = each.docChanged && !each.annotation(fromPage) ? tooLong(each.startState.doc.length, each.newDoc) : null;
   if (why === null) return each;
@@ -36,7 +36,7 @@ const short = EditorState.transactionFilter.of((each) => {
   return [];
 });
 
-/** The place of what is selected in the drawing. */
+/** The place of the drawing's selection. */
 const highlighted = StateField.define<DecorationSet>({
   create: () => Decoration.none,
   update: (before, transaction) => {
@@ -48,7 +48,7 @@ const highlighted = StateField.define<DecorationSet>({
   provide: (field) => EditorView.decorations.from(field),
 });
 
-/** Lines inside of braces stand four columns further in. */
+/** Indents lines inside braces by four columns. */
 const indentation = indentService.of((context, at) => {
   const line = context.state.doc.lineAt(at);
   let [number, before] = [line.number - 1, ""];
@@ -100,7 +100,7 @@ function problem(then: Then, one: Diagnostic): Shown {
   return { from: from!, to: Math.max(from!, to!), severity: severity[severityOf(one)], message, renderMessage, actions };
 }
 
-/** An editor of a text inside of `host`; the answer has its view and what ends it. */
+/** Creates an editor inside `host`; returns its view and a function that ends it. */
 export function edit(host: HTMLElement, uri: string, nonce: string): { view: EditorView; end: () => void } {
   const writable = new Compartment();
   const ability = () => [EditorState.readOnly.of(!pen.value)];
@@ -160,7 +160,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
   return { view, end };
 }
 
-/** Puts the cursor to a place, unless that stays, and marks it; nothing scrolls unless it is out of sight. */
+/** Moves the cursor to a place, unless `stays`, and marks it; scrolls only if it is out of view. */
 function show(view: EditorView, from: number, to: number, stays = false): void {
   const length = view.state.doc.length;
   const place = { from: Math.min(from, length), to: Math.min(to, length) };

@@ -1,19 +1,19 @@
-// Marks of an older text are shown at their current places, since typing is faster than answers.
+// Marks of an older text are shown at their current positions, since typing is faster than answers.
 import type { ChangeSet, Text } from "@codemirror/state";
 
-/** States that are kept. */
+/** Maximum number of states. */
 const MOST = 500;
 
 interface State {
   version: number;
   doc: Text;
-  /** The changes since the state before. */
+  /** The changes since the previous state. */
   changes: ChangeSet | null;
 }
 
 export interface Then {
   text: string;
-  /** Where a place of that text is now. */
+  /** The current position of a place of that text. */
   now(place: number): number;
 }
 
@@ -29,7 +29,7 @@ export class Late {
     this.states = [...this.states, { version, doc, changes }].slice(-MOST);
   }
 
-  /** The text of a version, without one as it is; null where nobody knows it any more. */
+  /** The text of a version, or the current one; null if dropped. */
   at(version: number | null): Then | null {
     const at = version === null ? this.states.length - 1 : this.states.findLastIndex((state) => state.version <= version);
     const since = this.states.slice(at + 1);

@@ -1,4 +1,4 @@
-// Colours of words by their meaning, and hints between them: both are the server's, and move with the text until it says more.
+// Semantic colours and inlay hints from the server; they move with the text until updated.
 import { StateEffect, StateField, type EditorState, type Extension, type Range as Placed } from "@codemirror/state";
 import { Decoration, EditorView, ViewPlugin, WidgetType, type DecorationSet, type ViewUpdate } from "@codemirror/view";
 import { legend, lsp } from "../server/session";
@@ -23,7 +23,7 @@ const kept = (effect: typeof setColours): StateField<DecorationSet> =>
     provide: (field) => EditorView.decorations.from(field),
   });
 
-/** The place of a position, where the text has it. */
+/** The offset of a position; null if outside the text. */
 function at({ doc }: EditorState, { line, character }: Position): number | null {
   if (line >= doc.lines) return null;
   const { from, length } = doc.line(line + 1);
@@ -32,7 +32,7 @@ function at({ doc }: EditorState, { line, character }: Position): number | null 
 
 const DECLARES = 1;
 
-/** The marks of tokens in the protocol's coding: five numbers each, places relative to the one before. */
+/** Decodes the protocol's semantic tokens: five relative numbers each. */
 export function colours(state: EditorState, data: number[], names: string[]): DecorationSet {
   const marks: Placed<Decoration>[] = [];
   let [line, character] = [0, 0];
@@ -72,10 +72,10 @@ function hints(state: EditorState, list: Hint[]): DecorationSet {
   return Decoration.set(made, true);
 }
 
-/** A pause in typing after which the server is asked, in milliseconds. */
+/** Pause in typing before a request, milliseconds. */
 const PAUSE = 120;
 
-/** Asks for colours and hints whenever the text rests, or the server has more to say. */
+/** Requests colours and hints after a pause in typing or a refresh. */
 const asker = (uri: string) =>
   ViewPlugin.define((view) => {
     let timer: ReturnType<typeof setTimeout> | undefined;

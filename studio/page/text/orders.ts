@@ -1,4 +1,4 @@
-// Commands at the cursor of the text: definition, rename, fixes, formatting.
+// Commands at the text cursor: definition, rename, fixes, formatting.
 import type { EditorView } from "@codemirror/view";
 import { ask, askLine } from "../screen/dialogs";
 import type { TextEdit } from "../documents/changes";
@@ -13,7 +13,7 @@ import { words } from "../words";
 
 const cursor = (view: EditorView, uri: string) => ({ textDocument: { uri }, position: position(text(uri), view.state.selection.main.head) });
 
-/** Goes to where the word at the cursor is defined. */
+/** Goes to the definition of the word at the cursor. */
 export async function definition(view: EditorView, uri: string): Promise<void> {
   type Place = { uri: string; range: Range };
   const answer = await lsp().request<Place | Place[] | null>("textDocument/definition", cursor(view, uri));
@@ -23,7 +23,6 @@ export async function definition(view: EditorView, uri: string): Promise<void> {
   else trouble.value = words.definitionElsewhere;
 }
 
-/** Renames the word at the cursor everywhere. */
 export async function rename(view: EditorView, uri: string): Promise<void> {
   const at = cursor(view, uri);
   const answer = await lsp().request<{ range: Range; placeholder?: string } | Range | null>("textDocument/prepareRename", at);
@@ -41,7 +40,7 @@ export async function rename(view: EditorView, uri: string): Promise<void> {
   view.focus();
 }
 
-/** Offers what can be done about the selection. */
+/** Offers code actions for the selection. */
 export async function mendHere(view: EditorView, uri: string): Promise<void> {
   const { from, to } = view.state.selection.main;
   const now = text(uri);

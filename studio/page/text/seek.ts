@@ -5,7 +5,7 @@ import { Decoration, EditorView, type DecorationSet } from "@codemirror/view";
 import { effect } from "@preact/signals";
 import { sought } from "../plan/seek";
 
-/** Places that are marked at most. */
+/** Maximum number of marks. */
 const MOST = 1000;
 
 const seek = StateEffect.define<string>();
@@ -32,7 +32,7 @@ const marked = StateField.define<DecorationSet>({
   provide: (field) => EditorView.decorations.from(field),
 });
 
-/** The panel of the text tells the drawing. */
+/** Passes the panel's search to the drawing. */
 const told = EditorView.updateListener.of(({ state, startState }) => {
   const [now, before] = [getSearchQuery(state).search, getSearchQuery(startState).search];
   if (searchPanelOpen(state) && (now !== before || !searchPanelOpen(startState))) sought.value = now;
@@ -41,5 +41,5 @@ const told = EditorView.updateListener.of(({ state, startState }) => {
 
 export const seeking = [wanted, marked, told];
 
-/** Marks in a view what is looked for; the answer ends that. */
+/** Marks matches in a view; returns a function that ends it. */
 export const follow = (view: EditorView): (() => void) => effect(() => view.dispatch({ effects: seek.of(sought.value ?? "") }));

@@ -1,4 +1,5 @@
-// Snippets of the protocol (`$1`, `${1:text}`, `\}`) as CodeMirror writes them (`${1}`, `${1:text}`, `\{`, `\}`).
+// Converts protocol snippets (`$1`, `${1:text}`, `\}`) to CodeMirror's (`${1}`, `${1:text}`, `\{`,
+// `\}`).
 
 const PIECE = /\\([\\$}])|\$\{(\d+)(?::([^}]*))?\}|\$(\d+)|[{}]/g;
 

@@ -21,13 +21,12 @@ interface Item {
   additionalTextEdits?: TextEdit[];
 }
 
-/** The protocol's kinds as CodeMirror's, which have a sign each. */
+/** The protocol's kinds as CodeMirror's, which have icons. */
 const KINDS: Record<number, string> = { 3: "function", 6: "variable", 7: "class", 9: "namespace", 10: "property", 11: "constant", 12: "constant", 13: "enum", 14: "keyword", 20: "enum", 22: "type", 23: "interface", 25: "type" };
 
-/** Makes several changes of an editor one entry of the history. */
+/** Combines changes of an editor into one history entry. */
 export type Together = (run: () => void) => void;
 
-/** Everything that can be written at a place. */
 export const completion = (uri: string, together: Together) => async (context: CompletionContext): Promise<CompletionResult | null> => {
   if (!context.explicit && !context.matchBefore(/[\w.>=(:]$/)) return null;
   const now = text(uri);

@@ -1,4 +1,4 @@
-// The gutter with breakpoints: a click sets one or takes it away.
+// The gutter with breakpoints; a click toggles one.
 import { RangeSet, StateEffect, StateField, type Extension } from "@codemirror/state";
 import { gutter, GutterMarker, type EditorView } from "@codemirror/view";
 import { effect } from "@preact/signals";
@@ -37,7 +37,6 @@ const field = StateField.define<RangeSet<GutterMarker>>({
   },
 });
 
-/** The gutter of a text. */
 export const stops = (uri: string): Extension => [
   field,
   gutter({
@@ -53,5 +52,5 @@ export const stops = (uri: string): Extension => [
   }),
 ];
 
-/** Shows the breakpoints of a text; the answer ends that. */
+/** Shows the breakpoints of a text; returns a function that ends it. */
 export const follow = (view: EditorView, uri: string): (() => void) => effect(() => view.dispatch({ effects: setStops.of(stopsOf(uri)) }));

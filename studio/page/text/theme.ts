@@ -1,4 +1,4 @@
-// How the editor looks: the page's type and colours, which change between light and dark by themselves.
+// The editor's theme: the page's type and colours, which follow light and dark mode.
 import { EditorView } from "@codemirror/view";
 
 export const theme = EditorView.theme({

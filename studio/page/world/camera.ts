@@ -1,5 +1,5 @@
-// The picture of the robot's camera, requested after the last one has arrived, so that no pictures
-// queue up.
+// The robot's camera picture, requested after the last one has arrived, so that no pictures queue
+// up.
 import { signal } from "@preact/signals";
 import { active, ask } from "../debug/run";
 
@@ -7,16 +7,15 @@ export interface Picture {
   at: number;
   width: number;
   height: number;
-  /** A byte for each of red, green and blue. */
+  /** A byte each for red, green and blue. */
   rgb: string;
 }
 
 /** Whether the picture is shown. */
 export const watched = signal(false);
-/** Milliseconds between two questions. */
+/** Milliseconds between requests. */
 const PERIOD = 150;
 
-/** The picture as a canvas takes it. */
 export function pixels({ width, height, rgb }: Picture): ImageData {
   const bytes = Uint8Array.from(atob(rgb), (letter) => letter.charCodeAt(0));
   const image = new ImageData(width, height);
@@ -24,7 +23,7 @@ export function pixels({ width, height, rgb }: Picture): ImageData {
   return image;
 }
 
-/** Shows pictures on a canvas until the answer is called. */
+/** Shows pictures on a canvas until the returned function is called. */
 export function show(canvas: HTMLCanvasElement): () => void {
   let over = false;
   const look = async (): Promise<void> => {

@@ -6,30 +6,29 @@ export type Point = readonly [number, number];
 export type Pose = readonly [number, number, number];
 
 export interface Thing {
-  /** Its id in the run. */
+  /** Id in the run. */
   id: string;
   name: string;
   outline: readonly Point[];
-  /** Whether sensors look over it. */
+  /** Whether it is below the range sensors. */
   low: boolean;
-  /** Whether a hand can put it elsewhere. */
+  /** Whether the user can move it. */
   movable: boolean;
   labelled: boolean;
-  /** Where its middle goes; empty for what stays. */
+  /** Path of its middle; empty if stationary. */
   path: readonly Point[];
 }
 
-/** The content of a world's picture. */
 export interface World {
   start: Pose;
-  /** The outline of the robot at the origin, looking along x. */
+  /** Outline of the robot at the origin, facing along x. */
   body: readonly Point[];
   things: readonly Thing[];
   patches: readonly { corners: readonly Point[]; color: readonly [number, number, number] }[];
   lights: readonly Point[];
 }
 
-/** A rectangle: its lower left corner and its size. */
+/** A rectangle: lower left corner and size. */
 export interface Box {
   x: number;
   y: number;
@@ -37,15 +36,15 @@ export interface Box {
   height: number;
 }
 
-/** Room around everything, as a share of the longer side. */
+/** Margin, relative to the longer side. */
 const MARGIN = 0.03;
-/** Metres that a picture shows at least. */
+/** Minimum size of a picture, metres. */
 const LEAST = 0.5;
-/** Metres between two points of the path. */
+/** Distance between two points of the path, metres. */
 const APART = 0.01;
-/** Points of a piece of the path; only the last piece is redrawn when the robot moves. */
+/** Points per piece of the path; only the last piece is redrawn when the robot moves. */
 const PIECE = 200;
-/** Pieces that are kept. */
+/** Maximum number of pieces. */
 const PIECES = 100;
 
 /** The outline of a body at a pose. */
@@ -54,7 +53,7 @@ export function placed(body: readonly Point[], [x, y, heading]: Pose): Point[] {
   return body.map(([u, v]) => [x + u * cos - v * sin, y + u * sin + v * cos]);
 }
 
-/** The bounds of a world's picture: everything in it, with a margin. */
+/** The bounds of a world's picture with a margin. */
 export function frame(world: World): Box {
   const things = world.things.flatMap(({ outline, path }) => [...outline, ...path]);
   const all = [...things, ...world.patches.flatMap(({ corners }) => corners), ...world.lights, ...placed(world.body, world.start)];
@@ -69,31 +68,30 @@ export function frame(world: World): Box {
   return { x: left - margin, y: bottom - margin, width: right - left + 2 * margin, height: top - bottom + 2 * margin };
 }
 
-/** The same for SVG, whose y goes down. */
+/** The same for SVG, with y down. */
 export const viewBox = ({ x, y, width, height }: Box): string => [x, -(y + height), width, height].map(short).join(" ");
 
 /** Pixels per metre for a picture in a rectangle of pixels. */
 export const scaleIn = (box: Box, width: number, height: number): number => Math.min(width / box.width, height / box.height);
 
-/** A length as SVG takes it: to a tenth of a millimetre. */
+/** A length for SVG, rounded to a tenth of a millimetre. */
 export const short = (metres: number): string => String(Math.round(metres * 1e4) / 1e4);
 
 export const points = (all: readonly (readonly number[])[]): string => all.map(([x, y]) => `${short(x!)},${short(y!)}`).join(" ");
 
-/** The view of a range sensor up to what it heard: a sector around where it looks. */
+/** The view of a range sensor up to its echo, as a sector. */
 export function sector([x, y, heading]: Pose, half: number, range: number): string {
   const end = (angle: number): string => `${short(x + range * Math.cos(angle))} ${short(y + range * Math.sin(angle))}`;
   return `M${short(x)} ${short(y)}L${end(heading - half)}A${short(range)} ${short(range)} 0 ${half > Math.PI / 2 ? 1 : 0} 1 ${end(heading + half)}Z`;
 }
 
-/** The middle of an outline. */
 export function middle(outline: readonly Point[]): Point {
   const sum = outline.reduce(([x, y], [u, v]) => [x + u, y + v] as const, [0, 0] as const);
   return [sum[0] / outline.length, sum[1] / outline.length];
 }
 
 /**
- * The place of a name: inside its thing or, if that would hide it, below; never outside the
+ * The place of a name: inside its object or, if that would hide it, below; never outside the
  * picture.
  */
 export function placeOf(outline: readonly Point[], box: Box, [width, height]: readonly [number, number]): Point {
@@ -105,10 +103,12 @@ export function placeOf(outline: readonly Point[], box: Box, [width, height]: re
   return [within(x, box.x, box.width, width / 2), within(level, box.y, box.height, height / 2)];
 }
 
-/** Where the robot was, with the seconds of the run, in pieces that each begin where the one before ends. */
+/**
+ * Robot positions with the run's seconds, in pieces that each begin at the end of the previous one.
+ */
 export type Path = readonly (readonly (readonly [number, number, number])[])[];
 
-/** The path with a new pose. Later points are cut, since a run may have gone back. */
+/** Appends a pose. Later points are cut, since a run may have gone back. */
 export function extended(path: Path, [x, y]: Pose, at: number): Path {
   const later = (path.at(-1)?.at(-1)?.[2] ?? 0) > at;
   const before = later ? path.map((piece) => piece.filter((point) => point[2] <= at)).filter((piece) => piece.length > 1) : path;

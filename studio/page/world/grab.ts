@@ -1,13 +1,13 @@
-// A pointer on the floor: it drags the pressed thing after the first pixels, turns it with Shift,
-// and drops it on release.
+// Pointers on the floor: drag the pressed object after the first pixels, turn it with Shift, drop
+// it on release.
 import { held, poseNow, putDown, reach, type Held } from "./hand";
 import type { Pose } from "./geometry";
 import type { Surroundings } from "./surroundings";
 
-/** Pixels that decide between a press and a drag. */
+/** Pixels that distinguish a press from a drag. */
 const DECIDES = 4;
 
-/** Where something is while it is dragged: moved with the pointer, or turned around itself towards it. */
+/** The pose of a dragged object: moved with the pointer, or turned towards it. */
 export function dragged(begun: Pose, from: readonly [number, number], to: readonly [number, number], turns: boolean): Pose {
   const [x, y, heading] = begun;
   if (!turns) return [x + to[0] - from[0], y + to[1] - from[1], heading];
@@ -16,14 +16,14 @@ export function dragged(begun: Pose, from: readonly [number, number], to: readon
   return [x, y, Math.atan2(Math.sin(wanted), Math.cos(wanted))];
 }
 
-/** The place of the floor under a pointer, metres. */
+/** The floor position under a pointer, metres. */
 export function placeOn(floor: SVGGraphicsElement, event: { clientX: number; clientY: number }): readonly [number, number] {
   const matrix = floor.getScreenCTM()?.inverse();
   const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
   return [x, y];
 }
 
-/** Follows a pointer that was pressed on something; `turning` where it was pressed on the handle for that. */
+/** Follows a pointer pressed on an object; `turning` if its rotation handle was pressed. */
 export function grab(event: PointerEvent, what: Held, world: Surroundings, turning = false): void {
   if (event.button !== 0) return;
   const target = event.currentTarget as SVGGraphicsElement;
@@ -56,11 +56,11 @@ export function grab(event: PointerEvent, what: Held, world: Surroundings, turni
 }
 
 const STEPS: Record<string, readonly [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-/** Metres, and radians with `Shift`, of one press of an arrow. */
+/** Step of an arrow key: metres, and radians with `Shift`. */
 const STEP = 0.05;
 const TURN = Math.PI / 12;
 
-/** Where a key puts something; null for a key that means nothing here. */
+/** The pose after a key; null for other keys. */
 export function nudged([x, y, heading]: Pose, key: string, shift: boolean): Pose | null {
   const step = STEPS[key];
   if (!step) return null;

@@ -1,15 +1,15 @@
-// A hand in the world: the robot and things are dragged, new things dropped. During a run the robot's world hears of it at
-// once; before one it is kept for the next run.
+// Moving the robot and objects, and dropping new ones. During a run the world is changed
+// immediately; before a run the change is kept for the next one.
 import { computed, signal } from "@preact/signals";
 import { active, dismiss, order, phase, state } from "../debug/run";
 import { drops, start, things, type Moves } from "../debug/arranged";
 import { middle, placed, type Point, type Pose, type Thing, type World } from "./geometry";
 import { surroundings, type Surroundings } from "./surroundings";
 
-/** The dragged thing: the robot, or a thing by its id. */
+/** The robot, or an object by id. */
 export type Held = "robot" | { id: string };
 
-/** The dragged thing, and its new place. */
+/** The dragged object, and its new place. */
 export const held = signal<{ what: Held; at: Pose } | null>(null);
 
 /** An outline moved to a pose, with a rotation. */
@@ -18,14 +18,14 @@ export function put(outline: readonly Point[], to: Pose): Point[] {
   return placed(outline.map(([u, v]) => [u - x, v - y]), to);
 }
 
-/** Where the middle of an outline is, and how far it is turned against another one of the same thing. */
+/** The pose of an outline relative to an earlier one of the same object. */
 export function poseOf(now: readonly Point[], before: readonly Point[]): Pose {
   const angle = ([a, b]: readonly Point[]): number => (a && b ? Math.atan2(b[1] - a[1], b[0] - a[0]) : 0);
   const turn = angle(now) - angle(before);
   return [...middle(now), Math.atan2(Math.sin(turn), Math.cos(turn))];
 }
 
-/** Things of a world: at their places in the run, or before it at those set by hand. */
+/** Objects of a world: at their places in the run, or before it at those set by hand. */
 export function seen(world: World, moving: readonly { id: string; outline: readonly Point[] }[] | null, moves: Moves, dropped: readonly { shape: string; at: Pose }[], shapes: readonly { shape: string; outline: readonly Point[] }[]): Thing[] {
   if (moving) {
     const now = new Map(moving.map(({ id, outline }) => [id, outline]));
@@ -46,19 +46,19 @@ const DROP = "drop ";
 const dropId = (number: number): string => `${DROP}${number}`;
 const numberOf = (id: string): number => (id.startsWith(DROP) ? Number(id.slice(DROP.length)) : -1);
 
-/** The current things of the world. */
+/** The current objects of the world. */
 export const standing = computed<readonly Thing[]>(() => {
   const world = surroundings.value;
   return world ? seen(world, state.value?.moving ?? null, things.value, drops.value, world.drops) : [];
 });
 
-/** Where the robot is now. */
+/** The robot's current pose. */
 export const robotAt = (world: World): Pose => state.value?.pose ?? start.value ?? world.start;
 
-/** Whether a place differs from the world's. */
+/** Whether a pose differs from the world's. */
 export const arranged = computed(() => start.value !== null || drops.value.length > 0 || Object.keys(things.value).length > 0);
 
-/** The outline of a thing without a rotation by hand. */
+/** The outline of an object without a rotation by hand. */
 function straight(id: string, world: Surroundings): readonly Point[] {
   const known = world.things.find((thing) => thing.id === id)?.outline;
   const shape = state.peek() ? undefined : drops.peek()[numberOf(id)]?.shape;
@@ -66,23 +66,22 @@ function straight(id: string, world: Surroundings): readonly Point[] {
   return known ?? dropped ?? standing.peek().find((thing) => thing.id === id)?.outline ?? [];
 }
 
-/** The pose of what is to be held. */
 export function poseNow(what: Held, world: Surroundings): Pose {
   if (what === "robot") return robotAt(world);
   const now = standing.peek().find(({ id }) => id === what.id);
   return now ? poseOf(now.outline, straight(what.id, world)) : [0, 0, 0];
 }
 
-/** The outline of what is held, where it would be put. */
+/** The preview outline of the dragged object. */
 export const ghost = ({ what, at }: { what: Held; at: Pose }, world: Surroundings): Point[] =>
   what === "robot" ? placed(world.body, at) : put(straight(what.id, world), at);
 
-/** A recorded run is closed when the user moves something in its world. */
+/** Closes a recorded run when the user moves an object in its world. */
 export function reach(): void {
   if (phase.peek() === "over") dismiss();
 }
 
-/** Puts what is held somewhere. */
+/** Drops the dragged object. */
 export function putDown(what: Held, at: Pose): void {
   if (active.peek()) void order("afp/move", { ...(what === "robot" ? {} : { thing: what.id }), to: at });
   else if (what === "robot") start.value = at;
@@ -90,7 +89,7 @@ export function putDown(what: Held, at: Pose): void {
   else things.value = { ...things.peek(), [what.id]: at };
 }
 
-/** Puts something new into the world. */
+/** Drops a new object. */
 export function drop(shape: string, [x, y]: Point): void {
   reach();
   const at: Pose = [x, y, 0];
@@ -98,7 +97,7 @@ export function drop(shape: string, [x, y]: Point): void {
   else drops.value = [...drops.peek(), { shape, at }];
 }
 
-/** Takes away what was dropped before a run. */
+/** Removes an object that was dropped before a run. */
 export function takeAway(what: Held): void {
   if (active.peek() || what === "robot") return;
   drops.value = drops.peek().filter((_, number) => dropId(number) !== what.id);

@@ -1,14 +1,15 @@
-// A control of the robot under a finger: pressed as long as it is held, and long enough that a plan notices a short press.
+// Controls of the robot: pressed as long as they are held, and long enough that a plan notices a
+// short press.
 import { effect } from "@preact/signals";
 import { active, order, state } from "../debug/run";
 
-/** Seconds of the run that a press lasts at least. */
+/** Minimum duration of a press, seconds of the run. */
 const HOLD = 0.2;
 
-/** Presses and lets go by itself. */
+/** Presses and releases. */
 export const tap = (control: string): void => void order("afp/press", { control });
 
-/** Presses; the answer lets go. */
+/** Presses; returns a function that releases. */
 export function press(control: string): () => void {
   const begun = state.peek()?.at ?? 0;
   void order("afp/press", { control, held: true });
@@ -17,7 +18,7 @@ export function press(control: string): () => void {
     if (over) return;
     over = true;
     const waits = effect(() => {
-      // A run that is over holds nothing.
+      // A finished run holds nothing.
       const long = (state.value?.at ?? 0) >= begun + HOLD;
       if (active.value && !long) return;
       if (active.value) void order("afp/press", { control, held: false });

@@ -1,13 +1,16 @@
-// The robot's sensor values in the displayed run, sent by the debugger some twenty times a second.
+// Sensor values in the displayed run, sent about twenty times a second.
 import { signal } from "@preact/signals";
 import type { Pose } from "./geometry";
 
 export interface Sensed {
-  /** Its device and its name. */
+  /** Device and signal name. */
   signal: string;
-  /** As people write it. */
+  /** Formatted with a unit. */
   text: string;
-  /** Where a range sensor looks, half its opening in radians, and metres to what it heard; null where no echo came back. */
+  /**
+   * A range sensor's pose, half its opening in radians, and the range in metres; null without an
+   * echo.
+   */
   cone: { pose: Pose; half: number; range: number | null } | null;
 }
 

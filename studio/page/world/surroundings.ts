@@ -12,13 +12,13 @@ import { words } from "../words";
 import { extended, type Path, type Point, type World } from "./geometry";
 
 export interface Surroundings extends World {
-  /** The worlds to choose from, as a run takes them, each with where it comes from; first the one that is taken by itself. */
+  /** The selectable worlds with their origin; the default is first. */
   worlds: readonly { name: string; from: string }[];
-  /** Things to add, with outlines around their middle. */
+  /** Objects to drop, with outlines around their middle. */
   drops: readonly { shape: string; outline: readonly Point[] }[];
   /** Whether the robot has a camera. */
   camera: boolean;
-  /** Of a log: the seed of its run, and why it is not whole. */
+  /** For a log: the seed of its run, and why it is incomplete. */
   seed: string | null;
   cutShort: string | null;
 }
@@ -26,7 +26,7 @@ export interface Surroundings extends World {
 export interface Stimulus {
   words: string;
   help: string;
-  /** Whether it is there to end what runs. */
+  /** Whether it stops the run. */
   stops: boolean;
 }
 
@@ -45,14 +45,14 @@ export interface Device {
   signals: readonly { words: string; help: string }[];
 }
 
-/** The world; null where it is not known. */
+/** The world; null if unknown. */
 export const surroundings = signal<Surroundings | null>(null);
-/** Why it is not known, as a sentence; empty while it is. */
+/** Why it is unknown, as a sentence; empty if it is known. */
 export const missing = signal("");
-/** The slow part it waits for. */
+/** The slow step in progress. */
 export const awaited = signal("");
 export const devices = signal<readonly Device[]>([]);
-/** The path that the robot has driven in the run that is shown. */
+/** The robot's path in the displayed run. */
 export const path = signal<Path>([]);
 
 let asked = 0;
@@ -73,7 +73,7 @@ async function askWorld(uri: string, chosen: string | null, log = ""): Promise<v
   }
 }
 
-/** A world that was chosen and cannot be had leaves the one that is there. */
+/** If a selected world cannot be loaded, the current one stays. */
 function refuse(why: string, chosen: string | null): void {
   batch(() => {
     if (chosen === null) [surroundings.value, missing.value] = [null, why];
@@ -81,7 +81,7 @@ function refuse(why: string, chosen: string | null): void {
   });
 }
 
-/** Asks once more for what could not be shown, and whether it may be where that was the reason. */
+/** Retries, and asks for trust if that was the reason. */
 export const again = async (): Promise<void> => void ((await trusted(current.peek())) && (await askWorld(current.peek(), null)));
 
 async function askRobot(uri: string): Promise<void> {
@@ -89,16 +89,15 @@ async function askRobot(uri: string): Promise<void> {
   if (current.peek() === uri) devices.value = found?.devices ?? [];
 }
 
-/** Begins to keep them; the answer ends that. */
 export function begin(): () => void {
   let before: string | null = null;
   const asks = effect(() => {
     const [uri, connected, runs, chosen, shown] = [current.value, lsp().open.value, active.value, world.value, log.value];
-    // Files that come and go may be worlds.
+    // New or removed files may be worlds.
     void files.value;
     if (connected && shown && !before?.startsWith("log")) void askWorld("", null, shown);
     if (shown) before = `log ${shown}`;
-    // The run has a world now, although there was none before the trust.
+    // The run has a world now, because the folder was untrusted before.
     if (connected && phase.value === "running" && !shown && missing.peek()) void askWorld(uri, null);
     if (!connected || runs || shown) return;
     const other = before !== uri;
@@ -122,13 +121,13 @@ export function begin(): () => void {
   };
 }
 
-/** Chooses where the next run takes place; the first of the list is taken by itself. */
+/** Selects the world of the next run; the first of the list is the default. */
 export function choose(name: string): void {
   putBack();
   world.value = name === surroundings.peek()?.worlds[0]?.name ? null : name;
 }
 
-/** Sets the seed of all noise of the next run, and says whether the text is one. */
+/** Sets the noise seed of the next run; returns whether the text is valid. */
 export function sow(text: string): boolean {
   const fits = /^\d+$/.test(text.trim()) && Number.isSafeInteger(Number(text));
   if (fits) seed.value = Number(text);
