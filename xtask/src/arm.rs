@@ -1,16 +1,17 @@
-//! The recorded traces on a 64-bit ARM, under emulation: the same bits as on every other machine.
+//! The recorded traces on emulated 64-bit ARM: they must be bit-identical to those of every other
+//! machine.
 
 use crate::emulated::PI;
 use crate::shell::{Failure, cargo, run as run_command, target};
 
-/// Builds the tests of the recorded traces for ARM and runs them under QEMU, without optimisation and with
-/// it.
+/// Builds the tests of the recorded traces for ARM and runs them under QEMU, without and with
+/// optimisation.
 ///
 /// # Errors
-/// No library, linker or emulator for the machine, or a trace that differs.
+/// No library, linker or emulator for the machine, or a different trace.
 pub fn run() -> Result<(), Failure> {
     PI.install()?;
-    // A folder of its own, so that builds for this machine need not wait.
+    // A separate folder, so that builds for this machine do not wait.
     let folder = target().join("arm");
     for profile in [&[][..], &["--release"]] {
         let mut test = cargo();

@@ -1,4 +1,4 @@
-//! Renders the book, for reading; its tests need none of this.
+//! Renders the book for reading; its tests do not need it.
 
 use std::io::ErrorKind;
 
@@ -7,7 +7,7 @@ use crate::shell::{Failure, program, root, run as run_command, target};
 /// Builds `docs/` with mdBook into `book/` of the target folder.
 ///
 /// # Errors
-/// There is no mdBook, or it finds something wrong.
+/// mdBook is missing or reports an error.
 pub fn run() -> Result<(), Failure> {
     if let Err(error) = program("mdbook").arg("--version").output()
         && error.kind() == ErrorKind::NotFound

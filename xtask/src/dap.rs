@@ -1,15 +1,14 @@
-//! Debugs a plan with a public client of the Debug Adapter Protocol.
-
 use crate::npm;
 use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 
-/// The program that debugs.
+/// The client program.
 const PROGRAM: &str = "debug.js";
 
-/// Debugs over standard input and output and over a socket.
+/// Debugs a plan with a public client of the Debug Adapter Protocol, over standard input and output
+/// and over a socket.
 ///
 /// # Errors
-/// No node or npm, no network for the client, or an answer that is wrong.
+/// No node or npm, no network for the client, or a wrong answer.
 pub fn run() -> Result<(), Failure> {
     let folder = npm::installed("dap", PROGRAM)?;
     run_command(cargo().args(["build", "--quiet", "--package", "afpc", "--features", "full"]))?;

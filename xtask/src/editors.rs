@@ -1,4 +1,5 @@
-//! Packages for editors: the extension for Visual Studio Code and the grammar for tree-sitter, tested and packed.
+//! Packages for editors: the Visual Studio Code extension and the tree-sitter grammar, tested and
+//! packed.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,14 +8,14 @@ use std::{env, fs};
 use crate::npm;
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 
-/// The tool that makes parsers, as cargo names it. Its package for npm is a program that fetches it from elsewhere.
+/// The parser generator, as cargo names it. Its npm package only downloads it.
 const TOOL: &str = "tree-sitter-cli@0.27.1";
 
-/// The interface between parser and editor; one older than the newest, so that editors of some age take it too.
+/// The parser's ABI version; not the newest, so that older editors accept it.
 const ABI: &str = "14";
 
-/// Wrong texts that the grammar takes: it counts no depth, knows no words that are reserved for later, and asks for no comma
-/// between bindings of a line.
+/// Invalid texts that the grammar accepts: it has no depth limit, no words reserved for later, and
+/// needs no comma between bindings of a line.
 const BEYOND_GRAMMAR: [&str; 4] = [
     "bindings_without_a_sign.afp",
     "e0111_nested_too_deeply.afp",
@@ -22,20 +23,19 @@ const BEYOND_GRAMMAR: [&str; 4] = [
     "e0236_unknown_unit.afp",
 ];
 
-/// The files in a package of the grammar. It has the generated parser, so that editors need no tool.
+/// Files of the grammar's package, including the generated parser, so that editors need no tool.
 const GRAMMAR: [&str; 6] =
     ["README.md", "grammar.js", "package.json", "tree-sitter.json", "queries", "src"];
 
-/// The queries of editors.
 const QUERIES: [&str; 3] = ["highlights", "folds", "locals"];
 
-/// The folder of the grammar, and that of the extension.
+/// Folders of the grammar and the extension.
 const FOLDERS: [&str; 2] = ["editors/tree-sitter-afp", "editors/vscode"];
 
 /// Tests the extension against the real servers.
 ///
 /// # Errors
-/// No node, npm or browser, no network for packages the first time, or a test that fails.
+/// No node, npm or browser, no network for packages the first time, or a failing test.
 pub fn extension() -> Result<(), Failure> {
     let extension = root().join(FOLDERS[1]);
     npm::ci(&extension)?;
@@ -48,7 +48,7 @@ pub fn extension() -> Result<(), Failure> {
     run_command(&mut tests)
 }
 
-/// Packs both under `target/editors` and says what it made.
+/// Packs both under `target/editors` and prints the files.
 ///
 /// # Errors
 /// As [`extension`] and [`grammar`]; there is no `tar`.
@@ -74,11 +74,11 @@ pub fn pack() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Tests the grammar: its own cases, every text of the project, and the queries of editors on one of each kind. Its tool takes
-/// minutes to build the first time.
+/// Tests the grammar: its cases, every text of the project, and the editors' queries on one text of
+/// each kind. Its tool takes minutes to build the first time.
 ///
 /// # Errors
-/// No C compiler, no network for packages the first time, or a test that fails.
+/// No C compiler, no network for packages the first time, or a failing test.
 pub fn grammar() -> Result<(), Failure> {
     let (tool, folder) = (tool()?, root().join(FOLDERS[0]));
     tree_sitter(&tool, &["generate", "--abi", ABI], &folder)?;
@@ -110,7 +110,7 @@ pub fn grammar() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Neovim with the grammar as docs/editors.md installs it; without a Neovim it says so.
+/// Neovim with the grammar, installed as in docs/editors.md; reports a missing Neovim.
 fn neovim(grammar: &Path) -> Result<(), Failure> {
     if program("nvim").arg("--version").output().is_err() {
         eprintln!(
@@ -144,12 +144,12 @@ fn neovim(grammar: &Path) -> Result<(), Failure> {
     Err(format!("Neovim finds in plans/wall_following.afp:\n{said}").into())
 }
 
-/// Those of some texts in which the grammar finds mistakes; it comes to the end of each.
+/// The texts in which the grammar finds errors; it parses each to the end.
 fn refused(tool: &Path, folder: &Path, texts: &[String]) -> Result<Vec<String>, Failure> {
     let list = list(texts)?;
     let mut command = tree_sitter_command(tool, folder);
     let said = command.args(["parse", "--quiet", "--paths"]).arg(&list).output()?;
-    // It says 1 where it has found mistakes.
+    // Exit code 1 means errors.
     if said.status.code().is_none_or(|code| code > 1) {
         let errors = String::from_utf8_lossy(&said.stderr);
         return Err(format!(
@@ -169,14 +169,14 @@ fn refused(tool: &Path, folder: &Path, texts: &[String]) -> Result<Vec<String>, 
     }
 }
 
-/// A file with the names of texts, for programs that take many.
+/// A file with the paths of texts, for programs with many inputs.
 fn list(texts: &[String]) -> Result<PathBuf, Failure> {
     let list = root().join(target()).join("xtask/texts.txt");
     fs::write(&list, texts.join("\n") + "\n")?;
     Ok(list)
 }
 
-/// The texts of the project, by whether the language's own parser finds mistakes in them.
+/// The project's texts, split by whether the language's parser finds errors.
 struct Texts {
     sound: Vec<String>,
     wrong: Vec<String>,
@@ -201,7 +201,7 @@ fn tool() -> Result<PathBuf, Failure> {
     let home = root().join(target()).join("xtask/tools");
     let mut install = cargo();
     install.args(["install", "--quiet", "--locked", "--no-default-features", TOOL, "--root"]);
-    // Long optimisation takes longer than all that is made with it.
+    // Long optimisation takes longer than all uses of the tool.
     install
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
         .env("CARGO_PROFILE_RELEASE_LTO", "off")
@@ -214,7 +214,7 @@ fn tree_sitter(tool: &Path, arguments: &[&str], folder: &Path) -> Result<(), Fai
     run_command(tree_sitter_command(tool, folder).args(arguments))
 }
 
-/// The tool in the folder of the grammar; what it builds and remembers stays under target/.
+/// The tool in the folder of the grammar; its caches are under target/.
 fn tree_sitter_command(tool: &Path, folder: &Path) -> Command {
     let kept = root().join(target()).join("xtask/tree-sitter");
     let mut command = program(tool);

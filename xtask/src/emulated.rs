@@ -1,29 +1,29 @@
-//! Other machines, as this one emulates them: what they need, and how programs for them are run.
+//! Other machines under emulation: their packages, and how to run their programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::shell::{Failure, output, program, run};
 
-/// A machine whose programs QEMU runs.
+/// A machine that QEMU emulates.
 pub struct Emulated {
-    /// Its name for `afpc build --target`.
+    /// The name for `afpc build --target`.
     pub name: &'static str,
-    /// Its name in Rust.
+    /// The target triple of Rust.
     pub triple: &'static str,
-    /// Its name in Debian.
+    /// The architecture in Debian.
     debian: &'static str,
-    /// The program that compiles C and links for it.
+    /// The C compiler and linker.
     pub linker: &'static str,
-    /// The program that runs its programs.
+    /// The emulator.
     qemu: &'static str,
-    /// Where Debian's packages put its libraries.
+    /// The folder of Debian's libraries.
     libraries: &'static str,
     /// Debian's packages: a linker with its libraries, and the emulator.
     packages: [&'static str; 3],
 }
 
-/// A Raspberry Pi with a system of 64 bit.
+/// A Raspberry Pi with a 64-bit system.
 pub const PI: Emulated = Emulated {
     name: "pi",
     triple: "aarch64-unknown-linux-gnu",
@@ -34,7 +34,7 @@ pub const PI: Emulated = Emulated {
     packages: ["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross", "qemu-user"],
 };
 
-/// A Raspberry Pi with a system of 32 bit.
+/// A Raspberry Pi with a 32-bit system.
 pub const PI32: Emulated = Emulated {
     name: "pi32",
     triple: "armv7-unknown-linux-gnueabihf",
@@ -46,17 +46,17 @@ pub const PI32: Emulated = Emulated {
 };
 
 impl Emulated {
-    /// The words before a program of the machine.
+    /// The command prefix for a program of the machine.
     pub fn emulator(&self) -> [&'static str; 3] {
         [self.qemu, "-L", self.libraries]
     }
 
-    /// The variable that sets a key of the machine for cargo.
+    /// The environment variable of a cargo key for the machine.
     pub fn variable(&self, what: &str) -> String {
         format!("CARGO_TARGET_{}_{what}", self.triple.to_uppercase().replace('-', "_"))
     }
 
-    /// The commands that get what is missing on this machine; none if all is there.
+    /// Commands that install the missing packages; empty if nothing is missing.
     pub fn missing(&self) -> Vec<String> {
         let mut commands = Vec::new();
         let libdir = ["--print", "target-libdir", "--target", self.triple];
@@ -71,10 +71,10 @@ impl Emulated {
         commands
     }
 
-    /// Installs what is missing, as root; for other users it names the packages.
+    /// Installs missing packages as root; for other users it prints them.
     ///
     /// # Errors
-    /// It cannot be installed.
+    /// The installation fails.
     pub fn install(&self) -> Result<(), Failure> {
         let missing = self.missing();
         if missing.is_empty() {
@@ -87,8 +87,8 @@ impl Emulated {
         install.map_err(|why| Failure(format!("{}\nhelp: {}", why.0, missing.join(" && "))))
     }
 
-    /// The root of a system with Python for the machine, as Debian has it, unpacked in a folder once; nothing is
-    /// installed.
+    /// The root of a system with Debian's Python for the machine, unpacked once into a folder;
+    /// nothing is installed.
     ///
     /// # Errors
     /// No network for the packages.
@@ -117,7 +117,7 @@ impl Emulated {
         };
         run(apt().arg("update"))?;
         let download = ["-y", "--no-install-recommends", "--download-only", "install"];
-        // numpy is linked with the second.
+        // numpy needs the second package.
         run(apt().args(download).args(["python3", "libstdc++6"]))?;
         for package in fs::read_dir(folder.join("cache/archives"))? {
             let package = package?.path();
@@ -129,7 +129,7 @@ impl Emulated {
         Ok(root)
     }
 
-    /// The words before a program of the machine that wants what is in a root.
+    /// The command prefix for a program of the machine that needs the files of a root.
     pub fn emulator_in(&self, root: &Path) -> [String; 3] {
         [self.qemu.to_owned(), "-L".to_owned(), root.display().to_string()]
     }

@@ -1,17 +1,17 @@
-//! The simulated robot against another physics engine.
+//! Compares the simulated robot with another physics engine.
 
 use std::fs;
 
 use crate::python::environment;
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 
-/// The other engine, Chipmunk.
 const PACKAGES: [&str; 1] = ["pymunk==7.3.1"];
 
-/// Drives the same manoeuvres with both and compares where robot and box are over time.
+/// Drives the same manoeuvres with both engines and compares the positions of robot and box over
+/// time.
 ///
 /// # Errors
-/// No Python, no network for the package, or a difference larger than its limit.
+/// No Python, no network for the package, or too large a difference.
 pub fn run() -> Result<(), Failure> {
     let python = environment("engine", &PACKAGES)?;
     let manoeuvres = root().join("tests/python/manoeuvres.json");

@@ -1,4 +1,4 @@
-//! Looks for texts that break a reader, with coverage to guide the search.
+//! Fuzzes the readers, guided by coverage.
 
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -10,7 +10,7 @@ use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 /// The tool that builds fuzzers, as cargo names it.
 const TOOL: &str = "cargo-fuzz@0.13.2";
 
-/// Texts to start from, beside the corpus of each target.
+/// Seed texts, in addition to the corpus of each target.
 const SEEDS: &[(&str, &[&str])] = &[
     ("parser", PLANS),
     ("checker", PLANS),
@@ -34,14 +34,13 @@ const PLANS: &[&str] = &[
     "crates/afp-dsl/tests/language",
 ];
 
-/// The longest text that is tried, in bytes; longer ones find nothing more and take longer.
+/// Longest input, in bytes; longer inputs find nothing more.
 const LONGEST: usize = 16_384;
 
-/// Fuzzes those targets, all of them without a name, each for so many seconds, as many at a time as
-/// there are cores.
+/// Fuzzes the named targets, or all, for this many seconds each, one per core.
 ///
 /// # Errors
-/// An unknown target, no C++ compiler, or a finding: the message says where it is kept.
+/// An unknown target, no C++ compiler, or a finding; the message names its file.
 pub fn run(names: &[String], seconds: u32) -> Result<(), Failure> {
     if let Some(name) = names.iter().find(|name| !SEEDS.iter().any(|(known, _)| known == name)) {
         let known: Vec<_> = SEEDS.iter().map(|(known, _)| *known).collect();
@@ -73,7 +72,7 @@ pub fn run(names: &[String], seconds: u32) -> Result<(), Failure> {
     if findings.is_empty() { Ok(()) } else { Err(Failure(findings.join("\n"))) }
 }
 
-/// Runs one fuzzer; what it learns stays under target/, what it finds under fuzz/artifacts/.
+/// Runs one fuzzer; its corpus is kept under target/, its findings under fuzz/artifacts/.
 fn search(tool: &PathBuf, name: &str, seeds: &[&str], seconds: u32) -> Result<(), Failure> {
     let learnt = target().join("xtask/fuzz").join(name);
     fs::create_dir_all(&learnt)?;
@@ -96,21 +95,20 @@ fn search(tool: &PathBuf, name: &str, seeds: &[&str], seconds: u32) -> Result<()
     })
 }
 
-/// A subcommand of the tool, with the options that all have in common.
+/// A subcommand of the tool, with the common options.
 ///
-/// Without a sanitizer it works with the stable compiler: there is no unsafe code to watch.
+/// It runs without a sanitizer, and thus with the stable compiler: there is no unsafe code.
 fn cargo_fuzz(tool: &PathBuf, what: &str) -> std::process::Command {
     let mut command = program(tool);
     command.args(["fuzz", what, "--fuzz-dir", "fuzz", "--features", "engine"]);
     command.args(["--sanitizer", "none"]);
-    // Builds in a third of the time, and runs nearly as fast.
+    // Builds in a third of the time and runs nearly as fast.
     command
         .env("CARGO_PROFILE_RELEASE_LTO", "off")
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16");
     command
 }
 
-/// The tool, installed once under target/.
 fn tool() -> Result<PathBuf, Failure> {
     let home = target().join("xtask/tools");
     let install = ["install", "--quiet", "--locked", TOOL, "--root"];

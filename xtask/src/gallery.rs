@@ -1,4 +1,4 @@
-//! The gallery of the book: what each shipped plan looks like, does, sees, and how often it ends how.
+//! The gallery of the book: drawing, run, camera view and outcomes of each shipped plan.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 
 const PAGE: &str = "docs/gallery.md";
-/// Pictures are here, seen from the page.
+/// The pictures' folder, relative to the page.
 const PICTURES: &str = "images/gallery";
-/// The sections of the page begin here.
+/// The start of the generated sections.
 const SECTIONS: &str = "<!-- sections: made by 'cargo xtask gallery' -->\n";
-/// Robots of a sweep.
+/// Seeds of a sweep.
 const SEEDS: &str = "0..30";
 
-/// A plan, how long it is let run, and whether it looks through the camera.
+/// A plan, its time limit, and whether it uses the camera.
 struct Shown {
     name: String,
     help: String,
@@ -23,10 +23,10 @@ struct Shown {
     sees: bool,
 }
 
-/// Draws, runs and sweeps every plan of `plans/`, or those named, and writes their sections.
+/// Draws, runs and sweeps the named plans of `plans/`, or all, and writes their sections.
 ///
 /// # Errors
-/// A plan that cannot be drawn, run or swept, or a file that cannot be written.
+/// A plan cannot be drawn, run or swept, or a file cannot be written.
 pub fn run(names: &[String]) -> Result<(), Failure> {
     run_command(cargo().args(["build", "--release", "--package", "afpc"]))?;
     fs::create_dir_all(root().join("docs").join(PICTURES))?;
@@ -47,7 +47,7 @@ pub fn run(names: &[String]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The plans that AFP ships, by name.
+/// The shipped plans, by name.
 fn plans() -> Result<Vec<Shown>, Failure> {
     let mut plans = Vec::new();
     for file in fs::read_dir(root().join("plans"))? {
@@ -66,7 +66,6 @@ fn plans() -> Result<Vec<Shown>, Failure> {
     Ok(plans)
 }
 
-/// The help text of a file's first plan.
 fn help(text: &str) -> String {
     let mut lines: Vec<&str> = Vec::new();
     for line in text.lines() {
@@ -79,7 +78,7 @@ fn help(text: &str) -> String {
     lines.join("\n")
 }
 
-/// The section of a plan in what the page had before.
+/// The section of a plan in the old page.
 fn section_of<'a>(old: &'a str, name: &str) -> Option<&'a str> {
     let from = old.find(&format!("\n## `{name}`\n"))?;
     let rest = old.get(from + 1..)?;
@@ -106,14 +105,14 @@ fn section(shown: &Shown) -> Result<String, Failure> {
     }
     let table = made(&format!("{name}.csv"));
     let sweep = ["sweep", &plan, "--seeds", SEEDS, "--until", until, "--restart", "-o"];
-    // Runs that fail make it fail: they are in the table.
+    // The exit code reports failed runs, which are in the table.
     let _ = run_command(afpc().args(sweep).arg(&table));
     let command = format!("afpc sweep {plan} --seeds {SEEDS} --until {until}");
     let _ = write!(text, "\n`{command}`:\n\n{}", endings(&table)?);
     Ok(text)
 }
 
-/// How the runs of a sweep ended, as a table in Markdown.
+/// The endings of a sweep's runs, as a Markdown table.
 fn endings(table: &Path) -> Result<String, Failure> {
     let mut reader = csv::Reader::from_path(table).map_err(|why| why.to_string())?;
     let heads = reader.headers().map_err(|why| why.to_string())?.clone();
@@ -149,7 +148,7 @@ fn endings(table: &Path) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Files that are made on the way and not kept.
+/// Temporary files.
 fn made(name: &str) -> PathBuf {
     target().join("xtask/gallery").join(name)
 }

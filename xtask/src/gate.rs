@@ -1,4 +1,4 @@
-//! The gate of the microcontroller: a plan with core and templates links without any panic.
+//! The microcontroller gate: a plan with core and templates links without any panic.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,21 +10,22 @@ use crate::shell::{Failure, cargo, program, run as run_command, target};
 const TARGET: &str = "thumbv7em-none-eabihf";
 const MANIFEST: &str = "firmware/wall_following/Cargo.toml";
 const IMAGE: &str = "firmware-wall-following";
-/// Where Debian's packages put a compiler and the sources of its library.
+/// Debian's compiler and the sources of its library.
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_SOURCES: &str = "/usr/lib/rustlib/src/rust/library";
 
-/// Builds the image and looks into it.
+/// Builds and checks the image.
 ///
 /// # Errors
-/// It does not build, or panics are linked.
+/// The build fails, or panics are linked.
 pub fn run() -> Result<(), Failure> {
     let folder = target().join("firmware");
     let built = if install_target().is_ok() {
         build(&mut cargo(), &folder)
     } else {
         install_debian()?;
-        // Another compiler has a folder of its own; otherwise every switch would rebuild everything.
+        // Another compiler needs a separate folder; otherwise every switch would rebuild
+        // everything.
         let folder = target().join("firmware-debian");
         let mut command = cargo();
         command
@@ -50,12 +51,12 @@ fn build(command: &mut Command, folder: &Path) -> Result<PathBuf, Failure> {
     Ok(folder.join(TARGET).join("release").join(IMAGE))
 }
 
-/// The target's library, from rustup.
+/// Installs the target's library by rustup.
 fn install_target() -> Result<(), Failure> {
     run_command(program("rustup").args(["target", "add", TARGET]))
 }
 
-/// A compiler with sources, from Debian, for machines that rustup cannot serve.
+/// Installs a compiler with sources from Debian, for machines without rustup.
 fn install_debian() -> Result<(), Failure> {
     if Path::new(DEBIAN_RUSTC).exists() && Path::new(DEBIAN_SOURCES).exists() {
         return Ok(());

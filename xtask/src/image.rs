@@ -1,22 +1,21 @@
-//! Looks into a linked image: its symbols and the size of its code.
+//! Reads a linked image: its symbols and its code size.
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
 
 use crate::shell::Failure;
 
-/// The facts of an image that the gate checks.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Image {
     /// Every named symbol.
     pub symbols: Vec<String>,
-    /// Bytes of code and constants.
+    /// Size of code and constants, bytes.
     pub text: u64,
 }
 
 /// Reads an ELF image.
 ///
 /// # Errors
-/// Not an image, or one without symbols, in which nothing could be found.
+/// The file is not an image, or has no symbols.
 pub fn read(bytes: &[u8]) -> Result<Image, Failure> {
     let file = object::File::parse(bytes)?;
     let symbols: Vec<String> =
@@ -31,7 +30,7 @@ pub fn read(bytes: &[u8]) -> Result<Image, Failure> {
 }
 
 impl Image {
-    /// The symbols that have to do with panics.
+    /// The symbols that belong to panics.
     pub fn panics(&self) -> Vec<&str> {
         self.symbols.iter().map(String::as_str).filter(|name| name.contains("panic")).collect()
     }

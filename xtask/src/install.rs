@@ -11,17 +11,16 @@ use crate::shell::{
 /// Enough time for the robot to bump and back up.
 const UNTIL: [&str; 2] = ["--until", "10s"];
 
-/// Whether the installed program, and the programs that it builds, are optimised.
+/// The optimisation of the installed program and of the programs that it builds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
     /// As for users; takes minutes.
     Release,
-    /// With the builds of other suites.
+    /// Shares the builds of other suites.
     Debug,
 }
 
 impl Profile {
-    /// A command that builds plans.
     fn builds(self, command: &mut Command) -> &mut Command {
         match self {
             Profile::Release => command,
@@ -30,11 +29,11 @@ impl Profile {
     }
 }
 
-/// Installs the command line, runs and builds a copy of a plan far from the checkout, and compares
-/// the program's output with that of the interpreter, over twenty seeds.
+/// Installs the command line, runs and builds a copy of a plan outside of the checkout, and
+/// compares the program's output with the interpreter's, over twenty seeds.
 ///
 /// # Errors
-/// A build or a run that fails, or a program that differs from the interpreter.
+/// A build or run fails, or the outputs differ.
 pub fn run(profile: Profile) -> Result<(), Failure> {
     let home = target().join("xtask/install");
     let mut install = cargo();
@@ -52,7 +51,7 @@ pub fn run(profile: Profile) -> Result<(), Failure> {
     let mut long = cargo();
     long.args(["test", "--package", "afpc", "--test", "afpc", "--", "--ignored", "build::"]);
     if profile == Profile::Release {
-        // With the command line itself among what is built.
+        // Also builds the command line itself.
         long.args(["own_toolboxes::", "new::"]);
     }
     run_command(profile.builds(&mut long))
@@ -66,7 +65,7 @@ fn use_it(afpc: &Path, folder: &Path, profile: Profile) -> Result<(), Failure> {
         command
     };
     let said = output(here(afpc).args(["run", "mine.afp", "--json"]).args(UNTIL))?;
-    // The folder that the twenty seeds use too: the engine is built once.
+    // Uses the folder of the twenty seeds, so that the engine is built once.
     let mut build = here(afpc);
     build.args(["build", "mine.afp"]).env("CARGO_TARGET_DIR", built_plans());
     let path = output(profile.builds(&mut build))?;

@@ -1,7 +1,7 @@
-//! Counts the lines of code in `crates/`: no blanks, comments, tests or generated Rust.
+//! Counts the lines of code in `crates/`, without blank lines, comments, tests and generated Rust.
 //!
-//! The count reads tokens, so a line counts if a token of code is on it. It reads each file as `rustfmt` leaves it: joining
-//! lines by hand changes nothing.
+//! A line counts if it has a token of code. Files are formatted by `rustfmt` first, so joined lines
+//! make no difference.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
@@ -15,7 +15,7 @@ use crate::shell::{Failure, output, program, root};
 /// Prints the lines of code of each crate, and their total.
 ///
 /// # Errors
-/// A file cannot be read, or `rustfmt` cannot format it.
+/// A file cannot be read or formatted.
 pub fn print() -> Result<(), Failure> {
     let listed = output(program("git").args([
         "ls-files",
@@ -45,13 +45,12 @@ pub fn print() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether a file holds code that people write for the crates themselves.
+/// Whether a file is handwritten code of a crate.
 fn counts(path: &Path) -> bool {
     let apart = ["tests", "tests.rs", "benches", "examples", "proto"];
     !path.iter().any(|part| apart.iter().any(|apart| part == *apart))
 }
 
-/// The text of a file as `rustfmt` prints it.
 fn formatted(path: &Path) -> Result<String, Failure> {
     let mut rustfmt = program("rustfmt");
     rustfmt.args(["--edition", "2024"]).stdin(fs::File::open(root().join(path))?);
@@ -62,7 +61,7 @@ fn formatted(path: &Path) -> Result<String, Failure> {
     Ok(String::from_utf8(done.stdout)?)
 }
 
-/// Collects the lines on which a token of code is, and the files of modules that only tests have.
+/// Collects the lines with a token of code, and the files of test modules.
 fn collect(
     tokens: TokenStream,
     path: &Path,
@@ -93,7 +92,7 @@ fn collect(
     }
 }
 
-/// The folder of a file's modules.
+/// The folder of a file's submodules.
 fn folder(path: &Path) -> PathBuf {
     let root = ["lib.rs", "main.rs"].iter().any(|root| path.ends_with(root));
     if root { path.with_file_name("") } else { path.with_extension("") }

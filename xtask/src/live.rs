@@ -1,15 +1,13 @@
-//! Watches a run with Foxglove's own client of its WebSocket protocol.
-
 use crate::npm;
 use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 
-/// The program that watches.
+/// The client program.
 const PROGRAM: &str = "watch.js";
 
-/// Watches a plan while it runs.
+/// Watches a running plan with Foxglove's own client of its WebSocket protocol.
 ///
 /// # Errors
-/// No node or npm, no network for the client, or an answer that is wrong.
+/// No node or npm, no network for the client, or a wrong answer.
 pub fn run() -> Result<(), Failure> {
     let folder = npm::installed("live", PROGRAM)?;
     run_command(cargo().args(["build", "--quiet", "--package", "afpc", "--features", "full"]))?;

@@ -1,7 +1,7 @@
-//! Chores of the project: `cargo xtask test`, `bench`, `book`, `editors`, `fuzz`, `gallery`, `gate`, `nightly`, `lint`,
-//! `wheels`.
+//! Tasks of the project: `cargo xtask test`, `bench`, `book`, `editors`, `fuzz`, `gallery`, `gate`,
+//! `nightly`, `lint`, `wheels`.
 //!
-//! Each says what it runs, how long it took, and how to run just what failed.
+//! Each prints its steps and their times, and how to repeat only a failed step.
 
 mod arm;
 mod book;
@@ -137,7 +137,6 @@ fn main() -> ExitCode {
     }
 }
 
-/// Builds and runs the benchmark.
 fn bench(options: &[String]) -> Result<(), Failure> {
     let build = ["run", "--quiet", "--profile", "bench", "--package", "afp-bench", "--"];
     shell::run(cargo().args(build).args(options))

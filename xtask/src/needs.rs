@@ -1,4 +1,5 @@
-//! The programs that a suite needs beside Rust and a C linker, and the command that installs them.
+//! Programs that a suite needs in addition to Rust and a C linker, and the command that installs
+//! them.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -8,7 +9,7 @@ use crate::npm::npm;
 use crate::python::emptied;
 use crate::shell::{Failure, root, target};
 
-/// A program that not every machine has.
+/// A program that may be missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// Python 3 with `venv`.
@@ -19,11 +20,11 @@ pub enum Need {
     Chromium,
 }
 
-/// Beginnings of the names of these programs.
+/// Prefixes of the names of these programs.
 const PROGRAMS: [&str; 6] = ["python", "pip", "node", "npm", "npx", "chrom"];
 
 impl Need {
-    /// Whether the machine has it.
+    /// Whether the program is installed.
     pub fn is_met(self) -> bool {
         let python = if cfg!(windows) { "python" } else { "python3" };
         match self {
@@ -38,7 +39,7 @@ impl Need {
         }
     }
 
-    /// Its name in a sentence.
+    /// The name in messages.
     pub fn name(self) -> &'static str {
         match self {
             Need::Python => "Python 3 with venv",
@@ -62,7 +63,7 @@ impl Need {
     }
 }
 
-/// The command that installs some needs.
+/// The command that installs these programs.
 pub fn install(needs: &[Need]) -> String {
     let manager = match env::consts::OS {
         "windows" => "winget install",
@@ -78,7 +79,8 @@ fn answers(command: &mut Command) -> bool {
     quiet.status().is_ok_and(|status| status.success())
 }
 
-/// Hides the programs of every [`Need`] from a command: its `PATH` becomes one folder with links to all others.
+/// Hides the programs of every [`Need`] from a command: its `PATH` becomes one folder with links to
+/// all other programs.
 ///
 /// # Errors
 /// The folder cannot be made.
@@ -90,7 +92,7 @@ pub fn hidden_from(command: &mut Command) -> Result<&mut Command, Failure> {
         return Ok(command);
     }
     emptied(&folder)?;
-    // A folder of the path need not exist.
+    // A folder of the path may not exist.
     let folders = env::split_paths(&path).filter_map(|folder| fs::read_dir(folder).ok());
     for entry in folders.flatten().flatten() {
         let (name, link) = (entry.file_name(), folder.join(entry.file_name()));
@@ -103,7 +105,7 @@ pub fn hidden_from(command: &mut Command) -> Result<&mut Command, Failure> {
     Ok(command.env("PATH", folder).env("CHROMIUM", ""))
 }
 
-/// Changes nothing: another system has no links to make such a folder with.
+/// Changes nothing: other systems lack the links for such a folder.
 ///
 /// # Errors
 /// None.

@@ -1,4 +1,4 @@
-//! Programs in JavaScript, with the public packages that they are written against.
+//! JavaScript programs and their public packages.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,15 +9,14 @@ use crate::shell::{Failure, program, root, run, target};
 /// The files that name those packages.
 const PROJECT: [&str; 3] = ["package.json", "package-lock.json", ".npmrc"];
 
-/// npm.
 pub fn npm() -> Command {
     program(if cfg!(windows) { "npm.cmd" } else { "npm" })
 }
 
-/// Installs in a folder what its lock names, once; nothing of a package runs.
+/// Installs the packages of a folder's lock file, once; their scripts do not run.
 ///
 /// # Errors
-/// No npm, no network for the packages.
+/// No npm, or no network for the packages.
 pub fn ci(folder: &Path) -> Result<(), Failure> {
     let wanted = fs::read_to_string(folder.join("package-lock.json"))?;
     let done = folder.join("node_modules/.installed");
@@ -32,7 +31,8 @@ pub fn ci(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The folder of a project of `tests/`, installed once under target/, with the current version of its program.
+/// The folder of a project of `tests/`, installed once under target/, with the current version of
+/// its program.
 ///
 /// # Errors
 /// As [`ci`].

@@ -1,12 +1,13 @@
-//! Optical flow by OpenCV, beside that which every platform has.
+//! Optical flow by OpenCV, compared with the built-in method.
 
 use crate::shell::{Failure, cargo, output, program, run as run_command};
 
-/// OpenCV's development package in Debian and Ubuntu, and the compiler whose library reads its headers.
+/// OpenCV's development package in Debian and Ubuntu, and the compiler whose library parses its
+/// headers.
 const PACKAGES: [&str; 3] = ["libopencv-dev", "clang", "libclang-dev"];
 
-/// Builds the feature `opencv` and compares both ways with the true flow. Installs OpenCV where it is
-/// missing, which takes a Debian and its administrator.
+/// Builds the feature `opencv` and compares both methods with the true flow. Installs a missing
+/// OpenCV, which needs Debian and root.
 ///
 /// # Errors
 /// OpenCV is missing and cannot be installed, or a test fails.

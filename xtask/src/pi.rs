@@ -1,4 +1,5 @@
-//! Programs built for a Raspberry Pi, run under emulation: they say what `afpc run` says on this machine.
+//! Programs for a Raspberry Pi, run under emulation: their output must equal that of `afpc run` on
+//! this machine.
 
 use std::path::Path;
 
@@ -7,21 +8,20 @@ use crate::shell::{
     Failure, built_plans, cargo, output, program, quickly, root, run as run_command, target,
 };
 
-/// A folder, a plan in it, and how the plan is run.
+/// A folder, a plan in it, and its options.
 type Case = (&'static str, &'static str, &'static [&'static str]);
 
 /// Enough time for the robot to bump and back up.
 const WALL: Case = (".", "plans/wall_following.afp", &["--until", "10s"]);
-/// A plan on a robot of its own project.
+/// A plan with a project's own robot.
 const VACUUM: Case = ("examples/vacuum", "plans/clean.afp", &["--until", "30s"]);
 
-/// Seeds of each plan.
 const SEEDS: [&str; 3] = ["0", "1", "7"];
 
 /// With the installed tools: the paper's plan for 64 bit, without long optimisation.
 ///
 /// # Errors
-/// Its output differs.
+/// The output differs.
 pub fn short() -> Result<(), Failure> {
     let missing = PI.missing();
     if !missing.is_empty() {
@@ -32,10 +32,10 @@ pub fn short() -> Result<(), Failure> {
     compare(&PI, WALL, true)
 }
 
-/// Both machines, also with a robot of a project, as users build them; installs what is missing.
+/// Both machines, also with a project's robot, built as for users; installs missing packages.
 ///
 /// # Errors
-/// No toolchain or emulator, or a program whose output differs.
+/// No toolchain or emulator, or a different output.
 pub fn run() -> Result<(), Failure> {
     prepare()?;
     for machine in [&PI, &PI32] {
@@ -51,7 +51,7 @@ fn prepare() -> Result<(), Failure> {
     run_command(cargo().args(["build", "--package", "afpc"]))
 }
 
-/// Builds a plan for a machine and compares the program's output with that of the interpreter here.
+/// Builds a plan for a machine and compares its output with the interpreter's.
 fn compare(machine: &Emulated, (folder, plan, until): Case, quick: bool) -> Result<(), Failure> {
     let (folder, afpc) = (root().join(folder), target().join("debug/afpc"));
     let here = |command: &Path| {

@@ -1,4 +1,4 @@
-//! The workspace's `dev` profile, for builds that need less of it.
+//! The workspace's `dev` profile, for builds with less optimisation.
 
 use std::fs;
 use std::process::Command;
@@ -7,7 +7,7 @@ use toml_edit::{DocumentMut, Item, TableLike};
 
 use crate::shell::{Failure, root};
 
-/// A command that optimises nothing: what it builds runs for a moment.
+/// A command that optimises nothing, for programs that run only briefly.
 ///
 /// # Errors
 /// The manifest cannot be read.
@@ -19,7 +19,7 @@ pub fn unoptimised(command: &mut Command) -> Result<&mut Command, Failure> {
     Ok(command)
 }
 
-/// The packages for which the `dev` profile has settings of their own.
+/// The packages with their own settings in the `dev` profile.
 fn packages(manifest: &DocumentMut) -> Result<&dyn TableLike, Failure> {
     let dev = manifest.get("profile").and_then(|profile| profile.get("dev"));
     let packages = dev.and_then(|dev| dev.get("package")).and_then(Item::as_table_like);

@@ -1,4 +1,4 @@
-//! The Python package: its wheel and its tests; a log and a table of ours, read with public readers.
+//! The Python package: its wheel and its tests; a log and a table, read with public readers.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use crate::shell::{
     Failure, cargo, output, program, quickly_built, root, run as run_command, target,
 };
 
-/// The packages that build, test and read, as pip names them.
+/// The packages for building, testing and reading, as pip names them.
 const PACKAGES: [&str; 14] = [
     "gymnasium==1.4.0",
     "hypothesis==6.170.15",
@@ -26,39 +26,38 @@ const PACKAGES: [&str; 14] = [
     "typing-extensions>=4.13",
 ];
 
-/// Further packages for notebooks and clusters.
 const LONG: [&str; 3] = ["ipykernel==7.4.0", "nbclient==0.11.0", "ray==2.60.0"];
 
-/// Seconds for which the nightly run stresses the package.
+/// Duration of the nightly stress test, seconds.
 const STRESSED: &str = "600";
 
-/// Random steps that the nightly run makes in rooms and with faults that are made up.
+/// Random steps of the nightly run in random rooms with random faults.
 const RANDOM_STEPS: &str = "1000000";
 
-/// Simulations after which its memory must be what it was.
+/// Simulations after which the memory use must be unchanged.
 const SIMULATIONS: &str = "10000";
 
-/// Builds the package as users get it, installs it, and runs its tests: pytest with the documentation's
-/// examples, the types, and the stubs against what is there.
+/// Builds the package as for users, installs it, and runs its tests: pytest with the
+/// documentation's examples, the types, and the stubs against the package.
 ///
 /// # Errors
-/// No Python, no network for the packages, or a test that fails.
+/// No Python, no network for the packages, or a failing test.
 pub fn run() -> Result<(), Failure> {
     let (python, afpc) = installed()?;
     read_a_log(&python, &afpc)?;
     read_a_sweep(&python, &afpc)?;
-    // On all cores, a file by one of them.
+    // On all cores, each file on one core.
     let tests = ["-m", "pytest", "--quiet", "-n", "auto", "--dist", "loadfile", "--durations=5"];
     let mut tests = at_package(&python, &tests);
     tests.args(["--doctest-modules", "--pyargs", "tests", "afp"]);
-    // Builds for a project go into the folder of the other slow tests.
+    // Builds for a project use the folder of the other slow tests.
     run_command(quickly_built(&mut tests).env("AFPC", afpc))?;
     run_command(&mut at_package(&python, &["-m", "mypy"]))?;
     run_command(&mut at_package(&python, &["-m", "mypy.stubtest", "afp._afp"]))?;
     sdist(&python, &wheels("sdist")?)
 }
 
-/// The robot of a project, from Python: an extension and a runner are built with it.
+/// A project's robot in Python: builds an extension and a runner.
 ///
 /// # Errors
 /// As [`run`].
@@ -68,7 +67,7 @@ pub fn robot() -> Result<(), Failure> {
     run_command(quickly_built(&mut test).env("AFPC", afpc).env("AFP_ROBOT", "1"))
 }
 
-/// A Python with the package as the `dev` profile builds it, and the command line.
+/// A Python with the package built by the `dev` profile, and the command line.
 fn installed() -> Result<(PathBuf, PathBuf), Failure> {
     let python = environment("python", &PACKAGES)?;
     run_command(cargo().args(["build", "--quiet", "--package", "afpc", "--features", "full"]))?;
@@ -77,12 +76,12 @@ fn installed() -> Result<(PathBuf, PathBuf), Failure> {
     Ok((python, afpc))
 }
 
-/// The longer tests: the bars of the optimised package, the stress test, a million random steps in its
-/// environments, the notebooks, a sweep on a cluster, and a build from the source
-/// distribution only.
+/// The long tests: limits of the optimised package, the stress test, a million random steps in its
+/// environments, the notebooks, a sweep on a cluster, and a build from the source distribution
+/// only.
 ///
 /// # Errors
-/// A bar that is not kept, a notebook that does not run, a source distribution that lacks something.
+/// A limit is exceeded, a notebook fails, or the source distribution is incomplete.
 pub fn long() -> Result<(), Failure> {
     let packages: Vec<_> = PACKAGES.into_iter().chain(LONG).collect();
     let python = environment("python", &packages)?;
@@ -108,24 +107,22 @@ pub fn long() -> Result<(), Failure> {
     run_command(built.env("CARGO_TARGET_DIR", target().join("xtask/sdist-target")))
 }
 
-/// A command in the package's folder.
 pub fn at_package(python: &Path, arguments: &[&str]) -> Command {
     let mut command = program(python);
     command.args(arguments).current_dir(root().join("python")).env("CARGO_TARGET_DIR", target());
     command
 }
 
-/// Makes the source distribution, as pip asks for it: asked directly, maturin first looks for a crate in the package's folder,
-/// and cargo finds none.
+/// Makes the source distribution through pip: maturin alone looks for a crate in the package's
+/// folder, where cargo finds none.
 ///
 /// # Errors
-/// A file that it needs is not there.
+/// A required file is missing.
 pub fn sdist(python: &Path, folder: &Path) -> Result<(), Failure> {
     let sdist = ["-m", "maturin", "pep517", "write-sdist", "--sdist-directory"];
     run_command(at_package(python, &sdist).arg(folder))
 }
 
-/// Builds the wheel and installs it.
 fn install(python: &Path, profile: &str) -> Result<(), Failure> {
     let folder = wheels(profile)?;
     // Not in pyproject.toml: the lock of a source distribution names crates that are not in it.
@@ -136,15 +133,14 @@ fn install(python: &Path, profile: &str) -> Result<(), Failure> {
     run_command(program(python).args(pip).arg("--force-reinstall").arg(wheel))
 }
 
-/// An empty folder for wheels.
 fn wheels(name: &str) -> Result<PathBuf, Failure> {
     emptied(&target().join("xtask/wheels").join(name))
 }
 
-/// Empties a folder, or makes it.
+/// Empties a folder, or creates it.
 ///
 /// # Errors
-/// It cannot be removed or made.
+/// It cannot be removed or created.
 pub fn emptied(folder: &Path) -> Result<PathBuf, Failure> {
     if folder.exists() {
         fs::remove_dir_all(folder)?;
@@ -153,7 +149,7 @@ pub fn emptied(folder: &Path) -> Result<PathBuf, Failure> {
     Ok(folder.to_owned())
 }
 
-/// The one file of that ending in a folder.
+/// The only file with this extension in a folder.
 ///
 /// # Errors
 /// There is none.
@@ -164,7 +160,7 @@ pub fn only(folder: &Path, ending: &str) -> Result<PathBuf, Failure> {
     found.ok_or_else(|| format!("nothing was built in {}", folder.display()).into())
 }
 
-/// Records a run and reads its log, none of our code in between.
+/// Records a run and reads its log with public readers.
 fn read_a_log(python: &Path, afpc: &Path) -> Result<(), Failure> {
     let log = target().join("xtask/wall_following.mcap");
     let drive = ["run", "plans/wall_following.afp", "--until", "20s", "--svg", "none", "--json"];
@@ -178,13 +174,13 @@ fn read_a_sweep(python: &Path, afpc: &Path) -> Result<(), Failure> {
     let sweep = ["sweep", "plans/wall_following.afp"];
     let worlds = ["--world", "worlds/wall_following.toml", "--world", "random:0..3"];
     let grid = ["--vary", "walldist=30cm,40cm", "--until", "21s", "--restart", "-o"];
-    // The '/' makes it a folder, with a table of each kind.
+    // The '/' makes it a folder, with one table per kind.
     let there = format!("{}/", table.display());
     output(program(afpc).args(sweep).args(worlds).args(grid).arg(there))?;
     run_command(program(python).arg(root().join("tests/python/read_sweep.py")).arg(table))
 }
 
-/// A Python with the packages, made once under target/ in a folder of that name.
+/// A Python with the packages, created once under target/ in a folder with this name.
 ///
 /// # Errors
 /// No Python, or no network for the packages.

@@ -1,4 +1,5 @@
-//! Feeds exported state charts to a public engine: control must go where the interpreter goes.
+//! Feeds exported state charts to a public engine and compares the active states with the
+//! interpreter's.
 
 use crate::npm;
 use crate::shell::{Failure, cargo, program, run as run_command};
@@ -6,10 +7,10 @@ use crate::shell::{Failure, cargo, program, run as run_command};
 /// The program that feeds the charts.
 const PROGRAM: &str = "replay.js";
 
-/// Compares so many random plans, and the cases of `tests/run`.
+/// Compares random plans and the cases of `tests/run`.
 ///
 /// # Errors
-/// No node or npm, no network for the engine, or a chart in which control goes elsewhere.
+/// No node or npm, no network for the engine, or different active states.
 pub fn run(plans: u32) -> Result<(), Failure> {
     let engine = npm::installed("scxml", PROGRAM)?;
     let cases = engine.join("cases.jsonl");

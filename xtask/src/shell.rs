@@ -1,11 +1,11 @@
-//! Runs other programs, saying which.
+//! Runs other programs and prints their command lines.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, fmt};
 
-/// Why a chore did not succeed.
+/// Why a task failed.
 #[derive(Debug)]
 pub struct Failure(pub String);
 
@@ -21,24 +21,24 @@ pub fn root() -> PathBuf {
     here.parent().unwrap_or(here).to_owned()
 }
 
-/// Where builds go.
+/// The folder of builds.
 pub fn target() -> PathBuf {
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
-/// A program to be run at the root of the checkout.
+/// A program to run at the root of the checkout.
 pub fn program(name: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(name);
     command.current_dir(root()).stdin(Stdio::null());
     command
 }
 
-/// Makes a command build into the folder of all slow tests, without long optimisation.
+/// Lets a command build into the folder of all slow tests, without long optimisation.
 pub fn quickly_built(command: &mut Command) -> &mut Command {
     quickly(command).env("CARGO_TARGET_DIR", built_plans())
 }
 
-/// Makes a command, and the commands that it starts, build without long optimisation.
+/// Lets a command and its children build without long optimisation.
 pub fn quickly(command: &mut Command) -> &mut Command {
     command
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0")
@@ -47,20 +47,20 @@ pub fn quickly(command: &mut Command) -> &mut Command {
         .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
 }
 
-/// Where all slow tests build.
+/// The folder of all slow tests' builds.
 pub fn built_plans() -> PathBuf {
     target().join("tmp/built-plans")
 }
 
-/// The cargo that runs this.
+/// The cargo that runs this program.
 pub fn cargo() -> Command {
     program(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Runs a program to its end, its output going where ours goes.
+/// Runs a program with inherited output.
 ///
 /// # Errors
-/// It cannot be run, or does not succeed.
+/// It cannot be run, or fails.
 pub fn run(command: &mut Command) -> Result<(), Failure> {
     let line = line(command);
     eprintln!("$ {line}");
@@ -68,10 +68,10 @@ pub fn run(command: &mut Command) -> Result<(), Failure> {
     if status.success() { Ok(()) } else { Err(format!("'{line}' failed: {status}").into()) }
 }
 
-/// Runs a program and gives what it prints.
+/// Runs a program and returns its output.
 ///
 /// # Errors
-/// It cannot be run, or does not succeed.
+/// It cannot be run, or fails.
 pub fn output(command: &mut Command) -> Result<String, Failure> {
     let line = line(command);
     eprintln!("$ {line}");
@@ -83,7 +83,7 @@ pub fn output(command: &mut Command) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// A command as one would type it.
+/// A command as typed in a shell.
 fn line(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let name = program.file_name().unwrap_or(program.as_os_str());

@@ -1,4 +1,4 @@
-//! The studio's page, made from `studio/` with npm, and its tests in a real browser.
+//! The studio's page, built from `studio/` with npm, and its tests in a real browser.
 
 use std::env;
 use std::path::PathBuf;
@@ -7,10 +7,10 @@ use std::process::Command;
 use crate::npm;
 use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 
-/// Builds the page, and the command line with it inside, and opens it.
+/// Builds the page, then the command line with it, and opens it.
 ///
 /// # Errors
-/// No npm, no network for its packages the first time, or a build that fails.
+/// No npm, no network for its packages the first time, or a failing build.
 pub fn open(arguments: &[String]) -> Result<(), Failure> {
     page()?;
     let here = env::current_dir()?;
@@ -21,7 +21,7 @@ pub fn open(arguments: &[String]) -> Result<(), Failure> {
     run_command(command.args(arguments).current_dir(here))
 }
 
-/// Makes `studio/dist`.
+/// Builds `studio/dist`.
 ///
 /// # Errors
 /// As [`open`].
@@ -30,19 +30,19 @@ pub fn page() -> Result<(), Failure> {
     run_command(at_page("node").arg("build.mjs"))
 }
 
-/// The page's own tests, then people's gestures in Chromium on the real program.
+/// The page's unit tests, then user gestures in Chromium on the real program.
 ///
 /// # Errors
-/// As [`open`]; no browser; a test that fails.
+/// As [`open`]; no browser; a failing test.
 pub fn test() -> Result<(), Failure> {
     tested(&[])
 }
 
-/// The same with many random gestures, compared screenshots and a project's own robot; then the figures and a run of an
-/// hour of an optimised program, with nothing beside it.
+/// The long tests: many random gestures, compared screenshots and a project's own robot; then
+/// measurements and an hour's run of an optimised program, with no other load.
 ///
 /// # Errors
-/// As [`test`](fn@test); a figure that is worse than its bar.
+/// As [`test`](fn@test); a measurement beyond its limit.
 pub fn long() -> Result<(), Failure> {
     tested(&[("AFP_GESTURES", "2000"), ("AFP_SCREENS", "1"), ("AFP_ROBOT", "1")])?;
     let features =
@@ -62,7 +62,7 @@ fn tested(settings: &[(&str, &str)]) -> Result<(), Failure> {
     run_command(npm().args(["test"]).env("AFPC", afpc).envs(settings.iter().copied()))
 }
 
-/// `afpc` as a profile builds it.
+/// `afpc` as built by a profile.
 fn program_in(profile: &str) -> PathBuf {
     target().join(profile).join(format!("afpc{}", env::consts::EXE_SUFFIX))
 }

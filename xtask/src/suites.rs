@@ -1,4 +1,4 @@
-//! The suites of each chore. They run one after the other; the account is printed at the end.
+//! The suites of each task. They run one after the other; a summary is printed at the end.
 
 use std::time::{Duration, Instant};
 
@@ -11,10 +11,9 @@ use crate::{
     vacuum, wasm, wheels,
 };
 
-/// A suite: its name, what it needs beside Rust, and how it is run.
+/// A suite: its name, its requirements in addition to Rust, and its function.
 type Suite = (&'static str, &'static [Need], fn() -> Result<(), Failure>);
 
-/// The suites of `cargo xtask test`.
 pub const TEST: &[Suite] = &[
     ("workspace", &[], workspace),
     ("xtask", &[], || run_command(cargo().args(["test", "--package", "xtask"]))),
@@ -26,7 +25,6 @@ pub const TEST: &[Suite] = &[
     ("live", &[Node], live::run),
 ];
 
-/// The suites of `cargo xtask gate`.
 pub const GATE: &[Suite] = &[
     ("firmware", &[], gate::run),
     ("web", &[], wasm::run),
@@ -37,7 +35,6 @@ pub const GATE: &[Suite] = &[
     ("rust alone", &[], rust_alone),
 ];
 
-/// The suites of `cargo xtask nightly`.
 pub const NIGHTLY: &[Suite] = &[
     ("workspace", &[], workspace),
     ("random plans", &[], random_plans),
@@ -74,37 +71,35 @@ pub const NIGHTLY: &[Suite] = &[
     ("benchmarks", &[], || bench(&["--check".to_owned()])),
 ];
 
-/// The suites of `cargo xtask lint`.
 pub const LINT: &[Suite] = &[
     ("format", &[], || run_command(cargo().args(["fmt", "--all", "--check"]))),
     ("clippy", &[], clippy),
     ("docs", &[], docs),
 ];
 
-/// Random plans that the nightly run compares, each compiled to Rust, in parts for which a machine has memory.
+/// Seeds of the nightly random plans, each compiled to Rust, in parts that fit into memory.
 const RANDOM_PLANS: &[&str] = &["0..400", "400..800", "800..1200", "1200..1600", "1600..2000"];
 
-/// Random worlds that the nightly run drives through.
 const RANDOM_WORLDS: &str = "10000";
 
-/// The first room and how many in which the nightly run counts who reaches the goal.
+/// First room and number of rooms in which the nightly run counts reached goals.
 const GOALS: &str = "1000..100";
-/// Views in which the nightly run looks for objects.
+/// Views in which the nightly run searches objects.
 const VIEWS: &str = "1000";
-/// Rooms in which the nightly run breaks each device in each way.
+/// Rooms in which the nightly run injects every fault of every device.
 const FAULTY_ROOMS: &str = "20";
 
-/// Steps that the nightly run takes without an allocation.
+/// Steps of the nightly test without an allocation.
 const STEPS: &str = "10000000";
 
-/// Seconds that the nightly run looks for texts that break each reader.
+/// Duration of the nightly fuzzing per reader, seconds.
 const FUZZED: u32 = 600;
 
-/// Runs the suites of those names and prints the account. Without a name it runs all suites whose needs are met.
-/// With `all`, or with `CI` set, a need that is not met is a failure.
+/// Runs the named suites and prints the summary. Without a name it runs all suites whose
+/// requirements are met. With `all`, or with `CI` set, an unmet requirement is a failure.
 ///
 /// # Errors
-/// Unknown names, or the suites that failed.
+/// Unknown names, or the failed suites.
 pub fn run(suites: &[Suite], names: &[String], all: bool) -> Result<(), Failure> {
     for name in names {
         if !suites.iter().any(|(known, ..)| known == name) {
@@ -144,7 +139,7 @@ fn not_there(missing: &[Need]) -> Failure {
     Failure(format!("error: there is no {}\nhelp: run '{install}'", names.join(" and no ")))
 }
 
-/// The suites that were left out, the needs of each, and the command that installs them; empty without any.
+/// The skipped suites, their requirements, and the command that installs them; empty if none.
 fn said_of(left_out: &[(&str, Vec<Need>)]) -> String {
     let mut all: Vec<Need> = Vec::new();
     let mut lines = String::new();
@@ -159,26 +154,26 @@ fn said_of(left_out: &[(&str, Vec<Need>)]) -> String {
     lines
 }
 
-/// How a suite went.
+/// The result of a suite.
 struct Account {
     name: &'static str,
     took: Duration,
-    /// Processor seconds of everything that the suite started, if the system counts them.
+    /// Processor seconds of the suite and its children, if the system counts them.
     cpu: Option<f64>,
     passed: bool,
 }
 
-/// Processor seconds of all processes that have been started and have ended; `None` outside Linux.
+/// Processor seconds of all ended child processes; `None` outside Linux.
 fn cpu_seconds() -> Option<f64> {
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The name of the program is in brackets and may have spaces: `cutime` and `cstime` are 13 and 14 after it.
+    // The program's name is in parentheses and may have spaces; `cutime` and `cstime` are fields 13
+    // and 14 after it.
     let fields: Vec<&str> = stat.rsplit(") ").next()?.split(' ').collect();
     let ticks = |field: usize| fields.get(field)?.parse::<f64>().ok();
     Some((ticks(13)? + ticks(14)?) / TICKS_PER_SECOND)
 }
 
-/// Prints the account.
 fn conclude(account: &[Account]) -> Result<(), Failure> {
     println!();
     for Account { name, took, cpu, passed } in account {
@@ -199,7 +194,7 @@ fn conclude(account: &[Account]) -> Result<(), Failure> {
     )))
 }
 
-/// How to run one suite.
+/// The command that repeats one suite.
 fn again(name: &str) -> String {
     match name {
         "format" => "    cargo fmt --all".to_owned(),
@@ -240,24 +235,25 @@ fn again(name: &str) -> String {
 /// All tests of the crates and of the examples.
 fn workspace() -> Result<(), Failure> {
     let all = ["test", "--workspace", "--features", "afpc/full", "--no-fail-fast"];
-    // They have suites of their own.
+    // They have separate suites.
     let but = ["afp-bench", "afp-py", "afp-py-wheel", "afp-language-server", "afp-wasm", "xtask"]
         .map(|name| ["--exclude", name]);
-    // By hand, property tests use other cases in each run; here the same commit gives the same answer.
+    // Property tests use other cases in each manual run; here the same commit gives the same
+    // result.
     let mut tests = cargo();
     tests.args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20");
-    // These tests need only Rust, also on a machine that has more.
+    // These tests need only Rust, so all other programs are hidden.
     run_command(needs::hidden_from(&mut tests)?)
 }
 
-/// The README's first command, on a machine that has only Rust and a C linker.
+/// The README's first command, on a machine with only Rust and a C linker.
 fn rust_alone() -> Result<(), Failure> {
     let mut first = cargo();
     first.args(["run", "--package", "afpc", "--", "run", "plans/wall_following.afp"]);
     run_command(needs::hidden_from(&mut first)?)
 }
 
-/// Both commands of the README there: the second one names the suites that it leaves out.
+/// Both commands of the README on such a machine: the second one names the skipped suites.
 fn rust_alone_whole() -> Result<(), Failure> {
     rust_alone()?;
     let mut second = cargo();
@@ -273,13 +269,13 @@ fn rust_alone_whole() -> Result<(), Failure> {
     }
 }
 
-/// Every event at five points of each element's run, for every plan that is shipped.
+/// Every event at five points of each element's run, for every shipped plan.
 fn every_event() -> Result<(), Failure> {
     by_night("afp-test", "generated")
 }
 
-/// Many slips in plans, each one error and mended by its fix; every prefix of every plan outlined, drawn and asked about
-/// everything.
+/// Many mistakes in plans, each one error that its fix corrects; every prefix of every plan is
+/// outlined, drawn and queried.
 fn slips() -> Result<(), Failure> {
     by_night("afp-dsl", "language")?;
     by_night("afp-ide", "features")?;
@@ -287,13 +283,13 @@ fn slips() -> Result<(), Failure> {
     run_command(cargo().args(drawn).env("AFP_BY_NIGHT", "1"))
 }
 
-/// Random messages to the language server and to the debug adapter.
+/// Random messages to the language server and the debug adapter.
 fn messages() -> Result<(), Failure> {
     by_night("afp-lsp", "lsp")?;
     by_night("afp-debug", "messages")
 }
 
-/// A test that takes more cases when nobody waits for it.
+/// A test with more cases at night.
 fn by_night(package: &str, test: &str) -> Result<(), Failure> {
     let test = ["test", "--release", "--package", package, "--test", test];
     run_command(cargo().args(test).env("AFP_BY_NIGHT", "1"))
@@ -308,13 +304,12 @@ fn random_plans() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Plans in random rooms, with random faults; and the recorded traces, optimised.
+/// Plans in random rooms with random faults; and the recorded traces, optimised.
 fn random_worlds() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--", "--nocapture"];
     run_command(cargo().args(test).env("AFP_WORLDS", RANDOM_WORLDS))
 }
 
-/// Every single fault of every device, in every shipped plan.
 fn single_faults() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--test", "single_faults"];
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_ROOMS", FAULTY_ROOMS))
@@ -326,25 +321,24 @@ fn goals() -> Result<(), Failure> {
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_GOALS", GOALS))
 }
 
-/// How often places on public maps are reached, where `AFP_MAPS` says in which folder they are.
+/// How often plans reach places on public maps in the folder `AFP_MAPS`.
 fn maps() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--test", "maps"];
     run_command(cargo().args(test).args(["--", "--nocapture"]))
 }
 
-/// Objects found in many views of random rooms.
 fn objects() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-sim", "--test", "sim", "objects"];
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_VIEWS", VIEWS))
 }
 
-/// Ten million steps of a plan, without an allocation, equal in both back ends.
+/// Ten million steps of a plan without an allocation, equal in both back ends.
 fn long_run() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-tests", "--test", "no_allocation"];
     run_command(cargo().args(test).env("AFP_STEPS", STEPS))
 }
 
-/// Links and tags of doc comments. Crates that need Python or the web to build are left out.
+/// Links and tags of doc comments. Crates that need Python or the web to build are skipped.
 fn docs() -> Result<(), Failure> {
     let left_out = ["afp-py", "afp-py-wheel", "afp-wasm"];
     let mut doc = cargo();
@@ -356,7 +350,7 @@ fn docs() -> Result<(), Failure> {
 fn clippy() -> Result<(), Failure> {
     let deny = ["--", "--deny", "warnings"];
     run_command(cargo().args(["clippy", "--workspace", "--all-targets"]).args(deny))?;
-    // With all that can be left out of the command line.
+    // With all optional features of the command line.
     let whole = ["clippy", "--package", "afpc", "--all-targets", "--features", "full,studio"];
     run_command(cargo().args(whole).args(deny))
 }

@@ -1,5 +1,5 @@
-//! Projects that bring their own robot, outside of the workspace as their authors have them: the example, simulated and as the
-//! robot itself with a stand-in for its board, and a new one.
+//! Projects with their own robot, outside of the workspace as for users: the example, simulated and
+//! on hardware with a simulated board, and a new project.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -12,7 +12,6 @@ use crate::shell::{
     Failure, cargo, output, program, quickly_built, root, run as run_command, target,
 };
 
-/// Where the project is.
 const FOLDER: &str = "examples/vacuum";
 /// A run that ends by itself.
 const RUN: [&str; 5] = ["run", "plans/clean.afp", "--json", "--until", "190s"];
@@ -20,7 +19,7 @@ const RUN: [&str; 5] = ["run", "plans/clean.afp", "--json", "--until", "190s"];
 /// Runs the tests of the example's crate, the scenarios of its plan, and those of new projects.
 ///
 /// # Errors
-/// A build or a test that fails.
+/// A build or test fails.
 pub fn test() -> Result<(), Failure> {
     run_command(cargo().args(["build", "--package", "afpc"]))?;
     for (name, option) in [("greeter", "--toolbox"), ("rover", "--robot")] {
@@ -41,10 +40,11 @@ pub fn test() -> Result<(), Failure> {
     run_command(tests.env("CARGO_TARGET_DIR", target()))
 }
 
-/// Runs every command of `afpc` on the robot, and the program that it builds: it says what the interpreter says.
+/// Runs every command of `afpc` on the robot, and the program that it builds: the outputs must
+/// equal the interpreter's.
 ///
 /// # Errors
-/// A build or a test that fails.
+/// A build or test fails.
 pub fn all() -> Result<(), Failure> {
     test()?;
     let afpc = target().join("debug/afpc");
@@ -63,8 +63,9 @@ pub fn all() -> Result<(), Failure> {
     on_the_board(&mut here(&binary))
 }
 
-/// Runs the plan on the robot itself, with a stand-in for its board: to the end of the time that it gets, and until a signal ends
-/// it, one that would put it to sleep, too. Each time the wheels have turned, and the board receives a stop.
+/// Runs the plan on the hardware robot with a simulated board: until its time limit, and until a
+/// signal ends it, including a stop signal of the terminal. Each time the wheels have turned, and
+/// the board receives a stop.
 fn on_the_board(command: &mut Command) -> Result<(), Failure> {
     let mut firmware = cargo();
     firmware.args(["build", "--package", "vacuum-board", "--example", "firmware"]);
@@ -82,13 +83,13 @@ fn on_the_board(command: &mut Command) -> Result<(), Failure> {
         eprintln!("$ on a board that stands in: {run:?}");
         let mut run = run.spawn()?;
         if let Some(signal) = signal {
-            // It has built before, so it drives soon.
+            // It was built before, so it drives soon.
             thread::sleep(Duration::from_secs(4));
             run_command(program("kill").args([signal, &run.id().to_string()]))?;
         }
         let ended = run.wait()?.code();
         let mut told = String::new();
-        // It ends when it receives a stop.
+        // The board exits when it receives a stop.
         board
             .stdout
             .take()
@@ -105,7 +106,7 @@ fn on_the_board(command: &mut Command) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A stand-in for the board, and its port.
+/// A simulated board, and its port.
 fn board() -> Result<(Child, String), Failure> {
     let path = target().join("debug/examples/firmware");
     let mut board = program(path).stdout(Stdio::piped()).spawn()?;
@@ -126,7 +127,6 @@ fn table() -> PathBuf {
     target().join("xtask/vacuum.csv")
 }
 
-/// A command in the project.
 fn here(command: &Path) -> Command {
     let mut command = program(command);
     quickly_built(command.current_dir(root().join(FOLDER)));

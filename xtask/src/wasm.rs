@@ -1,5 +1,6 @@
-//! The gate of the web: compiler, interpreter, drawing, edits and simulator in one WebAssembly module,
-//! which runs; and the language server in another one, with which Node.js talks as its own tests do.
+//! The web gate: compiler, interpreter, drawing, edits and simulator in one WebAssembly module,
+//! which is run; the language server in another module, which is tested in Node.js with its own
+//! tests.
 
 use std::fs;
 use std::path::PathBuf;
@@ -20,7 +21,7 @@ const RUN: &str = "WebAssembly.instantiate(require('fs').readFileSync(process.ar
 /// Builds the modules and runs them in Node.js.
 ///
 /// # Errors
-/// Something does not compile for the web, or fails there; the target or Node.js is missing.
+/// A crate does not compile for the web, or fails there; the target or Node.js is missing.
 pub fn run() -> Result<(), Failure> {
     run_command(program("rustup").args(["target", "add", TARGET, WITH_INPUT])).map_err(|why| {
         let both = format!("{TARGET} and {WITH_INPUT}");
@@ -34,7 +35,7 @@ pub fn run() -> Result<(), Failure> {
     talk()
 }
 
-/// Talks with the language server.
+/// Tests the language server.
 fn talk() -> Result<(), Failure> {
     let module = module(WITH_INPUT, LANGUAGE_SERVER)?;
     println!(
@@ -49,7 +50,6 @@ fn talk() -> Result<(), Failure> {
     run_command(&mut node)
 }
 
-/// Builds a package for a target.
 fn module(triple: &str, package: &str) -> Result<PathBuf, Failure> {
     let mut build = cargo();
     build.args(["build", "--target", triple, "--package", package]);

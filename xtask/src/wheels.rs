@@ -1,7 +1,9 @@
-//! The published packages: a wheel for each machine, with the command line inside, and the source distribution.
+//! The published packages: a wheel for each machine with the command line, and the source
+//! distribution.
 //!
-//! Zig links against the C library of Linux systems of 2014 and later, for this machine and for others. What was built
-//! is installed where there is neither Rust nor a checkout, and runs the same there, bit for bit.
+//! Zig links against the C library of Linux systems of 2014 and later, for this machine and for
+//! others. The wheels are tested without Rust and without a checkout, and their runs must be
+//! bit-identical.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +14,7 @@ use crate::python::{at_package, emptied, environment, only, sdist};
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 use crate::studio;
 
-/// The packages that build and check, as pip names them.
+/// The packages for building and checking, as pip names them.
 const PACKAGES: [&str; 5] = [
     "auditwheel==6.8.2",
     "cargo-zigbuild==0.24.0",
@@ -21,18 +23,16 @@ const PACKAGES: [&str; 5] = [
     "ziglang==0.17.1",
 ];
 
-/// The version of the C library that is linked against, and Python's name of systems that have it.
+/// The version of the linked C library, and Python's name of systems that have it.
 const GLIBC: &str = "2.17";
 const SYSTEMS: &str = "manylinux_2_17";
 
-/// How the wheels are built.
 const PROFILE: &str = "wheel";
 
-/// A machine that gets a wheel.
 struct Machine {
-    /// Its name in Python.
+    /// The name in Python.
     name: &'static str,
-    /// Its name in Rust.
+    /// The name in Rust.
     triple: &'static str,
 }
 
@@ -41,10 +41,11 @@ const MACHINES: [Machine; 2] = [
     Machine { name: "aarch64", triple: PI.triple },
 ];
 
-/// Builds wheels and source distribution into `target/wheels`, and says of each wheel what it does once installed.
+/// Builds wheels and source distribution into `target/wheels`, and tests each installed wheel.
 ///
 /// # Errors
-/// No Python, npm, library for a machine or emulator; a wheel that wants a newer system, or does not run.
+/// No Python, npm, library for a machine or emulator; a wheel needs a newer system, or does not
+/// run.
 pub fn run(names: &[String]) -> Result<(), Failure> {
     let unknown = names.iter().find(|name| MACHINES.iter().all(|machine| machine.name != **name));
     if let Some(name) = unknown {
@@ -74,7 +75,6 @@ pub fn run(names: &[String]) -> Result<(), Failure> {
 }
 
 impl Machine {
-    /// Builds the wheel.
     fn wheel(&self, python: &Path, folder: &Path) -> Result<PathBuf, Failure> {
         let installed =
             output(program("rustc").args(["--print", "target-libdir", "--target", self.triple]));
@@ -107,14 +107,14 @@ impl Machine {
         Ok(target().join(self.triple).join(PROFILE).join("afpc"))
     }
 
-    /// Installs the wheel in an empty folder and lets it run; what it says of some runs.
+    /// Installs the wheel in an empty folder and runs it; returns the output of some runs.
     fn try_out(&self, python: &Path, wheel: &Path) -> Result<String, Failure> {
         let there = Place::of(self, python)?;
         let folder = emptied(&target().join("xtask/tried").join(self.name))?;
         let mut install = program(python);
         install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
         install.arg("--only-binary=:all:");
-        // The systems that wheels of numpy want, too.
+        // The systems that numpy's wheels need, too.
         for system in [SYSTEMS, "manylinux_2_27", "manylinux_2_28"] {
             install.args(["--platform", &format!("{system}_{}", self.name)]);
         }
@@ -130,7 +130,7 @@ impl Machine {
     }
 }
 
-/// Where programs of a machine run: here, or emulated.
+/// Where a machine's programs run: here, or emulated.
 struct Place {
     python: PathBuf,
     words: Vec<String>,
@@ -161,14 +161,14 @@ impl Place {
         self.program(&self.python)
     }
 
-    /// The version of its Python, as `3.11`.
+    /// The version of its Python, such as `3.11`.
     fn version(&self) -> Result<String, Failure> {
         let say = "import sys; print('%d.%d' % sys.version_info[:2])";
         Ok(output(self.python().args(["-c", say]))?.trim().to_owned())
     }
 }
 
-/// Adds a program to a wheel, in the folder where Python keeps programs.
+/// Adds a program to a wheel, in the folder for Python's scripts.
 fn with_program(python: &Path, wheel: &Path, afpc: &Path, to: &Path) -> Result<PathBuf, Failure> {
     let unpacked = emptied(&target().join("xtask/unpacked"))?;
     let unpack = ["-m", "wheel", "unpack", "--dest"];
@@ -183,7 +183,7 @@ fn with_program(python: &Path, wheel: &Path, afpc: &Path, to: &Path) -> Result<P
     Ok(to.join(wheel.file_name().unwrap_or_default()))
 }
 
-/// A command that finds Zig, which pip has installed beside Python.
+/// A command that finds the Zig that pip has installed.
 fn with_zig(mut command: Command, python: &Path) -> Command {
     let mut folders = vec![python.parent().unwrap_or(python).to_owned()];
     folders.extend(std::env::var_os("PATH").iter().flat_map(std::env::split_paths));
