@@ -1,4 +1,4 @@
-// A document has one address, in the page as at the server.
+// A document has the same address in the page and on the server.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pathOf, uriOf } from "../page/documents/addresses";

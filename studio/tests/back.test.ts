@@ -1,4 +1,4 @@
-// What is taken back comes back as it was: moves, changes that are on their way, what was cut.
+// Undo restores moves, changes in progress and cut items.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { test } from "node:test";
@@ -23,7 +23,7 @@ plan P {
 }
 `;
 
-/** Where the boxes of elements are on the page. */
+/** Positions of element boxes on the page. */
 const places = (page: Page, items: readonly string[]) => async (): Promise<string> => {
   const boxes = await Promise.all(items.map((item) => page.locator(`.node [data-item="${item}"]`).first().boundingBox()));
   return JSON.stringify(boxes.map((box) => box && [box.x, box.y].map(Math.round)));
@@ -97,7 +97,7 @@ test("what is undone is a change that is on its way, and not the one before it",
   assert.deepEqual([log.value.past.length, log.value.future.length], [1, 1]);
   await redo();
   assert.equal(texts.get("a"), "one two three");
-  // One that is refused is none.
+  // A rejected change does not count.
   await Promise.all([underWay(Promise.reject(new Error("refused"))).catch(() => {}), undo()]);
   assert.equal(texts.get("a"), "one two");
 });

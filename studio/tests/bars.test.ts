@@ -1,5 +1,6 @@
-// What the page takes at 60 and at 1,000 elements, in milliseconds, and how it grows in a long run: measured with `AFP_BARS=1`
-// and `AFP_HOUR=3600`, where the program is an optimised one and nothing else runs; `AFP_BARS=check` holds it to the bars.
+// Times of the page with 60 and 1,000 elements, in milliseconds, and its memory in a long run.
+// `AFP_BARS=1` and `AFP_HOUR=3600` measure, with an optimised program and no other load;
+// `AFP_BARS=check` enforces the limits.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { gzipSync } from "node:zlib";
@@ -7,36 +8,36 @@ import type { Page } from "playwright-core";
 import { inBrowser } from "./browser";
 import { large } from "./large";
 
-/** Rounds of which the median counts. */
+/** Rounds; the median counts. */
 const ROUNDS = 5;
 const BARS = { 60: { ready: 400, drop: 50, frames: 55 }, 1000: { ready: 1200, drop: 100, frames: 45 } } as const;
 
-/** Milliseconds from a key to the mark of a mistake; kilobytes of the page, packed. */
+/** Limits: milliseconds from a key to the mark of an error; kilobytes of the compressed page. */
 const SQUIGGLE = 200;
 const LOADED = 320;
 
 const median = (all: number[]): number => [...all].sort((one, two) => one - two)[all.length >> 1]!;
 
-/** Milliseconds from the beginning of the page to the first frame with a drawing. */
+/** Milliseconds from the start of the page to the first frame with a drawing. */
 async function ready(page: Page): Promise<number> {
   await page.reload();
   return page.waitForFunction(() => document.querySelector(".node text") && performance.now(), undefined, { timeout: 60_000 }).then((handle) => handle.jsonValue() as Promise<number>);
 }
 
-/** The element whose name is nearest to the middle of the drawing, and where that is. */
+/** The element whose name is nearest to the middle of the drawing, and its position. */
 const inSight = (page: Page): Promise<{ item: string; x: number; y: number }> =>
   page.evaluate(() => {
     const board = document.querySelector(".board")!.getBoundingClientRect();
     const off = ({ left, top }: DOMRect): number => Math.hypot(left - board.left - board.width / 2, top - board.top - board.height / 2);
     const groups = [...document.querySelectorAll('.node [data-item^="Large.element"]')].filter((group) => /^Large\.element\d+$/.test(group.getAttribute("data-item")!));
-    // Names of supervisors stand behind that of their element.
+    // Supervisors' names come after the element's name.
     const named = groups.filter((group) => group.querySelector("text.name"));
     const names = named.map((group) => ({ item: group.getAttribute("data-item")!, rect: group.querySelector("text.name")!.getBoundingClientRect() }));
     const { item, rect } = names.sort((one, other) => off(one.rect) - off(other.rect))[0]!;
     return { item, x: rect.left + 10, y: rect.top + 6 };
   });
 
-/** Milliseconds from the release of an element to the frame with its edges routed anew. */
+/** Milliseconds from dropping an element to the frame with its rerouted edges. */
 async function drop(page: Page, nth: number): Promise<number> {
   const { item, x, y } = await inSight(page);
   await page.mouse.move(x, y);
@@ -83,7 +84,7 @@ async function frames(page: Page): Promise<number> {
   });
 }
 
-/** Milliseconds from a key in the text to the frame with the mark of the mistake that it makes. */
+/** Milliseconds from a key in the text to the frame with the error's mark. */
 async function squiggle(page: Page): Promise<number> {
   await page.locator(".cm-line", { hasText: "start element0" }).click();
   await page.keyboard.press("End");
@@ -106,13 +107,13 @@ async function squiggle(page: Page): Promise<number> {
   return took;
 }
 
-/** Kilobytes of everything that the page loads, packed. */
+/** Compressed size of everything that the page loads, kilobytes. */
 async function loaded(): Promise<number> {
   const files = ["index.html", "main.js", "app.css", "icon.svg"].map((name) => readFile(new URL(`../dist/${name}`, import.meta.url)));
   return (await Promise.all(files)).reduce((sum, bytes) => sum + gzipSync(bytes).length, 0) / 1000;
 }
 
-/** Frames a second of a page with nothing on it, while something is dragged: what the machine has to give. */
+/** Frames a second of an empty page during a drag: the machine's limit. */
 async function emptyFrames(page: Page): Promise<number> {
   const other = await page.context().newPage();
   const most = await frames(other);
@@ -140,16 +141,16 @@ for (const count of process.env.AFP_BARS ? ([60, 1000] as const) : []) {
     console.log(count, figures, { times, drops, keys });
     if (process.env.AFP_BARS !== "check") return;
     const bar = BARS[count];
-    // A machine that has fewer frames to give is held to as many fewer.
+    // A slower machine has a proportionally lower limit.
     const enough = (bar.frames * Math.min(empty, 60)) / 60;
     assert.ok(figures.ready <= bar.ready && figures.drop <= bar.drop && figures.squiggle <= SQUIGGLE && figures.loaded <= LOADED, JSON.stringify(figures));
     assert.ok(Math.min(near, far) >= enough, JSON.stringify(figures));
   }, { viewport: { width: 1366, height: 768 }, timeout: 400_000 });
 }
 
-/** Seconds that a plan runs for, at its own speed. */
+/** Duration of a plan's run, seconds. */
 const LASTS = Number(process.env.AFP_HOUR ?? 0);
-/** Megabytes by which the page may have grown meanwhile. */
+/** Permitted growth of the page's memory, megabytes. */
 const GROWS = 5;
 
 if (LASTS > 0) {
@@ -179,7 +180,7 @@ if (LASTS > 0) {
   }, { timeout: (LASTS + 300) * 2000 });
 }
 
-/** Frames a second while nothing is done to the page, over two seconds. */
+/** Frames a second of an idle page, over two seconds. */
 const resting = (page: Page): Promise<number> =>
   page.evaluate(
     () =>

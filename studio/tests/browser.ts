@@ -1,4 +1,4 @@
-// The real page in a real browser: `afpc studio` on a folder of the test, in Debian's Chromium.
+// The real page in a real browser: `afpc studio` on a test folder, in Debian's Chromium.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
@@ -8,34 +8,35 @@ import { dirname, join } from "node:path";
 import { after, test } from "node:test";
 import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 
-/** The program. */
 export const AFPC = process.env.AFPC ?? "";
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
-/** Why nothing can be tried in a browser; false where it can. */
+/** The reason why the browser tests are skipped; false if they run. */
 export const SKIP = !AFPC ? "AFPC does not say where afpc is" : !existsSync(CHROMIUM) ? `there is no ${CHROMIUM}` : false;
 
-/** The longest that anything in the page is waited for, in milliseconds. */
+/** Longest wait for the page, milliseconds. */
 const PATIENCE = 10_000;
 
 export interface Studio {
   page: Page;
   folder: string;
-  /** The bytes of a file, as text; empty where there is none. */
+  /** The bytes of a file, as text; empty if it is missing. */
   read(name: string): Promise<string>;
   write(name: string, text: string): Promise<void>;
-  /** Waits until a file has a text. */
   holds(name: string, text: string): Promise<void>;
-  /** Waits until a file has what a pattern says. */
+  /** Waits until a file matches a pattern. */
   becomes(name: string, wanted: RegExp): Promise<void>;
-  /** Kills the server, as a crash does. */
+  /** Kills the server, as in a crash. */
   crash(): Promise<void>;
-  /** Starts another server on the same port, and gives the address that it prints; the browser may enter unless it is to do that itself. */
+  /**
+   * Starts another server on the same port and returns its printed address; the browser opens it
+   * unless `enter` is false.
+   */
   restart(enter?: boolean): Promise<string>;
-  /** Waits until the page says "saved". */
+  /** Waits until the page shows "saved". */
   isSaved(): Promise<void>;
 }
 
-/** What is read once it is as wanted, or when patience has ended. */
+/** Reads until the value is as wanted, or the wait is over. */
 export async function settled(read: () => Promise<string>, isWanted: (now: string) => boolean): Promise<string> {
   const end = Date.now() + PATIENCE;
   for (;;) {
@@ -45,12 +46,12 @@ export async function settled(read: () => Promise<string>, isWanted: (now: strin
   }
 }
 
-/** Waits until something on the page says what a pattern wants. */
+/** Waits until a part of the page matches a pattern. */
 export async function shows(part: Locator, wanted: RegExp): Promise<void> {
   assert.match(await settled(() => part.innerText(), (now) => wanted.test(now)), wanted);
 }
 
-/** Where a word of the text is on the page, once it is in sight. */
+/** The position of a word of the text, once it is visible. */
 const middle = (page: Page, word: string): Promise<[number, number]> =>
   page.evaluate((word) => {
     const texts = document.createTreeWalker(document.querySelector(".cm-content")!, NodeFilter.SHOW_TEXT);
@@ -67,7 +68,7 @@ const middle = (page: Page, word: string): Promise<[number, number]> =>
     throw new Error(`no '${word}' in ${document.querySelector(".cm-content")!.textContent}`);
   }, word);
 
-/** Points at a word of the text until the page says something of it; a pane that has just opened may still scroll. */
+/** Hovers over a word of the text until its tooltip matches; a new pane may still scroll. */
 export async function explained(page: Page, word: string, wanted: RegExp): Promise<void> {
   const tooltip = page.locator(".cm-tooltip-hover");
   for (let tries = 0; tries < 5; tries++) {
@@ -81,7 +82,7 @@ export async function explained(page: Page, word: string, wanted: RegExp): Promi
 let browser: Browser | null = null;
 after(() => browser?.close());
 
-/** Starts the server of a folder; the answer has its address and what ends it. */
+/** Starts the server of a folder; returns its address and a function that ends it. */
 async function serve(folder: string, port = "0", file = ""): Promise<{ address: string; end: () => Promise<void>; kill: () => Promise<void> }> {
   const child = spawn(AFPC, ["studio", join(folder, file), "--port", port, "--no-open"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } });
   const gone = new Promise<void>((done) => child.once("close", () => done()));
@@ -114,7 +115,7 @@ async function serve(folder: string, port = "0", file = ""): Promise<{ address: 
   return { address, end, kill };
 }
 
-/** A test in the browser, on a folder with some files. What the page writes to its console as an error fails it. */
+/** A test in the browser, on a folder with some files. An error in the page's console fails it. */
 export function inBrowser(name: string, files: Record<string, string>, run: (studio: Studio) => Promise<void>, options: BrowserContextOptions & { ignore?: RegExp; timeout?: number; open?: string } = {}): void {
   test(name, { timeout: options.timeout ?? 120_000, skip: SKIP }, async () => {
     browser ??= await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"] });

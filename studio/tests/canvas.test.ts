@@ -1,4 +1,4 @@
-// What belongs to the drawing beside its gestures: menus, finding, notes, flow of data, plans out of elements, the far view.
+// The drawing's other features: menus, search, notes, data flow, extracted plans, the far view.
 import assert from "node:assert/strict";
 import { inBrowser } from "./browser";
 import { large } from "./large";
@@ -53,7 +53,7 @@ inBrowser("a folded box hides ports and supervisors, leads where it led, and is 
   await page.locator("text.template", { hasText: "CheckTouchSensor" }).waitFor({ state: "detached" });
   assert.ok((await ports.count()) < before);
   assert.ok((await edges.count()) >= 1);
-  // Shown small, the word on the tab stays on it.
+  // At a small zoom, the word on the tab stays inside.
   for (let out = 0; out < 3; out++) await page.keyboard.press("-");
   await page.waitForTimeout(300);
   const [word, tab] = await page.locator("text.bare").evaluate((word) => {
@@ -150,7 +150,7 @@ inBrowser("what is looked for is found in drawing and text, and gone to by its n
 });
 
 inBrowser("of a large plan what is in sight is in the page; far away it is painted; the map leads elsewhere", { "plan.afp": large(400) }, async ({ page }) => {
-  // Four hundred boxes are laid out by an unoptimised server.
+  // An unoptimised server lays out four hundred boxes.
   await page.locator(name("Large.element0")).first().waitFor({ timeout: 60_000 });
   const filled = (): Promise<number> => page.locator(".node > g").count();
   assert.ok((await filled()) < 150, `${await filled()} of 400 are in the page`);

@@ -1,4 +1,4 @@
-// A server that is killed in the middle of something: what was finished is on the disk once there is a server again.
+// A killed server: finished changes are on the disk when a server runs again.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { spawnSync } from "node:child_process";
@@ -40,13 +40,13 @@ inBrowser("a server killed in mid-drag loses no finished edit", { "plan.afp": PL
   const text = await read("plan.afp");
   assert.match(text, /plan P \{ \/\/ typed without a server/);
   assert.match(text, /start go \/\/ typed before/);
-  // The server computes what the drag writes, once there is one.
+  // The server computes the result of the drag after the restart.
   await becomes("plan.afp.layout", /rest/);
 }, { ignore: /WebSocket|connection/i });
 
 const typed = " // typed without a server";
 
-/** Types into the text of a page whose server was killed. */
+/** Types into the text while the server is dead. */
 async function typeAlone(page: Page, crash: () => Promise<void>): Promise<void> {
   await page.locator(".node text").first().waitFor();
   await page.locator(".rail button", { hasText: "Text" }).click();
@@ -58,7 +58,7 @@ async function typeAlone(page: Page, crash: () => Promise<void>): Promise<void> 
   await page.keyboard.type(typed);
 }
 
-/** An address with a code for the server of a folder, as whoever starts a second one gets it. */
+/** An address with a code for the server of a folder, as printed by a second start. */
 const codeFor = (folder: string): string =>
   /http:\S+/.exec(spawnSync(AFPC, ["studio", folder, "--no-open"], { encoding: "utf8", env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } }).stdout)![0];
 
@@ -67,7 +67,7 @@ const ignore = /WebSocket|connection/i;
 
 inBrowser("what was typed without a server is kept where another page has the pen by then", { "plan.afp": PLAN }, async ({ page, folder, crash, restart, read, holds }) => {
   await typeAlone(page, crash);
-  // Another browser is there first: this one has no code yet.
+  // Another browser comes first; this one has no code yet.
   const others = await page.context().browser()!.newContext();
   const other = await others.newPage();
   await other.goto(await restart(false));
@@ -93,7 +93,7 @@ inBrowser("what was typed without a server is offered to the page that is opened
   assert.equal(asked, 1, "the page asks before it is left");
   await page.getByRole("button", { name: "Keep mine" }).waitFor();
   assert.equal(await read("plan.afp"), PLAN);
-  // Not chosen yet: it is there again.
+  // The question reappears, because it was not answered.
   await page.reload();
   await page.getByRole("button", { name: "Keep mine" }).click();
   await holds("plan.afp", WHOLE);

@@ -1,4 +1,4 @@
-// Curves without a page: numbers out of texts, told in any order, thinned out, drawn as steps.
+// Curves without a page: parsing, order, thinning, drawing as steps.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { cut, extended, plotted, valueAt, type Curve } from "../page/debug/curves";

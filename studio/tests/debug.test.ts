@@ -1,4 +1,4 @@
-// Looking into a run: the timeline, why something runs, conditions, what is forced, going back.
+// Inspecting a run: timeline, reasons, conditions, forced values, going back.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import AxeBuilder from "@axe-core/playwright";
@@ -76,12 +76,12 @@ test("an entry of the plan that is shown holds what the innermost plan of that n
 });
 
 inBrowser("while a plan runs, its entries show what they hold", { "plan.afp": PLAN }, async ({ page }) => {
-  // Slowly, so that each value is seen.
+  // Slowly, so that each value is visible.
   await begun(page, "2");
   const held = async (): Promise<string[]> => page.locator(".run-value-text").allTextContents();
   await page.waitForFunction(() => document.querySelectorAll(".run-value-text").length === 2);
   assert.equal((await held())[0], "1 s");
-  // What is declared makes room, and stands there again without a run.
+  // The declaration is hidden during a run, and reappears afterwards.
   const declared = page.locator(".declared").first();
   assert.equal(await declared.evaluate((text) => getComputedStyle(text).visibility), "hidden");
   await page.waitForFunction(() => [...document.querySelectorAll(".run-value-text")].at(-1)?.textContent === "2");
@@ -134,7 +134,7 @@ inBrowser("a timeline shows the run; a moment of it is gone to by mouse and keys
 
 inBrowser("why something runs is said; what is forced is shown until it ends", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator('.node [data-item="Blink.light"] text.name').first().click({ force: true });
-  // Slowly, so that it is held in the middle: entries have values once it has begun.
+  // Slowly, so that it pauses in the middle: entries have values after the start.
   await begun(page, "1");
   await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock.running")?.textContent ?? "0") > 0);
   await page.keyboard.press("F8");
@@ -189,7 +189,7 @@ inBrowser("the outline has everything as buttons, and says what is active", { "p
   await shows(outline, /plan Blink[^]*pause[^]*dark[^]*Elapsed[^]*light[^]*tired/);
   await outline.getByRole("button", { name: /^actor light/ }).click();
   assert.equal(await outline.locator("[aria-pressed=true]").count(), 1);
-  // Slowly, so that it still runs when it is looked at.
+  // Slowly, so that it still runs.
   await begun(page, "1");
   await outline.locator("button.active").first().waitFor();
   await clean(page, "[data-when=outline]");

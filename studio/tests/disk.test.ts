@@ -1,4 +1,4 @@
-// What lies on the disk and what the page says of it: "saved" is never shown for what is not there, and no byte is lost.
+// The disk and the page's saved state: "saved" only appears for written text, and no byte is lost.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -17,7 +17,7 @@ plan P {
 }
 `;
 
-/** Types at the end of a line of the text. */
+/** Types at the end of a line. */
 async function type(page: Page, line: string, text: string): Promise<void> {
   await page.locator(".cm-line", { hasText: line }).click();
   await page.keyboard.press("End");
@@ -26,7 +26,7 @@ async function type(page: Page, line: string, text: string): Promise<void> {
 
 const openText = (page: Page): Promise<void> => page.locator(".rail button", { hasText: "Text" }).click();
 
-/** The page says "saved" only while the file has what the page shows. */
+/** The page shows "saved" only while the file equals the text. */
 const isHonest = async (page: Page, on: () => Promise<string>, wanted: string): Promise<void> => {
   const said = await page.locator(".saved").getAttribute("class");
   if (/\bsaved saved\b/.test(said ?? "")) assert.equal(await on(), wanted);
@@ -60,7 +60,7 @@ inBrowser("of what is typed while another program writes again and again no lett
   const file = join(folder, "plan.afp");
   let written = 0;
   const other = setInterval(() => {
-    // At both ends of the file, in one go, so that nothing is written between.
+    // At both ends of the file in one write, so that nothing is saved in between.
     const now = readFileSync(file, "utf8");
     if (now) writeFileSync(file, `${now.replace(/^\/\/ \d+/, `// ${++written}`).trimEnd()}\n${written % 2 ? "// end\n" : ""}`.replace("// end\n// end\n", "// end\n"));
   }, 170);
@@ -147,7 +147,7 @@ inBrowser("a plan that is made under the name of one that another program has re
 });
 
 inBrowser("a full disk keeps the old bytes, and takes the new ones once it has room", { "plan.afp": PLAN }, async ({ page, folder, isSaved, read }) => {
-  // A small file system of its own, where the test may make one.
+  // A separate small file system, if the test may create one.
   const small = join(folder, "small");
   await mkdir(small);
   const made = spawnSync("mount", ["-t", "tmpfs", "-o", "size=16k", "tmpfs", small]);
@@ -163,7 +163,7 @@ inBrowser("a full disk keeps the old bytes, and takes the new ones once it has r
     await type(page, "start go", ` // ${"x".repeat(60)}`);
     await shows(page.locator(".saved"), /not saved/);
     assert.equal(await read("small/there.afp"), PLAN);
-    // As it lies there again, it is saved, though nothing can be written.
+    // The text equals the file again, so it counts as saved, although writes fail.
     await page.getByRole("button", { name: "Undo: typing" }).click();
     await isSaved();
     await page.getByRole("button", { name: "Redo: typing" }).click();
@@ -182,7 +182,7 @@ inBrowser("what two programs write at once is saved once both lie on the disk; o
   const file = join(folder, "plan.afp");
   for (let round = 0; round < 3; round++) {
     await type(page, "start go", ` // ${round}`);
-    // In one go: what is saved between would be taken back by the other program, which somebody has to choose about.
+    // In one write: the other program would undo a save in between, which would cause a conflict.
     writeFileSync(file, readFileSync(file, "utf8").replace("terminate }", `terminate } // ${round}`));
     await isSaved();
   }
@@ -196,7 +196,7 @@ inBrowser("what two programs write at once is saved once both lie on the disk; o
   assert.match(await read("plan.afp"), /<<<<<<<[^]*mine[^]*=======[^]*theirs[^]*>>>>>>>/);
   await page.locator(".count", { hasText: "error" }).click();
   await page.locator(".problems", { hasText: "a mark between two versions" }).waitFor();
-  // It was chosen here.
+  // The choice was made in this page.
   await page.getByRole("button", { name: "Undo: Keep both, marked" }).click();
   await holds("plan.afp", before.replace("-> rest }", "-> rest } // mine"));
 });

@@ -1,4 +1,5 @@
-// Texts, against a server of the test: what it is told gives the same texts, edits are made for their version alone.
+// Texts, against a test server: sent changes give the same texts, and edits apply only to their
+// version.
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { inOrder } from "../page/documents/changes";
@@ -12,11 +13,11 @@ import * as session from "../page/server/session";
 import { random } from "./random";
 import { signal } from "@preact/signals";
 
-/** A room that keeps texts as the protocol says. */
+/** A room that keeps texts as in the protocol. */
 class Room {
   texts = new Map<string, string>();
   versions = new Map<string, number>();
-  /** What was chosen of a conflict, and the text that comes of it. */
+  /** The choice in a conflict, and the resulting text. */
   chosen: unknown;
   chooses = "";
   takers = new Map<string, (params: any) => void>();
@@ -49,12 +50,12 @@ class Room {
       }
     },
   };
-  /** Whether it makes no file. */
+  /** Whether it rejects new files. */
   refuses = false;
-  /** The changes that it was told last. */
+  /** The last received changes. */
   last: unknown;
   tell = (method: string, params: unknown) => this.takers.get(method)!(params);
-  /** Another text than the page's last one is there. */
+  /** Sends a text that differs from the page's last one. */
   changes = (uri: string, text: string) => this.tell("afp/changed", { uri, text, clean: true, version: this.versions.get(uri), number: ++this.told });
   told = 0;
 }
@@ -150,7 +151,7 @@ test("what is typed while the page greets a new server is sent, of every text th
   const type = (insert: string): void => [one, two].forEach((uri) => typed([{ uri, from: 3, to: 3, insert }]));
   room.lsp.open.value = false;
   const { notify, request } = room.lsp;
-  // Without a connection nothing is told; it comes back, and greets.
+  // Without a connection nothing is sent; then it reconnects and greets.
   room.lsp.notify = () => {};
   type("a");
   const first: Lsp = { ...room.lsp, notify, request: async (method, params: any) => (type("b"), request(method, params)) };
@@ -191,7 +192,7 @@ test("a change that would make a text too long is not made, by nobody and not by
     assert.deepEqual([text(uri), room.texts.get(uri), undoLabel.value], ["ö".repeat(10), "ö".repeat(10), null]);
     put("abcd");
     typed([{ uri, from: 0, to: 4, insert: "" }]);
-    // What another program writes is there, however long it is, and may become shorter.
+    // A text by another program may exceed the limit, and may become shorter.
     room.changes(uri, `${"ö".repeat(10)}123456`);
     typed([{ uri, from: 15, to: 16, insert: "" }]);
     assert.equal(text(uri), `${"ö".repeat(10)}12345`);
@@ -260,7 +261,7 @@ test("a file that is made anew under the address of a text that is open has its 
   typed([{ uri, from: 0, to: 0, insert: "a" }]);
   assert.equal(room.texts.get(uri), "aplan New { go }\n");
   assert.equal(room.versions.get(uri), version(uri));
-  // It was made here: undoing it does not ask.
+  // The change was made in this page, so undo does not ask.
   await undo();
   assert.match(undoLabel.value!, /^new file /);
   await undo();
@@ -285,7 +286,7 @@ test("of two changes of the same lines a person chooses; the room does it", asyn
     assert.equal(conflicts.value.length, 0);
     room.tell("afp/saved", { uri, version: version(uri) });
     assert.equal(saved.value, "saved");
-    // It was chosen here: undoing it does not ask.
+    // The choice was made in this page, so undo does not ask.
     await undo();
     assert.equal(text(uri), keep === "mine" ? "one" : "mine");
     room.tell("afp/saved", { uri, version: version(uri) });
@@ -294,7 +295,8 @@ test("of two changes of the same lines a person chooses; the room does it", asyn
 
 test("after a lost connection what was not told is sent, and what others did is taken over", async () => {
   const cases = [
-    // what the page has, what the room has then, who has the pen, what both have at last, whether somebody has to choose
+    // the page's text, the room's text, the holder of the edit lock, the final text of both,
+    // whether there is a conflict
     ["base", "base", "page", "base", false],
     ["mine", "base", "page", "mine", false],
     ["mine", "mine", "page", "mine", false],

@@ -1,4 +1,4 @@
-// Drawings as values: differences, what is under a point, where keys lead, bent edges, views, values, lists.
+// Drawings as values: differences, hits, keyboard navigation, bent edges, views, values, lists.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { declared, headed } from "../page/drawing/anatomy";
@@ -22,7 +22,7 @@ const element = (item: string, [x, y]: Point): Element => ({
 });
 const edge = (from: string, to: string, points: Point[]): Edge => ({ id: `${from}!Done`, from, to, points, kind: "state", part: { kind: "exit", name: "Done", nth: 1 }, svg: "", severity: null });
 
-/** One above, two side by side below it. */
+/** One element above, two side by side below. */
 function example(): Drawing {
   const answer: Answer = {
     version: 1, plan: "P", plans: ["P", "Q"], bounds: [0, 0, 600, 400], entries: [], symbols: [],
@@ -49,7 +49,7 @@ test("a plan with another name is the one that stands where it did", () => {
   const called = (name: string, ...now: string[]) => calledNow(name, ["A", "B", "C"], now);
   assert.deepEqual([called("B", "A", "B", "C"), called("B", "B"), called("B", "A", "X", "C")], ["B", "B", "X"]);
   assert.deepEqual([called("B", "A", "C"), called("B", "B2", "C", "A"), called("B", "A", "C", "D")], [null, null, null]);
-  // What is folded in it follows; of one that is gone it waits.
+  // Folded items follow a renamed plan, and stay for a removed one.
   assert.deepEqual(itemsNow(["A.go", "B.start"], ["A", "B"], ["A", "C"]), ["A.go", "C.start"]);
   assert.deepEqual(itemsNow(["A.go", "B.start"], ["A", "B"], ["A"]), ["A.go", "B.start"]);
 });
@@ -64,7 +64,7 @@ test("what is under a point: exits before boxes, supervisors, edges, heads, grou
   assert.equal(at(163, 120), "edge");
   assert.equal(at(160, 192), "head");
   assert.equal(at(300, 130), undefined);
-  // Farther out, an edge is as easy to press as near by.
+  // At a smaller zoom, an edge is as easy to press.
   assert.equal(hit(drawn, [172, 120], 1), null);
   assert.equal(hit(drawn, [172, 120], 0.4)?.on, "edge");
 });

@@ -1,4 +1,4 @@
-// What stands on the page for the first time: before anything of it is painted it is as it will be, and takes what is typed.
+// First appearance: the page is painted in its final state and accepts typing immediately.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import type { Page } from "playwright-core";
@@ -7,7 +7,7 @@ import { inBrowser } from "./browser";
 const PAPER = await readFile(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 const PLAN = "use carbot\n\nplan P {\n    start go\n\n    actor go: Forward {\n        ForwardSuccessful -> terminate\n    }\n}\n";
 
-/** Types into a field as soon as it is in the page, and ends with `Enter` a while later. */
+/** Types into a field as soon as it exists, and presses `Enter` a while later. */
 const typeAtOnce = (page: Page, selector: string, text: string): Promise<void> =>
   page.evaluate(([selector, text]) => {
     const watch = new MutationObserver(() => {

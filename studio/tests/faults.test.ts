@@ -1,4 +1,4 @@
-// What beginners stumbled over, each as they did it: real mouse and keys.
+// Problems of beginners, reproduced with real mouse and keys.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { inBrowser, shows } from "./browser";

@@ -1,11 +1,12 @@
-// The first plan by the mouse alone: from an empty folder to a robot that bumps, backs up and turns, in few gestures.
+// The first plan by mouse only: from an empty folder to a robot that bumps, backs up and turns, in
+// few gestures.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { inBrowser } from "./browser";
 
-/** More would not be a first visit. */
+/** Maximum number of gestures. */
 const MOST = 25;
-/** From there to a failed scenario that is shown at its moment. */
+/** Maximum number of further gestures up to the moment of a failed scenario. */
 const MORE = 10;
 
 class Mouse {
@@ -16,7 +17,7 @@ class Mouse {
     const found = this.page.locator(selector).first();
     await found.waitFor();
     await found.evaluate((node) => node.closest(".palette-list, .chooser, .inspector, .results") && node.scrollIntoView({ block: "center" }));
-    // What travels to a new place has come to rest.
+    // Waits for the end of animations.
     await this.page.evaluate(() => Promise.all(document.getAnimations().map((motion) => motion.finished.catch(() => {}))));
     const box = (await found.boundingBox())!;
     return [box.x + box.width / 2, box.y + box.height / 2];
@@ -37,7 +38,7 @@ class Mouse {
     await this.page.mouse.up();
   }
 
-  /** Chooses from the list that a drop has opened. */
+  /** Chooses from the list after a drop. */
   choose = (label: string): Promise<void> => this.click(`.chooser .choice-label:text-is("${label}")`);
 }
 

@@ -1,4 +1,4 @@
-// Where a run is in the drawing: plans inside of plans, supervisors, edges that were taken.
+// A run in the drawing: nested plans, supervisors, taken edges.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Socket } from "../page/server/lsp";
@@ -63,7 +63,7 @@ test("a way goes through computations, which take no time", () => {
   ];
   const isPassed = (item: string): boolean => item === "P.count";
   assert.deepEqual(taken(edges.filter(({ id }) => id !== "3"), "P.a", "P.b", isPassed), ["1", "2"]);
-  // Round about a computation again and again is another way each time; from b two exits lead there.
+  // Loops through a computation are ambiguous; from b two exits lead there.
   assert.deepEqual(taken(edges, "P.a", "P.b", isPassed), []);
   assert.deepEqual(taken([...edges.slice(3), { id: "6", from: "P.count", to: "P.a" }], "P.b", "P.a", isPassed), []);
   assert.deepEqual(taken(edges, "P.a", "P.b"), []);

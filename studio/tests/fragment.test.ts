@@ -1,4 +1,4 @@
-// What the drawing lets into the page: the engine's fragments, and nothing that runs, loads or leads elsewhere.
+// Fragments: the page accepts the engine's, and nothing that runs, loads or links.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { after, test } from "node:test";

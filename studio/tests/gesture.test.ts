@@ -1,4 +1,4 @@
-// What pointers and arrow keys do, without a page: the state machines of the drawing.
+// The drawing's state machines for pointers and arrow keys, without a page.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pressed } from "../page/drawing/carry";

@@ -1,5 +1,5 @@
-// Random gestures: the page says no error, the text can be read, a fresh page shows the same, and undo of all gives the
-// first bytes and the first picture. `AFP_GESTURES=2000` makes so many, fifty to a plan.
+// Random gestures: no console errors, a readable text, an equal fresh page, and undo restores the
+// first bytes and the first picture. `AFP_GESTURES=2000` sets their number, fifty per plan.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
@@ -51,7 +51,7 @@ class Random {
   }
 }
 
-/** One gesture, and what ends whatever it has opened. */
+/** One gesture, and the end of everything that it has opened. */
 async function gesture(page: Page, random: Random): Promise<string> {
   const spot = (): [number, number] => [240 + random.below(740), 60 + random.below(640)];
   const boxes = await page.locator(".node text").all();
@@ -112,7 +112,7 @@ async function gesture(page: Page, random: Random): Promise<string> {
   }
 }
 
-/** Leaves every popup and dialog; the drawing has the focus. */
+/** Closes every popup and dialog and focuses the drawing. */
 async function leave(page: Page): Promise<void> {
   for (let round = 0; round < 5 && (await page.locator("dialog[open], .chooser, .value-popup, input.rename, .context-menu, .note-field, .seek-bar").count()); round++) await page.keyboard.press("Escape");
   await page.locator(".board").focus();
@@ -121,17 +121,17 @@ async function leave(page: Page): Promise<void> {
 const shown = (page: Page): Promise<string[]> =>
   page.evaluate(() => [...document.querySelectorAll(".node")].map((node) => `${node.getAttribute("aria-label")} ${[...node.querySelectorAll("text")].map((text) => text.textContent).join(" ")}`).sort());
 
-/** Each box and edge as it is drawn. */
+/** Each box and edge as drawn. */
 const picture = (page: Page): Promise<string[]> =>
   page.evaluate(() => [...document.querySelectorAll(".node > .element, .way > .edge")].map((group) => group.outerHTML).sort());
 
-/** What is wrong with the text itself: plans may be unfinished, but what was written can be read. */
+/** Syntax errors of the text: plans may be unfinished, but must be readable. */
 function unreadable(folder: string): string {
   const { stdout, stderr } = spawnSync(AFPC, ["check", join(folder, "plan.afp")], { encoding: "utf8" });
   return (stdout + stderr).split("\n").filter((line) => /error\[E01/.test(line)).join("\n");
 }
 
-/** After how many gestures of all seeds the text was another one. */
+/** The number of gestures that changed the text. */
 let texts = 0;
 
 for (let round = 0; round < Math.max(1, ALL / GESTURES); round++) {

@@ -1,4 +1,4 @@
-// Gestures of the drawing, by mouse and by keys, each ending in the bytes of the files.
+// Gestures of the drawing by mouse and keys, each compared with the resulting files.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { inBrowser, settled, shows } from "./browser";
@@ -27,13 +27,13 @@ async function drag(page: Page, from: Spot, to: Spot, drop = true): Promise<void
   if (drop) await page.mouse.up();
 }
 
-/** Waits for the drawing, and gives it the focus. */
+/** Waits for the drawing, and focuses it. */
 async function ready(page: Page, item: string): Promise<void> {
   await page.locator(`.node [data-item="${item}"]`).waitFor();
   await page.locator(".board").focus();
 }
 
-/** Chooses from the list that a key or a drop has opened. */
+/** Chooses from the open list. */
 async function choose(page: Page, typed: string, label: string): Promise<void> {
   const list = page.locator(".chooser");
   await list.getByRole("option").first().waitFor();
@@ -79,7 +79,7 @@ inBrowser("an exit dragged onto an element connects, onto the ground it asks, an
   await holds("plan.afp", looped.replace("ForwardSuccessful -> turn", "ForwardSuccessful -> terminate"));
   await page.keyboard.press("Control+z");
   await holds("plan.afp", looped);
-  // The head of the edge to `turn`, back onto `go` itself.
+  // Drags the head of the edge to `turn` back onto `go`.
   await page.waitForFunction(() => document.querySelectorAll(".way").length === 3);
   const tip = await page.locator('.way [data-item="P.go"][data-exit="ForwardSuccessful"] .tip').boundingBox();
   await drag(page, [tip!.x + tip!.width / 2, tip!.y + tip!.height - 2], await middle(page, name("P.go")));
@@ -294,7 +294,7 @@ inBrowser("into a sub-plan and out of it, each with its own view; problems are s
   await page.mouse.move(...(await middle(page, name("Q.go2"))));
   await page.locator(".tip-box", { hasText: "can never be reached" }).waitFor();
   await page.mouse.move(300, 700);
-  // It has the focus of the keys still.
+  // It still has the keyboard focus.
   await page.keyboard.press("Escape");
   await page.locator(".tip-box").waitFor({ state: "detached" });
 });

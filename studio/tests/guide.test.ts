@@ -1,4 +1,4 @@
-// The guide: what is to be done next follows from the plan.
+// The guide: the next step follows from the plan.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Element } from "../page/drawing/shapes";

@@ -1,4 +1,5 @@
-// A hand in the world: seen in an empty folder, the robot dragged, things dropped and carried, what its camera sees.
+// Interaction with the world: in an empty folder, moving the robot, dropping and moving objects,
+// the camera's picture.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import AxeBuilder from "@axe-core/playwright";
@@ -9,7 +10,7 @@ import { middle } from "./spots";
 const PAPER = readFileSync(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 
 const poseOf = async (page: Page): Promise<[number, number]> => {
-  // The robot may be there a moment before its place is.
+  // The robot may appear a moment before its position.
   const robot = await page.waitForSelector('.floor .robot[transform^="translate("]', { state: "attached" });
   const found = /translate\((\S+) (\S+)\)/.exec((await robot.getAttribute("transform"))!)!;
   return [Number(found[1]), Number(found[2])];

@@ -1,11 +1,11 @@
-// The one history: undo of any sequence gives the first texts back, redo the last ones.
+// The history: undo of any sequence restores the first texts, redo the last ones.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { attach, backward, clear, EMPTY, forward, push, record, recorded, redo, redoLabel, undo, undoLabel, type Change, type Entry, type Step } from "../page/documents/history";
 import { newest } from "../page/documents/keep";
 import { random } from "./random";
 
-/** Texts that are changed as `documents.ts` does it. */
+/** Texts that are changed like in `documents.ts`. */
 class Texts {
   all = new Map([["a", "plan A {\n}\n"], ["b", ""]]);
   make = (changes: Change[]): Step[] =>

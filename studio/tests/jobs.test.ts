@@ -1,4 +1,4 @@
-// Jobs: heard to their end on whatever connection, and taken up by a page that is loaded anew.
+// Jobs: followed to their end on any connection, and resumed by a reloaded page.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { signal } from "@preact/signals";
@@ -7,7 +7,7 @@ import { begin, run, running, said, takeUp, type Done } from "../page/jobs/jobs"
 import type { Finish, Lsp } from "../page/server/lsp";
 import * as session from "../page/server/session";
 
-/** A page with a server of the test. */
+/** A page with a test server. */
 async function page(): Promise<{ tell: (method: string, params: unknown) => void; greet: (jobs: session.Going[]) => Promise<unknown>; resumed: session.Going[] }> {
   let [greeting, number, jobs]: [(lsp: Lsp) => Promise<Finish>, number, session.Going[]] = [async () => {}, 0, []];
   const takers = new Map<string, (params: any) => void>();
@@ -84,13 +84,13 @@ inBrowser("a sweep goes on while the page is loaded anew, and is ended there", {
     await page.locator(".node text").first().waitFor();
   };
   const ends = page.getByRole("button", { name: "Cancel", exact: true });
-  // A long one goes on after the page is loaded.
+  // A long job continues during a reload.
   await sweep("0..99999");
   assert.equal(await page.getByLabel("Seeds").inputValue(), "0..99999");
   await ends.click();
   await ends.waitFor({ state: "detached", timeout: 60_000 });
   await shows(page.locator(".endings"), /ended early, after \d+ of 99999 runs/);
-  // A short one may end before, meanwhile or after: all that came of it is shown.
+  // A short job may end before, during or after the reload: all results are shown.
   await sweep("0..2000");
   await page.locator(".endings", { hasText: "2000" }).waitFor({ timeout: 60_000 });
   await ends.waitFor({ state: "detached" });

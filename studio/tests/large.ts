@@ -1,4 +1,4 @@
-// Plans of any size: elements of every kind, wired at random but the same each time.
+// Plans of any size: elements of every kind, connected at random but reproducibly.
 import { random } from "./random";
 
 const HEAD = `use std
@@ -21,7 +21,7 @@ plan Avoid {
 }
 `;
 
-/** What an element is made from, and its exits; the first one leads on. */
+/** Templates of elements with their exits; the first exit leads to the next element. */
 const KINDS: [head: string, exits: string[]][] = [
   ["actor NAME: Forward(distance = -walldist)", ["ForwardSuccessful"]],
   ["actor NAME: SearchWall(angle => result)", ["WallFound", "NoWallFound"]],
@@ -30,7 +30,10 @@ const KINDS: [head: string, exits: string[]][] = [
   ["subplan NAME: Avoid", ["OK"]],
 ];
 
-/** The text of a plan of so many elements: each leads to the next one, most of the others to one soon after it. */
+/**
+ * The text of a plan with this many elements: each leads to the next one, most also to a later one
+ * nearby.
+ */
 export function large(count: number): string {
   const below = random(7);
   const target = (nth: number): string => {

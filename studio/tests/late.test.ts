@@ -1,4 +1,5 @@
-// What is said of an older text stands where that is now, however far the one who types is ahead.
+// Marks of an older text appear at their current positions, even if the user types faster than the
+// server answers.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ChangeSet, Text } from "@codemirror/state";
@@ -19,7 +20,7 @@ test("a place of an older version is where it went, one of an unknown version no
   assert.equal(late.at(5)!.now(9), 10);
   assert.equal(late.at(4)!.now(7), 8);
   assert.equal(late.at(null)!.now(3), 3);
-  // A version that changed no text is that before it.
+  // A version without changes has the text of the previous one.
   assert.equal(late.at(8)!.text, doc.toString());
   assert.equal(late.at(3), null);
 });

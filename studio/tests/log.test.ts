@@ -1,4 +1,5 @@
-// Logs and jobs in the page: a log is shown as a run is; what runs programs of the folder asks first.
+// Logs and jobs in the page: a log is shown like a run; programs of the folder run only after a
+// question.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdir } from "node:fs/promises";
@@ -80,7 +81,7 @@ inBrowser("errors of a build stand on the elements that they are about, and lead
   await page.locator(".marks .ring").first().waitFor({ state: "attached" });
   await wrong.first().getByRole("button", { name: /^Explain E\d+/ }).click();
   await page.getByRole("dialog", { name: /^Explain E\d+/ }).waitFor();
-  // Another text has other errors.
+  // A changed text has other errors.
   await write("plan.afp", PLAN);
   await page.locator(".failed-frame").waitFor({ state: "detached" });
 }, { timeout: 90_000 });

@@ -1,4 +1,4 @@
-// What the command line says is wrong, read for the page.
+// Errors of the command line, parsed for the page.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -16,7 +16,7 @@ plan P {
 }
 `;
 
-/** The objects that the real program prints for a build in a folder with this plan. */
+/** The objects that the real program prints for a build of this plan. */
 function built(plan: string): any[] {
   const folder = mkdtempSync(join(tmpdir(), "afp-mistakes-"));
   writeFileSync(join(folder, "p.afp"), plan);

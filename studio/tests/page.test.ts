@@ -1,4 +1,4 @@
-// The page as a person uses it: opens, types, is told what is wrong and what is saved, undoes, sees what others change.
+// The page in use: opening, typing, errors, saved state, undo, changes by others.
 import assert from "node:assert/strict";
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "playwright-core";
@@ -57,7 +57,7 @@ inBrowser("the history survives a reload, and not a change of others meanwhile",
   await isSaved();
   await page.goto("about:blank");
   await write("plan.afp", PLAN);
-  // The folder is looked at twice a second.
+  // The folder is checked twice a second.
   await page.waitForTimeout(1200);
   await page.goBack();
   await page.locator(".count", { hasText: "ready" }).waitFor();
@@ -105,7 +105,7 @@ inBrowser("completion writes a whole element, a fix mends a mistake, a name is c
   await page.locator(".cm-tooltip-autocomplete li", { hasText: "Turn" }).first().click();
   await page.locator(".cm-line", { hasText: "TurnSuccessful ->" }).waitFor();
   await shows(page.locator(".cm-content"), /\n    actor turn: Turn \{\n        TurnSuccessful -> /);
-  // The element, then the line and what was typed in it.
+  // The element, then the line with the typed text.
   await page.keyboard.press("Control+z");
   await page.keyboard.press("Control+z");
   await holds("plan.afp", PLAN.replaceAll("go", "drive"));
@@ -132,7 +132,7 @@ for (const colorScheme of ["light", "dark"] as const) {
   inBrowser(`axe has nothing serious to say, ${colorScheme}`, files, async ({ page }) => {
     const clean = async (where: string): Promise<void> => {
       const axe = new AxeBuilder({ page });
-      // Between light and dark nothing differs but colours.
+      // Light and dark mode differ only in colours.
       const { violations } = await (colorScheme === "dark" ? axe.withRules(["color-contrast"]) : axe).analyze();
       const bad = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
       assert.deepEqual(bad.map(({ id, nodes }) => `${where}: ${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
@@ -184,7 +184,7 @@ inBrowser("a template has a page with all of its ports and states", { "plan.afp"
   await book.waitFor({ state: "detached" });
 });
 
-/** What has the focus after a key and before the next frame. */
+/** The focused element after a key and before the next frame. */
 const focusAfter = (page: Page, init: { key: string; ctrlKey?: boolean }): Promise<string | null> =>
   page.evaluate(async (init) => {
     document.activeElement!.dispatchEvent(new KeyboardEvent("keydown", { ...init, bubbles: true, cancelable: true }));
@@ -209,7 +209,7 @@ inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLA
   await page.keyboard.press("Control+Shift+M");
   await page.locator(".pane.bottom").waitFor();
   const reached = new Set<string>();
-  // All the way round: the bar, palette, drawing, world, text and problems.
+  // The full circle: bar, palette, drawing, world, text and problems.
   for (let step = 0; step < 6; step++) {
     await page.keyboard.press("F6");
     reached.add(await page.evaluate(() => document.activeElement?.closest("[data-pane], .bar")?.getAttribute("aria-label") ?? "bar"));

@@ -1,14 +1,14 @@
-// The paper's plan from an empty file by a hand that presses: with fingers, and with the mouse.
+// The paper's plan from an empty file, by touch and by mouse.
 import assert from "node:assert/strict";
 import type { Locator, Page } from "playwright-core";
 
 export const PLAN = "WallFollowing";
 
-/** How a hand presses: what differs between a finger and a mouse. */
+/** The differences between a finger and a mouse. */
 export interface Pointer {
   press(part: Locator): Promise<void>;
   pressAt(x: number, y: number): Promise<void>;
-  /** Opens the menu of what is there. */
+  /** Opens the context menu. */
   menuAt(x: number, y: number): Promise<void>;
 }
 
@@ -55,7 +55,7 @@ export async function follow(hand: Hand): Promise<void> {
   await hand.connect("NoWallFound", "turnAfterWallLost");
 }
 
-/** What a person does with a finger or the mouse; names, help and formulas are typed. */
+/** Actions of a user with a finger or the mouse; names, help and formulas are typed. */
 export class Hand {
   constructor(private readonly page: Page, private readonly read: () => Promise<string>, private readonly pointer: Pointer) {}
 
@@ -65,12 +65,12 @@ export class Hand {
     assert.match(await this.read(), new RegExp(wanted));
   }
 
-  /** Waits until something is selected. */
+  /** Waits until an item is selected. */
   private async stands(name: string | RegExp): Promise<void> {
     await this.page.locator(".inspector-head strong", { hasText: name instanceof RegExp ? name : new RegExp(`^${name}$`) }).waitFor();
   }
 
-  /** Selects an element in the drawing, all of which is brought into sight before. */
+  /** Scrolls an element into view and selects it. */
   async on(name: string): Promise<void> {
     await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
     const box = (await this.page.locator(`.node [data-item="${PLAN}.${name}"] text.name`).first().boundingBox())!;
@@ -78,7 +78,7 @@ export class Hand {
     await this.stands(name);
   }
 
-  /** Taps the ground: nothing is selected. */
+  /** Taps the ground, which clears the selection. */
   async ground(): Promise<void> {
     await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
     const board = (await this.page.locator(".board").boundingBox())!;
@@ -86,7 +86,7 @@ export class Hand {
     await this.stands(PLAN);
   }
 
-  /** A field of the form. */
+  /** Fills a field of the inspector. */
   private async field(label: string, text: string, wanted: string): Promise<void> {
     await this.page.locator(".inspector").getByLabel(label, { exact: true }).fill(text);
     await this.page.keyboard.press("Enter");
@@ -96,7 +96,7 @@ export class Hand {
   help = (text: string): Promise<void> => this.field("Help", text, text);
   timing = (every: string): Promise<void> => this.field("every", every, `every ${every}`);
 
-  /** The menu of the start has it. */
+  /** Adds an entry from the menu of the start. */
   async entry(line: string): Promise<void> {
     const start = (await this.page.locator(`.node [data-item="${PLAN}.start"] text.start`).boundingBox())!;
     await this.pointer.menuAt(start.x + start.width / 2, start.y + start.height / 2);
@@ -128,7 +128,7 @@ export class Hand {
     await list.waitFor({ state: "detached" });
   }
 
-  /** Leads an exit to a new element. */
+  /** Connects an exit to a new element. */
   async create(exit: string, template: string, name: string): Promise<void> {
     await this.then(exit, `new: ${template}`);
     await this.rename(template, name);
@@ -150,7 +150,7 @@ export class Hand {
     await this.has(`${port} = ${value}`);
   }
 
-  /** Writes an output into an entry. */
+  /** Binds an output to an entry. */
   async write(port: string, entry: string): Promise<void> {
     await this.port(port);
     await this.pointer.press(this.page.locator(".inspector .value .entry-chip", { hasText: entry }));

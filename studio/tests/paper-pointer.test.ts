@@ -1,4 +1,5 @@
-// The paper's plan from an empty file by fingers and by the mouse, names, help and formulas typed. It ends in the words of the plan.
+// The paper's plan from an empty file, by touch and by mouse, with names, help and formulas typed.
+// The result equals the plan's text.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import type { BrowserContextOptions, Page } from "playwright-core";
@@ -8,7 +9,7 @@ import { follow, Hand, PLAN, search, type Pointer } from "./paper-hand";
 const fingers = (page: Page): Pointer => ({
   press: (part) => part.tap(),
   pressAt: (x, y) => page.touchscreen.tap(x, y),
-  // A finger that rests opens the menu.
+  // A resting finger opens the menu.
   menuAt: async (x, y) => {
     const client = await page.context().newCDPSession(page);
     await client.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });

@@ -1,5 +1,6 @@
-// The paper's plan from an empty file by keys alone, names, help and formulas typed. It ends in the words of the plan: the
-// engine writes short bodies in one line, and the formatter leaves lines where they are.
+// The paper's plan from an empty file by keyboard only, with names, help and formulas typed. The
+// result equals the plan's text, apart from line breaks: the engine writes short bodies on one
+// line, and the formatter keeps lines.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import type { Page } from "playwright-core";
@@ -88,7 +89,7 @@ async function follow(hands: Hands): Promise<void> {
   await hands.connect("NoWallFound", "turnAfterWallLost", "NoWallFound\\s+-> turnAfterWallLost");
 }
 
-/** What a person does with the keys; each change is waited for in the file. */
+/** Actions of a user with the keyboard; each waits for the change in the file. */
 class Hands {
   constructor(private readonly page: Page, private readonly read: () => Promise<string>) {}
 
@@ -102,7 +103,7 @@ class Hands {
     assert.match(await this.read(), new RegExp(wanted));
   }
 
-  /** Waits until something is selected. */
+  /** Waits until an item is selected. */
   async stands(name: string): Promise<void> {
     await this.page.locator(".inspector-head strong", { hasText: new RegExp(`^${name}$`) }).waitFor();
   }
@@ -138,7 +139,7 @@ class Hands {
     await this.rename(Hands.wish(template), name);
   }
 
-  /** Leads an exit to a new element. */
+  /** Connects an exit to a new element. */
   async create(exit: string | null, template: string, name: string): Promise<void> {
     await this.key("c");
     if (exit) await this.choose(exit, exit);
@@ -169,7 +170,7 @@ class Hands {
     await this.page.locator(".value-popup").waitFor({ state: "detached" });
   }
 
-  /** Writes an output into an entry: its button has the focus. */
+  /** Binds an output to an entry; its button has the focus. */
   async write(port: string, entry: string): Promise<void> {
     await this.port(port);
     await this.page.locator(".value-popup button:focus", { hasText: entry }).waitFor();

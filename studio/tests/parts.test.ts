@@ -1,4 +1,4 @@
-// Small parts without a page: positions, Markdown, names of keys, commands, the socket.
+// Units without a page: positions, Markdown, names of keys, commands, the socket.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { command, commandFor, commands, isForField, keyName } from "../page/screen/commands";
@@ -63,7 +63,7 @@ test("letters act in the drawing alone; a command of the same name takes the pla
   assert.deepEqual(matching("", commands.value).length, 2);
 });
 
-/** Sockets of a server that answers when told to. */
+/** Sockets of a server that answers on request. */
 class Server {
   sockets: (Socket & { sent: any[] })[] = [];
   make = (): Socket => {

@@ -1,4 +1,4 @@
-// Two people in one folder: one changes it, the other watches, and may take over.
+// Two users in one folder: one edits, the other watches, and may take over.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { inBrowser } from "./browser";
@@ -11,7 +11,7 @@ const openText = async (page: Page): Promise<void> => {
 };
 
 const type = async (page: Page, words: string): Promise<void> => {
-  // A page behind another one draws no frames.
+  // A background page draws no frames.
   await page.bringToFront();
   await page.locator(".cm-line", { hasText: "start go" }).click();
   await page.keyboard.press("End");
@@ -22,7 +22,7 @@ inBrowser("one changes, the other watches; who takes the pen begins a history of
   await openText(page);
   const other = await page.context().newPage();
   await other.goto(new URL("/", page.url()).href);
-  // The browser remembers which panes are open.
+  // The browser remembers the open panes.
   await other.locator(".cm-content").waitFor();
   const banner = (who: Page) => who.getByText("Another window edits this folder. This one is read-only.");
   await banner(other).waitFor();
@@ -41,7 +41,7 @@ inBrowser("one changes, the other watches; who takes the pen begins a history of
   await page.locator(".cm-line", { hasText: "// two" }).waitFor();
   await type(page, " // three");
   assert.equal(await page.locator(".cm-line", { hasText: "three" }).count(), 0);
-  // A page that is loaded anew still has the pen.
+  // A reloaded page keeps the edit lock.
   await other.reload();
   await other.locator(".cm-line", { hasText: "// two" }).waitFor();
   assert.deepEqual([await banner(page).count(), await banner(other).count()], [1, 0]);

@@ -1,4 +1,4 @@
-// Two write one text at once, and messages take their time: what each of them wrote is in the text that both have in the end.
+// Two concurrent writers with delayed messages: the final text of both has the changes of each.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { signal } from "@preact/signals";
@@ -12,10 +12,10 @@ import { random } from "./random";
 
 const URI = "file:///w/two.afp";
 
-/** A room to which messages, and from which, are under way until they are let through. */
+/** A room whose messages are delayed in both directions until released. */
 class SlowRoom {
   text = "one\ntwo\nthree\nfour\n";
-  /** The text that the page has told. */
+  /** The text known from the page. */
   theirs = this.text;
   seen = 0;
   told = 0;
@@ -45,7 +45,7 @@ class SlowRoom {
     if (said) this.takers.get("afp/changed")!(said);
   }
 
-  /** Another program writes. */
+  /** A change by another program. */
   outside(from: number, to: number, insert: string): void {
     this.text = this.text.slice(0, from) + insert + this.text.slice(to);
     this.toPage.push({ uri: URI, text: this.text, clean: true, version: this.seen, number: ++this.told });
@@ -66,7 +66,7 @@ test("letters under way stay where they were typed, around what another program 
   typed([{ uri: URI, from: 7, to: 7, insert: "A" }]);
   room.hear();
   typed([{ uri: URI, from: 8, to: 8, insert: "B" }]);
-  // It writes at both ends, and knows the first letter alone.
+  // It writes at both ends, and knows only the first letter.
   room.outside(room.text.length, room.text.length, "five\n");
   room.outside(0, 3, "1");
   room.say();
@@ -137,7 +137,7 @@ test("the difference of two texts makes one of the other, and leaves lines betwe
   }
   const [before, after] = ["one\ntwo\nthree\nfour\n", "1\ntwo\nthree\nfour!\n"];
   assert.deepEqual(difference("u", before, after), [{ uri: "u", from: 18, to: 18, insert: "!" }, { uri: "u", from: 0, to: 3, insert: "1" }]);
-  // No half of a letter is sent.
+  // No half of a surrogate pair is sent.
   assert.deepEqual(difference("u", "a😀b", "a😁b"), [{ uri: "u", from: 1, to: 3, insert: "😁" }]);
   const many = (word: string) => Array.from({ length: 3000 }, (_, line) => `${word}${line}\n`).join("");
   assert.equal(applied(many("a"), many("b")), many("b"));

@@ -1,5 +1,5 @@
-// Pictures of what is on the screen, compared with those of the checkout. `AFP_SCREENS=1` compares; with `AFP_BLESS=1` they are
-// written anew.
+// Compares screenshots with those of the checkout. `AFP_SCREENS=1` compares; with `AFP_BLESS=1`
+// they are rewritten.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
@@ -9,14 +9,14 @@ import { fileURLToPath } from "node:url";
 import type { Page } from "playwright-core";
 
 const ROOT = join(dirname(fileURLToPath(import.meta.url)), "../..");
-/** How far a colour may be off before its pixel counts, of 255; and how many pixels may count. */
+/** Permitted difference of a colour, of 255, and permitted number of differing pixels. */
 const FAR = 40;
 const MOST = 0.01;
 
-/** Whether pictures are compared or made. */
+/** Whether screenshots are compared or rewritten. */
 export const compared = Boolean(process.env.AFP_SCREENS || process.env.AFP_BLESS);
 
-/** The part of all pixels in which two pictures differ; 1 where their sizes do. */
+/** The share of differing pixels; 1 for different sizes. */
 const differing = (page: Page, one: Buffer, other: Buffer): Promise<number> =>
   page.evaluate(
     async ([urls, far]) => {
@@ -42,7 +42,7 @@ const differing = (page: Page, one: Buffer, other: Buffer): Promise<number> =>
     [[one, other].map((bytes) => `data:image/png;base64,${bytes.toString("base64")}`), FAR] as const,
   );
 
-/** Compares what is on the screen with a picture of the checkout. */
+/** Compares the screen with a screenshot of the checkout. */
 export async function looksLike(page: Page, name: string): Promise<void> {
   await page.evaluate(() => Promise.all(document.getAnimations().map((motion) => motion.finished.catch(() => {}))));
   const now = await page.screenshot({ animations: "disabled", caret: "hide" });

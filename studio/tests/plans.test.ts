@@ -1,4 +1,4 @@
-// Plans of a file that get other names, or go, while they are shown.
+// Plans that are renamed or removed while they are shown.
 import assert from "node:assert/strict";
 import { inBrowser, shows } from "./browser";
 
@@ -18,7 +18,7 @@ inBrowser("a plan that is renamed or removed while it is shown leaves no dead dr
   for (const key of ["ArrowLeft", "ArrowLeft", "Backspace", "C"]) await page.keyboard.press(key);
   await page.locator('.node [data-item="C.two"]').first().waitFor();
   await shows(crumbs, /C/);
-  // What is asked for by its name is there.
+  // The requested plan is shown.
   await board.focus();
   await page.keyboard.press("Control+a");
   await page.keyboard.press("f");
@@ -26,7 +26,7 @@ inBrowser("a plan that is renamed or removed while it is shown leaves no dead dr
   await page.getByRole("button", { name: /^Undo: (typing|deleting)/ }).click();
   await page.getByRole("button", { name: /^(Undo: (typing|deleting)|Nothing to undo)/ }).click({ timeout: 1000 }).catch(() => {});
   await page.locator('.node [data-item="B.two"]').first().waitFor();
-  // Another program removes it: the first one is shown.
+  // Another program removes it: the first plan is shown.
   await isSaved();
   await write("plan.afp", `use std\n${plan("A", "one")}`);
   await page.locator('.node [data-item="A.one"]').first().waitFor();

@@ -1,4 +1,4 @@
-// What sensors say while a plan runs: on the floor, as a list, as curves over the time of the run.
+// Sensor values during a run: on the floor, as a list, as curves.
 import AxeBuilder from "@axe-core/playwright";
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -24,7 +24,7 @@ inBrowser("what sensors say is seen on the floor, in a list and as curves", { "w
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
   await page.getByRole("button", { name: "Do not plot walldist" }).click();
   assert.equal(await page.locator(".plot-lane").count(), 1);
-  // Another moment shows what was said then.
+  // Another moment shows the values of that time.
   await page.keyboard.press("F8");
   await page.locator(".clock.held").waitFor();
   await page.locator(".ruler").focus();

@@ -1,4 +1,4 @@
-// Numbers that look random and are the same in every run.
+// Reproducible pseudo-random numbers.
 
 export function random(seed: number): (below: number) => number {
   let state = seed >>> 0;

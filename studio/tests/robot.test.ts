@@ -1,4 +1,4 @@
-// A folder that brings a robot of its own: nothing of it is built or run before somebody trusts it.
+// A folder with its own robot: nothing is built or run before it is trusted.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -43,16 +43,16 @@ inBrowser("a robot of the folder is built and run once it is trusted, and not be
   assert.equal(await page.locator(".clock").count(), 0);
   assert.equal(await read("target/CACHEDIR.TAG"), "");
 
-  // There is no such crate: what is wrong with it is said, and nothing has started.
+  // The crate does not exist: the error is shown, and nothing has started.
   await page.getByRole("button", { name: "Try again" }).click();
   await question.getByRole("button", { name: "Trust it" }).click();
   await shows(page.locator(".world .empty"), /cannot be (built|shown)/);
 }, { timeout: 200_000 });
 
-/** The example with a robot of its own, which takes minutes to be built: looked at by night. */
+/** The example with its own robot, which takes minutes to build: only tested at night. */
 const VACUUM = fileURLToPath(new URL("../../examples/vacuum", import.meta.url));
 
-/** Its files, the crates of AFP by where they are. */
+/** Its files, with paths to AFP's crates. */
 function vacuum(): Record<string, string> {
   const names = readdirSync(VACUUM, { recursive: true, encoding: "utf8" }).filter((name) => /\.(afp|rs|toml|txt)$/.test(name) && !name.startsWith("target"));
   const crates = fileURLToPath(new URL("../../crates/", import.meta.url));
@@ -66,7 +66,7 @@ if (process.env.AFP_ROBOT) {
     await page.getByRole("dialog").getByRole("button", { name: "Trust it" }).click();
     await page.waitForFunction(() => /^[\d.]+ s$/.test(document.querySelector(".clock")?.textContent ?? ""), undefined, { timeout: 900_000 });
     await page.locator(".world svg").first().waitFor();
-    // What it has is on the page, and nothing of the Carbot.
+    // The page shows this robot's parts and none of the Carbot's.
     await shows(page.locator(".world"), /halt[^]*left[^]*right/);
     await page.locator(".sensors summary").click();
     await shows(page.locator(".sensors"), /cliff/i);

@@ -1,4 +1,5 @@
-// Runs in the page: the plan drives the simulated robot, the drawing shows where it is, its end is a card of sentences.
+// Runs in the page: the plan drives the simulated robot, the drawing shows its state, a card shows
+// its end.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
@@ -102,7 +103,7 @@ inBrowser("a change of the text during a run marks it as older", { "plan.afp": P
   await page.keyboard.type(" // now");
   const older = page.getByRole("button", { name: /The plan has changed since this run started/ });
   await shows(older, /plan changed/);
-  // What is taken back is the text that runs.
+  // After undo, the text equals the running text.
   await page.keyboard.press("Control+z");
   await older.waitFor({ state: "detached" });
   await page.keyboard.press("Control+Shift+z");

@@ -1,5 +1,5 @@
-// What people see, compared with pictures that somebody has looked at: the whole page in each look, and the picture of the
-// README, which is made here.
+// Screenshots of the whole page in each look, compared with reviewed ones; also makes the README's
+// picture.
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { inBrowser } from "./browser";
 import { compared, looksLike } from "./pictures";
@@ -16,10 +16,10 @@ const LOOKS: Record<string, BrowserContextOptions> = {
   phone: { viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true },
 };
 
-/** The looks in which an empty folder is looked at, too. */
+/** The looks in which the empty folder is also tested. */
 const FIRST = ["light", "phone"];
 
-/** The page is at rest: nothing travels, nothing is asked for. */
+/** Waits until the page is idle: no animation and no request. */
 async function rests(page: Page): Promise<void> {
   await page.locator(".node text").first().waitFor();
   await page.locator(".floor .robot").waitFor({ state: "attached" });
@@ -27,13 +27,12 @@ async function rests(page: Page): Promise<void> {
   await page.waitForTimeout(500);
 }
 
-/** Begins with an example. */
 async function example(page: Page, name: string): Promise<void> {
   await page.locator(".card", { hasText: name }).click();
   await rests(page);
 }
 
-/** Runs until an element that is stopped at: always the same moment. */
+/** Runs to a breakpoint at an element: always the same moment. */
 async function held(page: Page, element: string): Promise<void> {
   const { x, y } = (await page.locator(".node text.name", { hasText: element }).first().boundingBox())!;
   await page.mouse.click(x + 6, y + 6);
@@ -48,7 +47,7 @@ for (const [look, options] of compared ? Object.entries(LOOKS) : []) {
     const heading = page.locator("h1");
     await heading.waitFor();
     await page.waitForTimeout(1000);
-    // The folder of a test is called otherwise each time.
+    // The name of the test folder varies.
     await heading.evaluate((node, name) => (node.textContent = node.textContent!.replace(name, "my-robot")), folder.split("/").at(-1)!);
     if (FIRST.includes(look)) await looksLike(page, `${PICTURES}/welcome-${look}.png`);
     await example(page, "Wall following");
@@ -60,7 +59,7 @@ if (compared) {
   inBrowser("the picture of the README is what one sees", {}, async ({ page }) => {
     await example(page, "Avoid obstacle");
     await held(page, "arrive");
-    // To what was active before: the sub-plan that leads round the obstacle.
+    // Goes back to the previously active sub-plan, which avoids the obstacle.
     await page.keyboard.press("Shift+F10");
     await page.locator(".run-active").first().waitFor({ state: "attached" });
     await page.keyboard.press("Control+k");

@@ -1,9 +1,8 @@
-// The session of the page "Debug a plan" of the book, step by step, and its picture.
+// The session of the book's page "Debug a plan", step by step, and its picture.
 import type { Page } from "playwright-core";
 import { explained, inBrowser, shows } from "./browser";
 import { compared, looksLike } from "./pictures";
 
-/** Selects an element of the drawing. */
 async function select(page: Page, name: string): Promise<void> {
   const { x, y } = (await page.locator(".node text.name", { hasText: name }).first().boundingBox())!;
   await page.mouse.click(x + 6, y + 6);

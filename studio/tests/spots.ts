@@ -1,10 +1,10 @@
-// Where things of the drawing are on the screen, for tests that press on them.
+// Screen positions of the drawing's items, for tests that press on them.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 
 export type Spot = [x: number, y: number];
 
-/** The middle of something drawn. */
+/** The middle of an item. */
 export async function middle(page: Page, selector: string): Promise<Spot> {
   const box = await page.locator(selector).first().boundingBox();
   assert.ok(box, selector);

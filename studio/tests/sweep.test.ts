@@ -1,4 +1,4 @@
-// The map of what a sweep came to, without a page and on it.
+// The outcome map of a sweep, without a page and on it.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { inBrowser, shows } from "./browser";
@@ -40,7 +40,7 @@ test("what all runs came to is said of all of them, also of those that are not l
   const lines = [run(0, "ok", 0), { summary }];
   assert.deepEqual(sumOf(lines), summary);
   assert.deepEqual(countedAll(runsOf(lines), sumOf(lines)), [{ ending: "ok", count: 7 }, { ending: "error", count: 2 }]);
-  // Of a sweep that was killed nobody says it.
+  // A killed sweep has no summary.
   assert.deepEqual([sumOf([run(0, "ok", 0)]), sumOf([]), countedAll([run(0, "ok", 0)], null)], [null, null, [{ ending: "ok", count: 1 }]]);
 });
 

@@ -1,4 +1,4 @@
-// What is in the way is said in the words of the page, at its place, and no longer than it is there.
+// Messages: in the page's terms, at their place, and only as long as the problem exists.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { nameFor } from "../page/drawing/first";
@@ -104,14 +104,14 @@ inBrowser("a name that cannot be is told why and stays to be mended, wherever it
   await field.fill("groesse");
   await page.keyboard.press("Enter");
   await studio.becomes("plan.afp", /actor groesse: Wait/);
-  // Escape gives it up, wherever the focus is.
+  // Escape cancels it, wherever the focus is.
   await page.mouse.dblclick(...(await middle(page, name("Inner.groesse"))));
   await field.fill("1x");
   await page.mouse.click(...(await middle(page, ".count")));
   await page.locator(".board").focus();
   await page.keyboard.press("Escape");
   await field.waitFor({ state: "detached" });
-  // An entry, too.
+  // Also for an entry.
   await page.locator(".board").focus();
   await page.keyboard.press("e");
   const line = page.locator("dialog input");

@@ -1,4 +1,4 @@
-// The drawing by fingers: every drag has a twin of taps, one finger pans, two zoom.
+// The drawing by touch: every drag has an alternative by taps, one finger pans, two zoom.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { inBrowser } from "./browser";

@@ -1,9 +1,8 @@
-// What no server took: kept by page, offered once, never instead of what the file has already.
+// Unsent texts: stored per page, offered once, never if equal to the file.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { claim, keep, kept } from "../page/documents/unsent";
 
-/** The storage of a browser. */
 function storage() {
   const all = new Map<string, string>();
   return {

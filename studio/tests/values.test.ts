@@ -1,4 +1,4 @@
-// Values are kept however a field is left; what cannot be written stays there, marked; Escape alone discards.
+// Leaving a field in any way writes the value; invalid values stay, marked; only Escape discards.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { inBrowser, settled } from "./browser";
@@ -21,14 +21,14 @@ plan P {
 }
 `;
 
-/** Opens the value of a port, by a click on it; the field has the focus. */
+/** Opens the value of a port by a click; the field has the focus. */
 async function open(page: Page, item: string): Promise<void> {
   await page.locator(`.node [data-item="${item}"]`).first().waitFor();
   await page.mouse.click(...(await middle(page, `.node [data-item="${item}"] text.formula`)));
   await page.locator(".value-popup input[type=text]:focus").waitFor();
 }
 
-/** A place of the drawing with nothing on it. */
+/** An empty place of the drawing. */
 const ground = [900, 690] as const;
 
 inBrowser("a value that was typed or stepped is written when its field is left", { "plan.afp": PLAN }, async (studio) => {
@@ -42,7 +42,7 @@ inBrowser("a value that was typed or stepped is written when its field is left",
   await page.locator(".value-popup").getByRole("button", { name: "more" }).click();
   await page.mouse.click(...ground);
   await studio.becomes("plan.afp", /angle = -(?!75)\d+ deg/);
-  // Onto another element, and by Tab out of it.
+  // By a click on another element, and by Tab.
   await open(page, "P.turn");
   await page.keyboard.type("10 deg");
   await page.mouse.click(...(await middle(page, name("P.go"))));
@@ -60,7 +60,7 @@ inBrowser("what cannot be written stays in its field, marked, and nothing is wri
   await page.locator('.value-popup input[aria-invalid="true"]').waitFor();
   assert.equal(await field.inputValue(), "90 +");
   assert.equal(await read("plan.afp"), PLAN);
-  // It is still there after another one was open.
+  // It is kept while another value is open.
   await open(page, "P.go");
   await page.keyboard.press("Escape");
   await open(page, "P.turn");

@@ -1,4 +1,5 @@
-// The world without a page: what a picture holds, the path in pieces, the robot between two poses.
+// The world without a page: the content of a picture, the path in pieces, the robot between two
+// poses.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { extended, frame, middle, placed, placeOf, points, scaleIn, viewBox, type Path, type Point, type World } from "../page/world/geometry";
