@@ -100,9 +100,17 @@ pub enum Change {
         to: String,
     },
     /// Renames a column of a table and its bindings in all files.
-    RenameColumn { table: String, column: String, to: String },
+    RenameColumn {
+        table: String,
+        column: String,
+        to: String,
+    },
     /// Renames a value of an enum in all files.
-    RenameValue { enumeration: String, value: String, to: String },
+    RenameValue {
+        enumeration: String,
+        value: String,
+        to: String,
+    },
     /// Connects a state or event, or changes its target.
     Connect {
         #[serde(with = "wire")]
@@ -118,7 +126,10 @@ pub enum Change {
         from: Item,
         outcome: String,
     },
-    SetStart { plan: String, to: String },
+    SetStart {
+        plan: String,
+        to: String,
+    },
     /// Moves an item before another one of its list, or after the last of its kind.
     Reorder {
         #[serde(with = "wire")]

@@ -30,7 +30,7 @@ const FLUSH_EVERY: Span = Span::from_millis(250);
 /// The writer's pause if the queue is empty.
 const REST: Span = Span::from_micros(500);
 
-/// What to do if the writer is too slow.
+/// Behaviour if the writer is too slow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhenFull {
     /// Drop the item and count it: control must not wait for a disk.

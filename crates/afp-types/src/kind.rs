@@ -15,7 +15,7 @@ pub enum ComponentKind {
     Supervisor,
 }
 
-/// The kind of an entry: who may set it.
+/// The kind of an entry, which decides its writers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EntryKind {
     /// Set when the plan starts.

@@ -41,7 +41,7 @@ pub trait PathPlanner {
     /// A search has panicked.
     fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault>;
 
-    /// Returns the result of a search, once; the inner `None` means that there is no path.
+    /// Returns the result of a search, once; the inner `None` means no path.
     ///
     /// # Errors
     /// The search failed, or its result was fetched before.

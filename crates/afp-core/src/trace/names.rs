@@ -80,7 +80,7 @@ pub struct ComponentName<'a> {
 pub struct EntryName<'a> {
     /// Dotted path from the outermost plan.
     pub path: &'a str,
-    /// Who may set it.
+    /// The kind, which decides its writers.
     pub kind: EntryKind,
     /// Its type in the source (`length`, `int`, `Side`).
     pub ty: &'a str,

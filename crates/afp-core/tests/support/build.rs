@@ -35,7 +35,7 @@ pub struct EntrySpec {
     pub broken: bool,
 }
 
-/// What an element or supervisor writes with one of its outcomes.
+/// Outcome of an element or supervisor, written entry, and value.
 type Write = (&'static str, &'static str, Value);
 
 #[derive(Clone)]

@@ -23,7 +23,9 @@ pub(crate) struct Mover {
 enum MovedBy {
     Scripted(Path),
     /// It is pushed; its radius of gyration is in metres and at least a centimetre.
-    Pushed { gyration: f32 },
+    Pushed {
+        gyration: f32,
+    },
 }
 
 impl Mover {
