@@ -9,7 +9,7 @@ use afp::{Callbacks, Duration, Environment, Instant, Platform, Scheduler, StillC
 // Compiles the plan into the program: the type `Patience`.
 afp::plan!("examples/patience.afp");
 
-/// A robot without any device: time passes, and there is nothing to stop.
+/// A robot without devices: time passes, and nothing needs to stop.
 struct Board(time::Instant);
 
 impl Environment for Board {
@@ -33,7 +33,7 @@ impl Platform for Board {
     }
 }
 
-/// What plans may use on this robot.
+/// Templates for this robot.
 impl Templates for Board {
     fn add_to(library: &mut Library<Self>) {
         library.register(afp_std::templates::register);
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut calls = Callbacks::new(plan.plan()).on_start("wait", |at| println!("{at} waits"))?;
     plan.run_until(&mut board, &mut calls, Instant::MAX)?;
 
-    // Who failed, and why, where one did.
+    // The failed component and its fault, if any.
     if let Some(failure) = plan.failure() {
         println!("{}", failure.named(&afp::NamedPlan::names(plan.plan())));
     }

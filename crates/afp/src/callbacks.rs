@@ -1,4 +1,4 @@
-//! Functions that are called when something of a plan happens, by name.
+//! Callbacks for events of a plan, by name.
 
 use std::fmt;
 
@@ -9,10 +9,10 @@ use afp_core::trace::{
     ComponentId, ComponentKind, Names, Outcome, Record, Sink, TraceEntryId, declared,
 };
 
-/// A sink that calls functions when a component starts, reports a state or an event, or an entry
-/// changes. Several functions for one thing are called in the order in which they were given.
+/// A sink that calls functions when a component starts or reports a state or event, or when an
+/// entry changes. Several functions for one event are called in the order of registration.
 ///
-/// They run within a step: they must not block, and they are told before the step is over.
+/// They run within a step, before its end, and must not block.
 ///
 /// ```ignore
 /// let mut calls = Callbacks::new(plan.plan())
@@ -31,28 +31,28 @@ enum Call<'a> {
     Write(TraceEntryId, Box<dyn FnMut(Instant, ValueRef<'_>) + 'a>),
 }
 
-/// The plan has nothing of that name.
+/// The plan has nothing with this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName {
-    /// What has nothing of that name: the plan, or a component.
+    /// The plan or component.
     owner: String,
-    /// What was looked for: a component, a state or event, an entry.
+    /// The kind: a component, a state or event, an entry.
     what: &'static str,
     name: String,
-    /// The names that there are.
+    /// The existing names.
     known: Vec<String>,
 }
 
 impl<'a, N: Names> Callbacks<'a, N> {
-    /// No functions yet, for a plan.
+    /// An empty set of callbacks for a plan.
     pub fn new(plan: &impl NamedPlan<Names = N>) -> Self {
         Callbacks { names: plan.names(), calls: Vec::new() }
     }
 
-    /// Calls a function when a component reports a state or an event. A component goes by its path:
-    /// `go` for an element, `go.touch` for its supervisor, `patrol.go` for one of a sub-plan; a
-    /// sub-plan's states are `OK` and `Interrupted`. Every component also has `Error`, its faults, and a supervisor
-    /// `DeadlineMissed`, whether the plan leads them anywhere or not.
+    /// Calls a function when a component reports a state or an event. Components are named by their
+    /// path: `go` for an element, `go.touch` for its supervisor, `patrol.go` in a sub-plan. A
+    /// sub-plan's states are `OK` and `Interrupted`. Every component also has `Error`, and a
+    /// supervisor `DeadlineMissed`, even if unconnected.
     ///
     /// # Errors
     /// [`UnknownName`]; the component or its outcome.
@@ -110,7 +110,7 @@ impl<'a, N: Names> Callbacks<'a, N> {
         Ok(self)
     }
 
-    /// All that a component can report.
+    /// Everything that a component can report.
     fn outcomes(&self, id: ComponentId) -> Vec<(Outcome, &str)> {
         let own = declared(&self.names, id);
         let is_supervisor = self.names.component(id).kind == ComponentKind::Supervisor;
@@ -137,7 +137,7 @@ impl<N> Sink for Callbacks<'_, N> {
                 Call::Start(id, call) if *id == component => call(at),
                 _ => {}
             }),
-            // It has been told when it was missed.
+            // Already reported by the record of the miss.
             Record::Event { event: Outcome::DeadlineMissed, .. } => {}
             Record::Event { supervisor: component, event: outcome, .. }
             | Record::Finished { element: component, state: outcome } => {

@@ -1,8 +1,7 @@
-//! What users name in Cargo.toml: the run time, the macros, and plans loaded at run time.
+//! The dependency for users: the run time, the macros, and plans loaded at run time.
 //!
-//! A plan known when a program is built is best compiled in, by [`plan!`]; a plan that comes as a
-//! file at run time is loaded by [`load()`]. Both are driven by a [`Scheduler`] on a [`Platform`]. A
-//! whole program, with a plan that only waits:
+//! [`plan!`] compiles a plan into the program; [`load()`] loads a plan file at run time. A
+//! [`Scheduler`] drives both on a [`Platform`]. A whole program, with a plan that only waits:
 //!
 //! ```text
 #![doc = include_str!("../examples/patience.afp")]
@@ -14,10 +13,10 @@
 //! ```
 //!
 //! - Values of entries: [`Scheduler::set`], [`Scheduler::set_named`], [`Scheduler::get`].
-//! - Time: [`Scheduler::run`], [`Scheduler::run_until`]; in a loop of one's own [`Scheduler::start`] and
+//! - Time: [`Scheduler::run`], [`Scheduler::run_until`]; in your own loop [`Scheduler::start`] and
 //!   [`Scheduler::step`].
-//! - What happens: [`Callbacks`] by name, [`trace::Observe`] for every record.
-//! - Templates of one's own: [`toolbox!`], [`Actor`], [`Supervisor`], [`Computation`].
+//! - Events: [`Callbacks`] by name, [`trace::Observe`] for every record.
+//! - Your own templates: [`toolbox!`], [`Actor`], [`Supervisor`], [`Computation`].
 //! - Tests: [`scenarios!`].
 #![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -43,12 +42,13 @@ pub use afp_macros as macros;
 
 /// Compiles the first plan of a file into the program.
 ///
-/// `afp::plan!("plans/wall_following.afp")`, with a path relative to the crate's manifest, makes a
-/// module for each plan of the file that is used, and brings the plan's type (`WallFollowing`)
-/// into scope: a typed plan with `new`, a getter for each entry and a setter for each `in` entry,
-/// to be driven by a [`Scheduler`]. Toolboxes that are not built in are found through `afp.toml`,
-/// beside the manifest or above. The crates of the toolboxes in use (`afp-carbot`, `afp-std`, one's
-/// own) must be dependencies. A mistake in the plan is a compile error at its place in the plan.
+/// `afp::plan!("plans/wall_following.afp")`, with a path relative to the crate's manifest,
+/// generates a module for each used plan of the file, and brings the plan's type (`WallFollowing`)
+/// into scope: a typed plan with `new`, a getter for each entry and a setter for each `in` entry.
+/// Drive it with a [`Scheduler`]. Other toolboxes than the built-in ones are found through the
+/// `afp.toml` in the manifest's folder or above. The crates of the used toolboxes (`afp-carbot`,
+/// `afp-std`, your own) must be dependencies. An error in the plan is a compile error with its
+/// place in the plan.
 #[macro_export]
 macro_rules! plan {
     ($($arguments:tt)*) => {
@@ -56,15 +56,15 @@ macro_rules! plan {
     };
 }
 
-/// Makes a `#[test]` of each scenario of a file or of the files of a folder.
+/// Generates a `#[test]` for each scenario of a file or folder.
 ///
-/// `afp::scenarios!("plans/tests")`, with a path relative to the crate's manifest, belongs into a test;
-/// `afp-test`, and `afp-sim` with its feature `load`, must be dev-dependencies. Behind the path may stand the functions
-/// that register the templates of toolboxes of one's own: `afp::scenarios!("tests", gripper::templates::register)`.
-/// With `afp::scenarios!("tests", robot = vacuum::Vacuum)` they run on another robot, with the toolboxes that the plans
-/// use; `afp-session` with its feature `load` takes the place of `afp-sim`. A
-/// mistake in a scenario is a compile error; a failed one panics with what broke and the timeline around
-/// it. A new file in the folder is seen when the test is next compiled.
+/// `afp::scenarios!("plans/tests")`, with a path relative to the crate's manifest, belongs into a
+/// test. `afp-test`, and `afp-sim` with its feature `load`, must be dev-dependencies. Functions
+/// that register your own toolboxes follow the path: `afp::scenarios!("tests",
+/// gripper::templates::register)`. `afp::scenarios!("tests", robot = vacuum::Vacuum)` uses another
+/// robot, with the toolboxes that the plans use; `afp-session` with its feature `load` then
+/// replaces `afp-sim`. An error in a scenario is a compile error; a failed scenario panics with its
+/// violations and their timeline. New files in the folder are found at the next compilation.
 #[macro_export]
 macro_rules! scenarios {
     ($($arguments:tt)*) => {
@@ -72,17 +72,17 @@ macro_rules! scenarios {
     };
 }
 
-/// Makes typed templates from a toolbox file.
+/// Generates typed templates from a toolbox file.
 ///
-/// It belongs into a module beside the types that implement the templates under the templates'
-/// names: `pub mod templates { afp::toolbox!("signals.afp", robot: super::Lights); }`.
+/// Use it in a submodule of the module whose types implement the templates under the same names:
+/// `pub mod templates { afp::toolbox!("signals.afp", robot: super::Lights); }`.
 ///
-/// Behind the file stand the traits that a robot implements which can use every template, nothing where templates ask
-/// for none, or `robot = Bench` where they are implemented for one type alone. What is declared and not implemented for
-/// such a robot does not compile:
+/// After the file, list the traits that the templates need from a robot, or `robot = Bench` if they
+/// are implemented only for this type. Omit it if no template needs a trait. A template that is not
+/// implemented for such a robot does not compile:
 ///
 /// ```compile_fail,E0277
-/// /// The type is there, the implementation of the template is not.
+/// /// The type exists, but does not implement the template.
 /// #[derive(Clone)]
 /// pub struct Announce;
 ///

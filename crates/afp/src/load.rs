@@ -1,7 +1,7 @@
-//! Plans loaded at run time: the same scheduler over boxed components.
+//! Plans loaded at run time: the same scheduler with boxed components.
 //!
-//! A [`Registry`] knows the Rust implementation of each template; [`LoadedPlan::new`] makes an
-//! instance of a checked graph. Everything is allocated then; a step allocates nothing.
+//! A [`Registry`] has the Rust implementation of each template; [`LoadedPlan::new`] makes an
+//! instance of a checked graph. It allocates everything; a step allocates nothing.
 
 mod config;
 mod declared;
@@ -28,7 +28,7 @@ pub use plan::LoadedPlan;
 pub use registry::Registry;
 pub use slots::{ActorSlot, ComputationSlot, See, SupervisorSlot};
 
-/// Items with their 16-bit numbers, of which the tables of a plan have no more.
+/// Numbers items with 16 bits, the limit of a plan's tables.
 fn numbered<T>(items: impl IntoIterator<Item = T>) -> impl Iterator<Item = (u16, T)> {
     (0..=u16::MAX).zip(items)
 }

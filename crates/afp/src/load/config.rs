@@ -1,4 +1,4 @@
-//! The configuration of a loaded plan: committed values, and a shadow of staged ones.
+//! The configuration of a loaded plan: committed and staged values.
 
 use std::any::Any;
 
@@ -10,9 +10,9 @@ use afp_dsl::types::Type;
 
 use super::numbered;
 
-/// An object of some Rust type that only its templates know.
+/// An object whose Rust type only its templates know.
 pub trait ObjectCell: Send {
-    /// The object, while there is one.
+    /// The object, if set.
     fn get(&self) -> Option<&dyn Any>;
     /// Takes the object out of an `Option` of the same Rust type.
     fn take(&mut self, from: &mut dyn Any);
@@ -24,7 +24,7 @@ pub trait ObjectCell: Send {
     fn clear(&mut self);
     /// The cell's `Option`, for the methods above.
     fn inner(&mut self) -> &mut dyn Any;
-    /// A cell of its own with a copy of the object.
+    /// A new cell with a copy of the object.
     fn copied(&self) -> Box<dyn ObjectCell>;
 }
 
@@ -69,21 +69,20 @@ impl<T: Clone + Send + 'static> ObjectCell for Option<T> {
 /// Makes the cell of an object type.
 pub type NewCell = fn() -> Box<dyn ObjectCell>;
 
-/// All entries of one plan. The halves are apart, so that a component can read the one while its
+/// All entries of one plan. The two parts are separate, so that a component can read one while its
 /// outputs go to the other.
 #[derive(Clone)]
 pub struct Config {
-    /// What everybody reads.
+    /// The committed values.
     pub values: Values,
-    /// What the next commit writes.
+    /// The values of the next commit.
     pub staged: Staged,
 }
 
-/// The committed values.
 #[derive(Clone)]
 pub struct Values(Vec<Slot>);
 
-/// The shadow copy: values to be committed.
+/// Values to be committed.
 #[derive(Clone)]
 pub struct Staged {
     values: Vec<Option<Value>>,
@@ -98,7 +97,7 @@ struct Slot {
     value: Value,
     is_set: bool,
     object: Option<Box<dyn ObjectCell>>,
-    /// The commit by which an object was known before it was committed here.
+    /// The commit that identified an object before it was committed here.
     source: u32,
 }
 
@@ -123,7 +122,6 @@ impl Config {
         }
     }
 
-    /// Writes what is staged.
     #[inline]
     pub fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
         if self.staged.dirty {
@@ -153,13 +151,12 @@ impl Config {
 }
 
 impl Values {
-    /// The value of an entry, the type's zero while unset.
+    /// The value; the type's zero while unset.
     #[inline]
     pub fn get(&self, entry: u16) -> &Value {
         self.0.get(usize::from(entry)).map_or(&Value::Unset, |slot| &slot.value)
     }
 
-    /// The type of an entry.
     pub fn ty(&self, entry: u16) -> Option<&Type> {
         self.0.get(usize::from(entry)).map(|slot| &slot.ty)
     }
@@ -167,22 +164,20 @@ impl Values {
     /// The object of an entry.
     ///
     /// # Errors
-    /// [`Fault::UNSET`] while there is none.
+    /// [`Fault::UNSET`] if there is none.
     pub fn object(&self, entry: u16) -> Result<&dyn Any, Fault> {
         self.cell(entry).and_then(ObjectCell::get).ok_or(Fault::UNSET)
     }
 
-    /// The cell of an object entry.
     pub fn cell(&self, entry: u16) -> Option<&dyn ObjectCell> {
         self.0.get(usize::from(entry))?.object.as_deref()
     }
 
-    /// Whether anybody has written an entry.
     pub fn is_set(&self, entry: u16) -> bool {
         self.0.get(usize::from(entry)).is_some_and(|slot| slot.is_set)
     }
 
-    /// The value of an entry as a trace shows it.
+    /// The value as traced.
     pub fn show(&self, entry: u16) -> ValueRef<'_> {
         match self.0.get(usize::from(entry)) {
             Some(slot) if slot.is_set => slot.value.as_deref(),
@@ -190,8 +185,8 @@ impl Values {
         }
     }
 
-    /// Writes an entry without a commit: an input before the start, or an initial value. `object`
-    /// is what an object entry gets a copy of.
+    /// Sets an entry without a commit: an input before the start, or an initial value. An object
+    /// entry gets a copy of `object`.
     pub fn set(&mut self, entry: u16, value: Value, object: Option<&dyn ObjectCell>) {
         let Some(slot) = self.0.get_mut(usize::from(entry)) else { return };
         slot.value = value;
@@ -201,7 +196,7 @@ impl Values {
         }
     }
 
-    /// Gives an object entry, without a commit, a copy of what another one holds.
+    /// Copies an object to another entry without a commit.
     pub fn copy(&mut self, from: u16, to: u16) {
         let places = [usize::from(from), usize::from(to)];
         let Ok([from, to]) = self.0.get_disjoint_mut(places) else { return };
@@ -212,14 +207,13 @@ impl Values {
         }
     }
 
-    /// Whether a value that is passed on live is the one that was passed on last.
+    /// Whether a live value is unchanged since it was last passed.
     pub fn is_still(&self, entry: u16, passed: &Value) -> bool {
         let Some(slot) = self.0.get(usize::from(entry)) else { return true };
         let source = slot.object.as_ref().map(|_| Value::Object(slot.source));
         slot.value.as_deref().is_same(passed.as_deref()) || source.as_ref() == Some(passed)
     }
 
-    /// Makes an entry unset.
     pub fn clear(&mut self, entry: u16) {
         let Some(slot) = self.0.get_mut(usize::from(entry)) else { return };
         slot.value = zero(&slot.ty);
@@ -244,7 +238,7 @@ impl Staged {
         self.put_known(entry, 0, fill);
     }
 
-    /// Stages an object that is known by the number of a commit.
+    /// Stages an object identified by the number of a commit.
     pub fn put_known(&mut self, entry: u16, commit: u32, fill: impl FnOnce(&mut dyn ObjectCell)) {
         if let Some(Some(cell)) = self.objects.get_mut(usize::from(entry)) {
             fill(&mut **cell);
@@ -252,7 +246,6 @@ impl Staged {
         }
     }
 
-    /// Forgets what is staged.
     #[inline]
     pub fn discard(&mut self) {
         if self.dirty {
@@ -263,7 +256,7 @@ impl Staged {
     }
 }
 
-/// What unset storage holds.
+/// The value of unset storage.
 fn zero(ty: &Type) -> Value {
     match ty {
         Type::Bool => Value::Bool(false),

@@ -1,4 +1,4 @@
-//! Computations that formulas declare: what no registry has.
+//! Computations declared by formulas, which are not in a registry.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use super::slots::{ComputationSlot, See};
 /// Evaluates the formulas of a declared computation.
 pub struct DeclaredSlot {
     declared: Arc<Declared>,
-    /// Room for the values of the input ports.
+    /// Storage for the values of the input ports.
     values: RefCell<Vec<Value>>,
 }
 
@@ -26,13 +26,12 @@ struct Declared {
     cases: Vec<Ready>,
 }
 
-/// A state with its formulas ready to be evaluated.
+/// A state with its prepared formulas.
 struct Ready {
     when: Vec<(Formula, Comparison, Formula)>,
     writes: Vec<(u16, Formula)>,
 }
 
-/// The values of the input ports.
 struct Given<'a>(&'a [Value]);
 
 impl DeclaredSlot {

@@ -1,4 +1,4 @@
-//! Why a plan cannot be loaded.
+//! Errors of loading a plan.
 
 use std::fmt;
 
@@ -6,25 +6,25 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// No Rust type was registered for a template.
+    /// No Rust type is registered for a template.
     NoComponent {
         /// The toolbox.
         toolbox: String,
         /// The template.
         template: String,
     },
-    /// The platform does not have what a template asks for.
+    /// The platform lacks a trait that a template needs.
     Unsupported {
         /// The toolbox.
         toolbox: String,
         /// The template.
         template: String,
-        /// Traits that the toolbox asks for and that the platform does not all implement.
+        /// The toolbox's required traits that the platform does not implement.
         missing: Vec<&'static str>,
-        /// The first place in the plan that uses it: file, line, column.
+        /// The first use in the plan: file, line, column.
         at: String,
     },
-    /// No Rust type was registered for an object type.
+    /// No Rust type is registered for an object type.
     NoObject {
         /// The toolbox.
         toolbox: String,

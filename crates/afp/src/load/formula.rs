@@ -1,9 +1,9 @@
-//! Formulas of a loaded plan: made ready once, evaluated on the configuration.
+//! Formulas of a loaded plan: prepared once, evaluated on the configuration.
 //!
-//! The nodes are those of the graph, with conversions that have looked up what they need to know about
-//! types. The check has made every conversion a node of its own, so each operand has the type that its
-//! use needs. Anything else would be a bug of the compiler and gives [`Error::Mistyped`], not a panic.
-//! Evaluation allocates nothing.
+//! The nodes are those of the graph, with conversions whose type information is already looked up.
+//! The checker has made every conversion a separate node, so each operand has the required type.
+//! Anything else is a compiler bug and gives [`Error::Mistyped`] instead of a panic. Evaluation
+//! allocates nothing.
 
 use afp_core::Value;
 use afp_core::rt::{BadValue, finite};
@@ -16,14 +16,14 @@ use super::config::Values;
 type Node = afp_types::Node<Converter>;
 type Part<'a> = afp_types::Part<'a, Converter>;
 
-/// A formula ready to be evaluated.
+/// A prepared formula.
 pub struct Formula {
     root: Node,
     below: Box<[Node]>,
 }
 
 impl Formula {
-    /// Makes a checked formula ready.
+    /// Prepares a checked formula.
     pub fn new(formula: &graph::Formula) -> Self {
         let ready = |node: &graph::Node| Node {
             op: node.op.map(Converter::new),
@@ -35,13 +35,13 @@ impl Formula {
         Formula { root: ready(root), below: below.iter().map(ready).collect() }
     }
 
-    /// The formula as the part that is the whole of it.
+    /// The whole formula as a part.
     #[inline]
     pub fn part(&self) -> Part<'_> {
         Part { root: &self.root, below: &self.below }
     }
 
-    /// The entry, when the formula is nothing but one.
+    /// The entry, if the formula is only an entry.
     pub fn entry(&self) -> Option<u16> {
         match self.root.op {
             Op::Entry(entry) => Some(entry.0),
@@ -49,13 +49,13 @@ impl Formula {
         }
     }
 
-    /// Whether it computes a text that stands nowhere.
+    /// Whether it computes a string that is not stored in an entry or literal.
     pub fn makes_text(&self) -> bool {
         self.root.shape == Shape::Text
             && matches!(self.root.op, Op::Binary(Operator::Add) | Op::Convert(_))
     }
 
-    /// The text, when it stands somewhere.
+    /// The string, if it is stored in an entry or literal.
     pub fn borrow_text<'a>(&'a self, values: &'a Values) -> Option<&'a str> {
         match &self.root.op {
             Op::Text(text) => Some(text),
@@ -67,7 +67,7 @@ impl Formula {
         }
     }
 
-    /// The value that an entry may hold: that of the formula, if it is finite.
+    /// The value, if it is finite.
     pub fn finite(&self, values: &Values) -> Result<Value, BadValue> {
         finite(self.part().value(values)?)
     }

@@ -1,4 +1,4 @@
-//! Outcomes that tests put in the place of a component's own.
+//! Outcomes that tests inject.
 
 use std::fmt;
 
@@ -7,33 +7,33 @@ use afp_core::trace::{ComponentId, Outcome};
 
 use super::outputs::Stage;
 
-/// An outcome to be reported in place of what a component sees.
+/// An outcome to report instead of the component's own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Injection {
     /// The supervisor or actor.
     pub component: ComponentId,
-    /// Its event or state; [`Outcome::Error`] makes an actor fail, [`Outcome::DeadlineMissed`] makes the next poll of a
-    /// supervisor count as a late one.
+    /// Its event or state. [`Outcome::Error`] makes an actor fail, [`Outcome::DeadlineMissed`]
+    /// makes the next poll of a supervisor count as late.
     pub outcome: Outcome,
-    /// The outputs that come with it, by position among the template's, each of its port's type.
+    /// Its outputs, by position in the template, each of its port's type.
     pub outputs: Vec<(u16, Value)>,
 }
 
-/// What waits for the next poll of a component.
+/// The injection for a component's next poll.
 pub(super) type Injected = Option<Box<Injection>>;
 
-/// Why a component cannot be made to report something.
+/// Why an outcome cannot be injected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NotInjected {
-    /// It is not being polled.
+    /// The component is not being polled.
     NotActive,
-    /// It has not yet reported what it was made to report before.
+    /// An earlier injection is still pending.
     Waiting,
 }
 
 impl Injection {
-    /// Lets it wait in a place, unless another one waits there.
+    /// Stores the injection, unless another one is pending.
     pub(super) fn put(&self, place: &mut Injected) -> Result<(), NotInjected> {
         if place.is_some() {
             return Err(NotInjected::Waiting);

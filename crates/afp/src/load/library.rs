@@ -1,4 +1,4 @@
-//! From a plan file to a plan that runs: the texts of toolboxes, and the Rust that implements them.
+//! From a plan file to a running plan: toolbox files and their Rust implementations.
 
 use std::fmt;
 use std::io;
@@ -15,45 +15,45 @@ use super::error::LoadError;
 use super::plan::LoadedPlan;
 use super::registry::Registry;
 
-/// A platform that knows the templates that plans for it may use.
+/// A platform with the templates for its plans.
 ///
 /// ```
 /// use afp::load::{Library, Templates};
 /// # use afp::{Environment, Instant};
 /// # struct Lamp;
 /// # impl Environment for Lamp {
-/// #     fn stop(&mut self, _: Instant) {}
-/// #     fn emergency_stop(&mut self) {}
+/// # fn stop(&mut self, _: Instant) {}
+/// # fn emergency_stop(&mut self) {}
 /// # }
 ///
 /// impl Templates for Lamp {
 ///     fn add_to(library: &mut Library<Self>) {
 ///         library.register(afp_std::templates::register);
-///         // With a toolbox of its own also:
+///         // For your own toolbox, add:
 ///         // library.toolbox("signals.afp", signals::templates::SOURCE);
 ///         // library.register(signals::templates::register);
 ///     }
 /// }
 /// # let mut library = Library::<Lamp>::new();
 /// # Lamp::add_to(&mut library);
-/// # let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+/// # let plan = "use std\nplan P {\n start a\n actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
 /// # library.load_text("p.afp", plan).unwrap();
 /// ```
 pub trait Templates: Environment + Sized + 'static {
-    /// Adds the toolboxes, and what implements their templates on this platform.
+    /// Adds the toolboxes and their implementations on this platform.
     fn add_to(library: &mut Library<Self>);
 }
 
-/// The toolboxes that plans may use, and the Rust that implements their templates on platform `E`.
+/// Toolboxes, and their Rust implementations on platform `E`.
 ///
-/// The texts of the built-in toolboxes are in it from the beginning, their templates are not: which
-/// ones a platform can have depends on its devices.
+/// It starts with the built-in toolbox files but without their templates, because a platform's
+/// templates depend on its devices.
 pub struct Library<E: ?Sized + 'static> {
     toolboxes: Toolboxes,
     registry: Registry<E>,
 }
 
-/// Why a plan file does not become a plan that runs.
+/// Why a plan file cannot be loaded.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum OpenError {
@@ -61,17 +61,17 @@ pub enum OpenError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         why: io::Error,
     },
-    /// The plan has errors: the text is what `afpc check` prints, and how a toolbox that is missing comes in.
+    /// The plan has errors: the output of `afpc check`, and how to add a missing toolbox.
     Plan(String),
     /// A template or object type has no implementation in the library.
     Load(LoadError),
 }
 
-/// Reads, checks and loads the first plan of a file for platform `E`, which knows its templates; `errand.afp:Search` is
-/// another plan of it. The plan has not started.
+/// Reads, checks and loads the first plan of a file for platform `E`; `errand.afp:Search` selects
+/// another plan. The plan has not started.
 ///
 /// ```ignore
 /// let ending = afp::load("errand.afp")?.run(&mut robot)?;
@@ -86,27 +86,27 @@ pub fn load<E: Templates>(path: impl AsRef<Path>) -> Result<Scheduler<LoadedPlan
 }
 
 impl<E: Environment + ?Sized + 'static> Library<E> {
-    /// The texts of the built-in toolboxes, and no templates.
+    /// Starts with the built-in toolbox files and no templates.
     pub fn new() -> Self {
         Library { toolboxes: afp_toolboxes::sources().collect(), registry: Registry::new() }
     }
 
-    /// Adds a toolbox: the name of its file, for messages, and its text. That of a toolbox that
-    /// `toolbox!` has read is its `SOURCE`.
+    /// Adds a toolbox: the name of its file, for messages, and its text. For a toolbox read by
+    /// `toolbox!`, the text is `SOURCE`.
     pub fn toolbox(&mut self, file: &str, text: &str) -> &mut Self {
-        // The crate is for generated Rust, which there is none of here.
+        // The crate is only needed for generated Rust.
         self.toolboxes.add(Source::new(file, text), "crate");
         self
     }
 
-    /// Adds implementations, by the `register` of a toolbox.
+    /// Adds implementations by a toolbox's `register`.
     pub fn register(&mut self, register: impl FnOnce(&mut Registry<E>)) -> &mut Self {
         register(&mut self.registry);
         self
     }
 
-    /// Reads, checks and loads the first plan of a file, or the one that is named behind a colon; plan files that it
-    /// uses are looked for from its folder.
+    /// Reads, checks and loads the first plan of a file, or the plan named after a colon. Files
+    /// that it uses are relative to its folder.
     ///
     /// # Errors
     /// As for [`load`].
@@ -116,8 +116,8 @@ impl<E: Environment + ?Sized + 'static> Library<E> {
         self.load_plan(&path.display().to_string(), &text, plan)
     }
 
-    /// Checks and loads the first plan of a text; `file` is the name for messages, from whose folder
-    /// used plan files are looked for.
+    /// Checks and loads the first plan of a text. `file` is its name in messages; used files are
+    /// relative to its folder.
     ///
     /// # Errors
     /// As for [`load`].
@@ -148,14 +148,14 @@ impl<E: Environment + ?Sized + 'static> Library<E> {
     }
 }
 
-/// How a toolbox that a plan uses comes into a library.
+/// How to add a missing toolbox.
 const TOOLBOX: &str = "
 to add a toolbox with its Rust:
   library.toolbox(\"NAME.afp\", NAME::templates::SOURCE);
   library.register(NAME::templates::register);
 ";
 
-/// `FILE:Plan` taken apart; a file whose own name holds the colon wins.
+/// Splits `FILE:Plan`; a file whose name contains the colon has precedence.
 fn split(path: &Path) -> (&Path, Option<&str>) {
     match path.to_str().and_then(|name| name.rsplit_once(':')) {
         Some((file, plan)) if file.ends_with(".afp") && !path.exists() => {
@@ -183,7 +183,7 @@ impl fmt::Display for OpenError {
                 else {
                     return Ok(());
                 };
-                // The crates of the built-in ones are called otherwise.
+                // The crates of built-in toolboxes have other names.
                 let ours = afp_toolboxes::ALL.iter().find(|known| known.name == toolbox);
                 let krate = ours.map_or(toolbox.as_str(), |known| known.rust_path);
                 write!(f, ": 'library.register({krate}::templates::register)' adds its Rust")

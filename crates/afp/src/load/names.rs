@@ -11,12 +11,11 @@ use afp_dsl::types::Type;
 use afp_dsl::unfold::{self, ComponentNames, EntryNames, PortNames, Unfolded};
 use afp_syntax::source::Span;
 
-/// The names behind the ids of a graph's main plan; a copy costs nothing.
+/// The names of a graph's main plan; a copy is free.
 #[derive(Clone, Debug)]
 pub struct PlanNames(Arc<Unfolded>);
 
 impl PlanNames {
-    /// The names of the plan that runs.
     pub fn new(graph: &Graph) -> Self {
         PlanNames(Arc::new(unfold::unfold(graph)))
     }
@@ -44,14 +43,14 @@ impl PlanNames {
         }
     }
 
-    /// A place in the plan's texts; none where it is in none of them.
+    /// A place in the plan's sources; `None` for other sources.
     pub(super) fn place(&self, span: Span) -> Option<TextPlace<'_>> {
         let unfold::TextPlace { file, line, column } = self.0.texts.place(span)?;
         Some(TextPlace { file, line, column })
     }
 }
 
-/// The text of a value of an enum; empty for other types.
+/// The name of an enum value; empty for other types.
 fn choice(ty: &Type, value: u16) -> &str {
     ty.choices().get(usize::from(value)).map_or("", String::as_str)
 }

@@ -1,4 +1,4 @@
-//! Between ports and the configuration: formulas pulled in, outputs staged.
+//! Between ports and the configuration: evaluates inputs, stages outputs.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -12,14 +12,14 @@ use super::config::{ObjectCell, Staged, Values};
 use super::formula::Formula;
 use super::numbered;
 
-/// The bound formulas of a component, and room for the texts that they make.
+/// The bound formulas of a component, and storage for their strings.
 #[derive(Clone)]
 pub struct Inputs {
     formulas: Arc<[Formula]>,
     texts: Vec<(u16, Result<Text, Fault>)>,
 }
 
-/// Formulas with the configuration that they read.
+/// Formulas with their configuration.
 pub struct Pull<'a> {
     inputs: &'a Inputs,
     values: &'a Values,
@@ -29,7 +29,7 @@ pub struct Pull<'a> {
 pub struct Binding {
     port: u16,
     entry: u16,
-    /// Least and greatest value of the entry.
+    /// Minimum and maximum of the entry.
     range: Option<(f64, f64)>,
     converter: Option<Converter>,
 }
@@ -40,7 +40,7 @@ pub struct Stage<'a> {
     staged: &'a mut Staged,
     /// The first fault of a conversion or range.
     fault: Option<BadValue>,
-    /// What objects that come out of ports of type `any` can be copies of.
+    /// The source of copies for objects from ports of type `any`.
     pub passed: Option<&'a Pull<'a>>,
 }
 
@@ -57,7 +57,7 @@ impl Binding {
     }
 }
 
-/// A value for an entry with that range, if it has one.
+/// Checks a value against an entry's range, if any.
 ///
 /// # Errors
 /// [`Fault::RANGE`].
@@ -80,7 +80,7 @@ impl Inputs {
         &self.formulas
     }
 
-    /// Computes the texts that stand nowhere, then lends the formulas.
+    /// Computes the strings that are not stored elsewhere, then lends the formulas.
     #[inline]
     pub fn pull<'a>(&'a mut self, values: &'a Values) -> Pull<'a> {
         if !self.texts.is_empty() {
@@ -89,7 +89,7 @@ impl Inputs {
         Pull { inputs: self, values }
     }
 
-    /// Apart from what every poll does: few formulas make texts.
+    /// Separate from the hot path: few formulas compute strings.
     #[inline(never)]
     fn make_texts(&mut self, values: &Values) {
         for (port, text) in &mut self.texts {
@@ -108,7 +108,7 @@ impl Pull<'_> {
 }
 
 impl Pull<'_> {
-    /// The object among the inputs that a commit wrote.
+    /// The input object that a commit wrote.
     fn numbered(&self, commit: u32) -> Option<&dyn ObjectCell> {
         let mut entries = self.inputs.formulas.iter().filter_map(Formula::entry);
         let entry = entries.find(|entry| *self.values.get(*entry) == Value::Object(commit))?;
@@ -161,7 +161,7 @@ impl<'a> Stage<'a> {
         Stage { bindings, staged, fault: None, passed: None }
     }
 
-    /// Stages one output, converted for its entry and within its range.
+    /// Stages one output, converted for its entry and checked against its range.
     pub fn put(&mut self, port: u16, value: Value) {
         let Some(binding) = self.binding(port) else { return };
         let converted = match &binding.converter {
@@ -186,7 +186,7 @@ impl<'a> Stage<'a> {
         self.bindings.iter().find(|binding| binding.port == port)
     }
 
-    /// How it went.
+    /// The first error, if any.
     pub fn result(self) -> Result<(), BadValue> {
         self.fault.map_or(Ok(()), Err)
     }

@@ -1,4 +1,4 @@
-//! An instance of a graph: the interpreter's side of the contract with the scheduler.
+//! An instance of a graph: the interpreter's side of the scheduler's contract.
 
 mod carry;
 mod element;
@@ -36,9 +36,9 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
     tables: LoadedTables,
     config: Config,
     entries: Arc<[EntryInfo]>,
-    /// Entries with an initial value, in the order in which they get it.
+    /// Entries with an initial value, in the order of initialisation.
     initial: Arc<[(u16, Formula)]>,
-    /// Values of the plan that this one replaces.
+    /// Values taken over from a replaced plan.
     carried: Vec<Carried>,
     elements: Vec<ElementSlot<E>>,
     supervisors: Vec<WatchSlot<E>>,
@@ -49,11 +49,11 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
 struct EntryInfo {
     name: String,
     kind: EntryKind,
-    /// Whether it is given its value anew before each step.
+    /// Whether it is a live input.
     live: bool,
-    /// Least and greatest value.
+    /// Minimum and maximum.
     range: Option<(f64, f64)>,
-    /// The units that a value from outside may carry.
+    /// The accepted units of values from outside.
     units: Vec<(String, Scale)>,
 }
 
@@ -95,13 +95,13 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// Makes an instance of the graph's main plan and of all its sub-plans.
     ///
     /// # Errors
-    /// A template or object type that the registry does not know.
+    /// The registry lacks a template or object type.
     pub fn new(graph: &Graph, registry: &Registry<E>) -> Result<Self, LoadError> {
         let names = PlanNames::new(graph);
         Loader { graph, registry, names }.plan(graph.main)
     }
 
-    /// The number of an entry.
+    /// The index of an entry.
     pub fn entry_number(&self, name: &str) -> Option<u16> {
         numbered(&*self.entries).find(|(_, entry)| entry.name == name).map(|(number, _)| number)
     }
@@ -111,12 +111,12 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         self.entries.iter().map(|entry| entry.name.as_str())
     }
 
-    /// The value of an entry; `Unset` while nobody has written it, `None` where there is none.
+    /// The value of an entry; `Unset` before the first write, `None` for an unknown entry.
     pub fn get(&self, name: &str) -> Option<ValueRef<'_>> {
         self.entry_number(name).map(|entry| self.config.values.show(entry))
     }
 
-    /// Gives the `port`-th `in` entry its value for the next activation.
+    /// Sets the `port`-th `in` entry for the next activation.
     ///
     /// # Errors
     /// [`Fault::RANGE`].
@@ -133,8 +133,8 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         Ok(())
     }
 
-    /// Stages the `port`-th `in` entry's value for the next step, if the entry is live and the value another
-    /// one; whether it is.
+    /// Stages the `port`-th `in` entry for the next step, if it is live and its value has changed;
+    /// returns whether it has.
     ///
     /// # Errors
     /// [`Fault::RANGE`].
@@ -161,14 +161,14 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         Ok(true)
     }
 
-    /// The `out` entries that are set, each with its position among the `out` entries.
+    /// The set `out` entries with their positions.
     pub(super) fn results(&self) -> impl Iterator<Item = (u16, u16)> {
         let outs = numbered(&*self.entries).filter(|(_, entry)| entry.kind == EntryKind::Out);
         let outs = numbered(outs).map(|(port, (entry, _))| (port, entry));
         outs.filter(|(_, entry)| self.config.values.is_set(*entry))
     }
 
-    /// A supervisor reports what was put there. Apart from the poll, which is done in every step.
+    /// Reports an injected outcome. Separate from the poll, which is the hot path.
     #[cold]
     #[inline(never)]
     fn report_injected<R: Run<Env = E>>(
@@ -191,13 +191,12 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         Fired::event(event, cx.noted(stage.result()))
     }
 
-    /// The cell of an object entry.
     pub(super) fn cell(&self, entry: u16) -> Option<&dyn ObjectCell> {
         self.config.values.cell(entry)
     }
 }
 
-/// A value of the entry's own type: an `int` given to a `float` becomes one.
+/// Converts a value to the entry's type: an `int` becomes a `float`.
 fn fit(ty: Option<&Type>, value: &Value) -> Value {
     match (ty, value) {
         (Some(Type::Quantity(_)), Value::Int(int)) => Value::Float(int_to_float(*int)),

@@ -1,4 +1,4 @@
-//! Which Rust types implement the templates of which toolbox.
+//! The Rust types that implement the templates of toolboxes.
 
 use std::collections::BTreeMap;
 
@@ -14,12 +14,12 @@ type NewActor<E> = Box<dyn Fn() -> Box<dyn ActorSlot<E>> + Send + Sync>;
 type NewSupervisor<E> = Box<dyn Fn() -> Box<dyn SupervisorSlot<E>> + Send + Sync>;
 type NewComputation = Box<dyn Fn() -> Box<dyn ComputationSlot> + Send + Sync>;
 
-/// What there is of one sort, by toolbox and name.
+/// Items of one kind, by toolbox and name.
 type Map<T> = BTreeMap<String, BTreeMap<String, T>>;
 
 /// The components of some toolboxes on platform `E`, by toolbox and template.
 ///
-/// `toolbox!` makes a function `register` that fills one:
+/// `toolbox!` generates a function `register` that fills one:
 ///
 /// ```ignore
 /// let mut registry = Registry::new();
@@ -31,7 +31,7 @@ pub struct Registry<E: ?Sized + 'static> {
     supervisors: Map<NewSupervisor<E>>,
     computations: Map<NewComputation>,
     objects: Map<NewCell>,
-    /// Templates that the platform does not support, with the traits that it does not implement.
+    /// Unsupported templates, with the traits that the platform lacks.
     unsupported: Map<Vec<&'static str>>,
 }
 
@@ -47,9 +47,9 @@ impl<E: ?Sized> Registry<E> {
         }
     }
 
-    /// Adds an actor of another language, which `new` makes a home for.
+    /// Adds an actor of another language; `new` creates its slot.
     ///
-    /// What is added under names that are there already takes the place of what was.
+    /// It replaces an earlier actor with the same names.
     pub fn add_actor(
         &mut self,
         toolbox: &str,
@@ -59,7 +59,7 @@ impl<E: ?Sized> Registry<E> {
         add(&mut self.actors, toolbox, template, Box::new(new));
     }
 
-    /// Adds a supervisor of another language, as [`Registry::add_actor`] does an actor.
+    /// Adds a supervisor of another language, like [`Registry::add_actor`].
     pub fn add_supervisor(
         &mut self,
         toolbox: &str,
@@ -69,7 +69,7 @@ impl<E: ?Sized> Registry<E> {
         add(&mut self.supervisors, toolbox, template, Box::new(new));
     }
 
-    /// Adds a computation of another language, as [`Registry::add_actor`] does an actor.
+    /// Adds a computation of another language, like [`Registry::add_actor`].
     pub fn add_computation(
         &mut self,
         toolbox: &str,
@@ -79,7 +79,7 @@ impl<E: ?Sized> Registry<E> {
         add(&mut self.computations, toolbox, template, Box::new(new));
     }
 
-    /// Adds an object type, whose values are of the Rust type `T`.
+    /// Adds an object type with values of the Rust type `T`.
     pub fn add_object<T: Clone + Send + 'static>(&mut self, toolbox: &str, name: &str) {
         let new: NewCell = || Box::new(None::<T>) as Box<dyn ObjectCell>;
         add(&mut self.objects, toolbox, name, new);
@@ -105,7 +105,8 @@ impl<E: ?Sized> Registry<E> {
         find(&self.computations, toolbox, name).map(|new| new())
     }
 
-    /// Which traits the platform lacks for a template; none where that is not why the template is unknown.
+    /// The traits that the platform lacks for a template; `None` if the template is unknown for
+    /// another reason.
     pub(super) fn missing(&self, toolbox: &str, template: &str) -> Option<&[&'static str]> {
         find(&self.unsupported, toolbox, template).map(Vec::as_slice)
     }
@@ -173,7 +174,7 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
         missing: &[&'static str],
     ) {
         let missing = missing.iter().copied().filter(|name| !name.is_empty()).collect();
-        // What a toolbox of this name had before is not meant any more.
+        // Removes the template of an earlier toolbox with this name.
         self.actors.get_mut(toolbox).and_then(|of| of.remove(template));
         self.supervisors.get_mut(toolbox).and_then(|of| of.remove(template));
         add(&mut self.unsupported, toolbox, template, missing);

@@ -1,4 +1,4 @@
-//! Reads rows of tables: what no registry has, since the ports are those of the plan's table.
+//! Reads rows of tables. It is not in a registry, since its ports are those of the plan's table.
 
 use std::sync::Arc;
 
@@ -8,18 +8,18 @@ use afp_dsl::table::Table;
 
 use super::slots::{ComputationSlot, See};
 
-/// The states, as the toolbox declares them.
+/// The states, as declared in the toolbox.
 const ROW: u16 = 0;
 const END: u16 = 1;
 
-/// Goes to `Row` with the columns as outputs, or to `End`.
+/// Reaches `Row` with the columns as outputs, or `End`.
 #[derive(Clone)]
 pub struct RowSlot {
     rows: Arc<[Box<[Value]>]>,
 }
 
 impl RowSlot {
-    /// A reader of a table that has no errors.
+    /// A reader of a table without errors.
     pub fn new(table: &Table) -> Self {
         let rows = table.rows.iter();
         let rows = rows.map(|row| row.iter().map(|cell| cell.value.clone()).collect());

@@ -1,4 +1,4 @@
-//! Boxed slots of running components: made at load, filled and emptied by the scheduler.
+//! Boxed slots of components: made at load, filled and emptied by the scheduler.
 
 use std::marker::PhantomData;
 
@@ -8,15 +8,14 @@ use afp_core::{
     Supervisor, SupervisorTemplate, ValueRef,
 };
 
-/// Shows the inputs of a component, by port, to the trace; none when nobody listens.
+/// Passes inputs, by port, to the trace; `None` without a trace.
 pub type See<'a> = Option<&'a mut dyn FnMut(u16, ValueRef<'_>)>;
 
-/// The slot of an actor: what [`Actor`] says, for a template known at run time only.
+/// The slot of an actor: the equivalent of [`Actor`] for a template known only at run time.
 ///
-/// At `start` all inputs are pulled, shown and checked against their ports' ranges, at `poll` those that
-/// are live.
+/// `start` evaluates, traces and checks all inputs, `poll` the live ones.
 ///
-/// An actor that finishes at its first poll; the slots of supervisors and computations are written alike:
+/// An actor that finishes at its first poll; slots of supervisors and computations are similar:
 ///
 /// ```
 /// use afp::load::{ActorSlot, Args, BadValue, Outputs, See};
@@ -53,7 +52,7 @@ pub type See<'a> = Option<&'a mut dyn FnMut(u16, ValueRef<'_>)>;
 /// }
 /// ```
 pub trait ActorSlot<E: ?Sized>: Send {
-    /// Makes the actor and begins to act.
+    /// Creates and starts the actor.
     ///
     /// # Errors
     /// As [`Actor::start`].
@@ -64,7 +63,7 @@ pub trait ActorSlot<E: ?Sized>: Send {
         env: &mut E,
         now: Instant,
     ) -> Result<(), BadValue>;
-    /// The state reached, its outputs handed over.
+    /// Polls the actor and passes its outputs. Returns the state, if reached.
     ///
     /// # Errors
     /// As [`Actor::poll`].
@@ -75,22 +74,22 @@ pub trait ActorSlot<E: ?Sized>: Send {
         env: &mut E,
         now: Instant,
     ) -> Result<Option<u16>, BadValue>;
-    /// Gives the stop command.
+    /// Sends the stop command.
     ///
     /// # Errors
     /// As [`Actor::interrupt`].
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
-    /// Drops what runs.
+    /// Drops the actor.
     fn clear(&mut self);
-    /// A copy with a copy of what runs; `None` where it cannot be copied.
+    /// Copies the slot with its actor; `None` if it cannot be copied.
     fn try_clone(&self) -> Option<Box<dyn ActorSlot<E>>> {
         None
     }
 }
 
-/// The slot of a supervisor, as [`ActorSlot`] is of an actor.
+/// The slot of a supervisor, like [`ActorSlot`].
 pub trait SupervisorSlot<E: ?Sized>: Send {
-    /// Makes the supervisor and begins to watch.
+    /// Creates and starts the supervisor.
     ///
     /// # Errors
     /// As [`Supervisor::start`].
@@ -101,7 +100,7 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
         env: &mut E,
         now: Instant,
     ) -> Result<(), BadValue>;
-    /// The wanted event seen, its outputs handed over.
+    /// Polls the supervisor and passes its outputs. Returns the wanted event, if seen.
     ///
     /// # Errors
     /// As [`Supervisor::poll`].
@@ -113,7 +112,7 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
         env: &mut E,
         now: Instant,
     ) -> Result<Option<u16>, BadValue>;
-    /// Drops what watches.
+    /// Drops the supervisor.
     fn clear(&mut self);
     /// As [`ActorSlot::try_clone`].
     fn try_clone(&self) -> Option<Box<dyn SupervisorSlot<E>>> {
@@ -121,9 +120,9 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
     }
 }
 
-/// A computation, which keeps nothing.
+/// A computation, which is stateless.
 pub trait ComputationSlot: Send {
-    /// The state reached, its outputs handed over.
+    /// Computes and passes the outputs. Returns the state.
     ///
     /// # Errors
     /// As [`Computation::compute`].
@@ -147,7 +146,7 @@ impl<T, A> Slot<T, A> {
     }
 }
 
-/// Pulls the inputs, shows them, checks them.
+/// Evaluates, traces and checks the inputs.
 fn inputs<'a, I: FromArgs<'a>>(args: &'a dyn Args, see: See<'_>) -> Result<I, BadValue> {
     let inputs = I::from_args(args)?;
     if let Some(see) = see {

@@ -1,4 +1,4 @@
-//! The rows of a loaded plan: those of the graph, with its reasons as faults.
+//! The rows of a loaded plan: those of the graph, with reasons as faults.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -22,15 +22,14 @@ impl Tables for LoadedTables {
 }
 
 impl LoadedTables {
-    /// The rows of a plan.
     pub fn new(rows: &Arc<Rows>) -> Self {
         let reasons = rows.reasons.iter().map(|text| reason(text)).collect();
         LoadedTables { rows: Arc::clone(rows), reasons }
     }
 }
 
-/// The fault of that reason. A fault is a reference that lasts, so each text is kept once for the life
-/// of the process.
+/// The fault of a reason. A fault is a static reference, so each text is kept once for the life of
+/// the process.
 fn reason(text: &str) -> Fault {
     static KNOWN: LazyLock<Mutex<HashMap<String, &'static Reason>>> = LazyLock::new(Mutex::default);
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);

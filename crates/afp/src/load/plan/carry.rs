@@ -1,4 +1,4 @@
-//! Values of one plan for another one that takes its place.
+//! Values taken over by a plan that replaces another.
 
 use afp_core::{Environment, Value};
 use afp_dsl::graph::EntryKind;
@@ -9,7 +9,7 @@ use crate::load::config::ObjectCell;
 use crate::load::numbered;
 use crate::load::outputs::limit;
 
-/// The value of an entry that takes the place of its initial value.
+/// A value that replaces an entry's initial value.
 #[derive(Clone)]
 pub(super) struct Carried {
     entry: u16,
@@ -18,13 +18,13 @@ pub(super) struct Carried {
 }
 
 impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
-    /// Takes over the values of another plan, which this one is to replace: of each `in`, `var` and
-    /// `out` entry that has the same name and type in both and a value in the other. A value takes
-    /// the place of an initial one, for the next start alone. Gives the names of those entries.
+    /// Takes over values of a plan that this one replaces: of each `in`, `var` and `out` entry with
+    /// the same name and type in both and a value in the other. They replace initial values, only
+    /// for the next start. Returns the names of those entries.
     ///
-    /// A value that is out of the range of the entry here stays behind.
+    /// A value outside the new entry's range is skipped.
     ///
-    /// Enums are the same type when their values have the same names in the same order.
+    /// Enums have the same type if their values have the same names in the same order.
     pub fn carry(&mut self, from: &LoadedPlan<E>) -> Vec<String> {
         let mut names = Vec::new();
         for (entry, info) in numbered(&*self.entries) {
@@ -45,14 +45,14 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
             self.carried.push(Carried { entry, value, object });
             names.push(info.name.clone());
         }
-        // Inputs are there before the start, so that none is missing.
+        // Inputs must be set before the start.
         self.put_carried(|kind| kind == EntryKind::In);
         names
     }
 }
 
 impl<E: ?Sized + 'static> LoadedPlan<E> {
-    /// Puts what is carried into the entries of some kinds.
+    /// Puts the carried values into the entries of some kinds.
     pub(super) fn put_carried(&mut self, of: impl Fn(EntryKind) -> bool) {
         let LoadedPlan { carried, entries, config, .. } = self;
         carried.retain(|Carried { entry, value, object }| {
@@ -65,7 +65,6 @@ impl<E: ?Sized + 'static> LoadedPlan<E> {
     }
 }
 
-/// Whether a value of one type is one of the other.
 fn same(one: &Type, other: &Type) -> bool {
     match (one, other) {
         (Type::Enum(one_enum), Type::Enum(other_enum)) => {

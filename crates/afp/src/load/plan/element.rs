@@ -1,4 +1,4 @@
-//! One element of a loaded plan: its formulas, its bindings, and what runs in it.
+//! One element of a loaded plan: formulas, bindings, component.
 
 use std::sync::Arc;
 
@@ -16,17 +16,16 @@ use crate::load::numbered;
 use crate::load::outputs::{Binding, Inputs, Stage};
 use crate::load::slots::{ActorSlot, ComputationSlot};
 
-/// An element of a loaded plan.
 pub struct ElementSlot<E: ?Sized + 'static> {
     inputs: Inputs,
     outputs: Arc<[Binding]>,
     running: Running<E>,
-    /// What it reports at its next poll in place of its own.
+    /// The injected outcome of its next poll.
     pub(super) injected: Injected,
     idle: Idle,
 }
 
-/// Whether an actor does nothing, for tests.
+/// Whether an actor is idle, for tests.
 #[derive(Clone, Copy, Debug, Default)]
 struct Idle {
     /// From its next start on.
@@ -35,23 +34,22 @@ struct Idle {
     now: bool,
 }
 
-/// What runs in an element.
+/// The component of an element.
 pub enum Running<E: ?Sized + 'static> {
     /// An actor.
     Actor(Box<dyn ActorSlot<E>>),
     /// A computation.
     Computation(Box<dyn ComputationSlot>),
-    /// A sub-plan, made at load and started afresh at each activation.
+    /// A sub-plan, made at load and restarted at each activation.
     SubPlan {
-        /// Where its ids begin.
+        /// First ids.
         child: Child,
-        /// Its scheduler.
         machine: Box<Machine<LoadedPlan<E>>>,
     },
 }
 
 impl<E: ?Sized + 'static> ElementSlot<E> {
-    /// A copy that goes on from here by itself; `None` where what runs cannot be copied.
+    /// A copy that runs independently; `None` if the component cannot be copied.
     pub fn try_clone(&self) -> Option<Self> {
         Some(ElementSlot {
             inputs: self.inputs.clone(),
@@ -71,7 +69,6 @@ impl<E: ?Sized + 'static> ElementSlot<E> {
 }
 
 impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
-    /// An element that does not run.
     pub fn new(element: &graph::Element, entries: &[graph::Entry], running: Running<E>) -> Self {
         let inputs = Inputs::new(&element.inputs);
         let outputs = Binding::all(&element.outputs, entries);
@@ -107,7 +104,6 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         started.unwrap_or_else(Started::Failed)
     }
 
-    /// Polls it.
     #[inline]
     pub fn poll<R: Run<Env = E>>(&mut self, config: &mut Config, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.running {
@@ -144,7 +140,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         }
     }
 
-    /// Reaches a state that was put there, or fails; the scheduler then interrupts what runs.
+    /// Reaches an injected state, or fails; the scheduler then interrupts the component.
     #[cold]
     #[inline(never)]
     pub fn finish<R: Run<Env = E>>(
@@ -166,7 +162,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         }
     }
 
-    /// Puts a state there for the next poll of an active actor.
+    /// Injects a state for the next poll of an active actor.
     pub fn inject(&mut self, injection: &Injection) -> Result<(), NotInjected> {
         match self.running {
             Running::Actor(_) => injection.put(&mut self.injected),
@@ -174,8 +170,8 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         }
     }
 
-    /// Passes an injection on to the sub-plan that runs in it; `part` counts from the outer plan's
-    /// first element.
+    /// Passes an injection to the running sub-plan; `part` counts from the outer plan's first
+    /// element.
     pub fn inject_inside(&mut self, part: u32, injection: &Injection) -> Result<(), NotInjected> {
         let Running::SubPlan { child, machine } = &mut self.running else {
             return Err(NotInjected::NotActive);
@@ -185,7 +181,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         machine.plan_mut().inject_at(active, part, injection)
     }
 
-    /// Lets an actor, or all of a sub-plan, do nothing from the next start on.
+    /// Makes an actor, or all actors of a sub-plan, idle from the next start on.
     pub fn idle(&mut self) {
         match &mut self.running {
             Running::Actor(_) => self.idle.next = true,
@@ -212,7 +208,6 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         }
     }
 
-    /// Drops what runs in it.
     pub fn clear(&mut self) {
         self.injected = None;
         match &mut self.running {
@@ -238,7 +233,8 @@ fn pass_inputs<E: Environment + ?Sized + 'static>(
     Ok(())
 }
 
-/// Evaluates the live inputs of a sub-plan and stages those that have changed; whether there are any.
+/// Evaluates the live inputs of a sub-plan and stages those that have changed; returns whether
+/// there are any.
 fn stage_live<E: Environment + ?Sized + 'static>(
     inputs: &Inputs,
     config: &Config,
@@ -253,7 +249,7 @@ fn stage_live<E: Environment + ?Sized + 'static>(
     Ok(any)
 }
 
-/// Stages the `out` entries of a sub-plan that were written or initialised.
+/// Stages the `out` entries of a sub-plan that are set.
 fn stage_results<E: Environment + ?Sized + 'static>(
     plan: &LoadedPlan<E>,
     outputs: &[Binding],

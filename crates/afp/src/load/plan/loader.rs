@@ -1,4 +1,4 @@
-//! Makes the instance of a plan from its graph: every component that it may ever need.
+//! Makes the instance of a plan from its graph, with all of its components.
 
 use std::sync::Arc;
 
@@ -20,7 +20,6 @@ use crate::load::registry::Registry;
 use crate::load::row::RowSlot;
 use crate::load::tables::LoadedTables;
 
-/// Loads a graph, plan by plan.
 pub(super) struct Loader<'a, E: ?Sized + 'static> {
     pub(super) graph: &'a Graph,
     pub(super) registry: &'a Registry<E>,
@@ -28,10 +27,10 @@ pub(super) struct Loader<'a, E: ?Sized + 'static> {
 }
 
 impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
-    /// A plan with those that it uses.
+    /// Loads a plan and its sub-plans.
     ///
     /// # Errors
-    /// A template or object type that the registry does not know.
+    /// The registry lacks a template or object type.
     pub(super) fn plan(&self, id: PlanId) -> Result<LoadedPlan<E>, LoadError> {
         let plan = self.graph.plan(id);
         let tables = LoadedTables::new(self.graph.rows(id));
@@ -135,7 +134,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
     }
 }
 
-/// Initial values in the order in which they may refer to one another.
+/// Initial values in the order of their references.
 fn initial(plan: &graph::Plan) -> Arc<[(u16, Formula)]> {
     plan.initial().map(|(id, _, init)| (id.0, Formula::new(init))).collect()
 }

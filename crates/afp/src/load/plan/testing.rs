@@ -1,4 +1,4 @@
-//! What tests put in the place of components: outcomes, and actors that do nothing.
+//! Test support: injected outcomes and idle actors.
 
 use afp_core::rt::Tables;
 use afp_core::trace::ComponentId;
@@ -9,13 +9,13 @@ use super::element::ElementSlot;
 use crate::load::inject::{Injection, NotInjected};
 
 impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
-    /// Makes a component of the running plan report an outcome at its next poll, whatever it sees: for
-    /// tests. An actor is interrupted once the outputs are staged, so that it leaves the robot at rest.
+    /// Makes a component of the running plan report an outcome at its next poll, for tests. An
+    /// actor is interrupted after its outputs are staged, so that it leaves the robot at rest.
     ///
-    /// `active` is the active element of the plan, as its scheduler has it.
+    /// `active` is the active element of the plan, from its scheduler.
     ///
     /// # Errors
-    /// The component is not being polled, or has not yet reported the outcome before this one; nothing changes then.
+    /// The component is not being polled, or an earlier outcome is pending; nothing changes then.
     pub fn inject(
         &mut self,
         active: Option<ElementId>,
@@ -58,11 +58,10 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
             .inject_inside(part, injection)
     }
 
-    /// Makes an actor, or all actors of a sub-plan, do nothing from their next start on: for tests. They
-    /// are active all the same, until they are interrupted or made to report a state. Without an
-    /// element it is about all actors.
+    /// Makes an actor, or all actors of a sub-plan, idle from their next start on, for tests. They
+    /// are active until they are interrupted or made to report a state. `None` means all actors.
     ///
-    /// Gives whether there is such an element.
+    /// Returns whether the element exists.
     pub fn idle(&mut self, element: Option<ComponentId>) -> bool {
         let Some(element) = element else {
             self.idle_all();
@@ -82,7 +81,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
                 element.idle();
                 true
             }
-            // The parts of a sub-plan follow one another, so that one sub-plan at most has it.
+            // The parts of a sub-plan are consecutive, so at most one sub-plan has it.
             None => self.elements.iter_mut().any(|element| element.idle_inside(part)),
         }
     }
