@@ -1,4 +1,4 @@
-//! The project file of a folder, and the toolbox files that it names.
+//! The project file of a folder, and its toolbox files.
 
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
@@ -12,12 +12,12 @@ use crate::project::{Project, Toolbox};
 use crate::read::read;
 use crate::realtime::Realtime;
 
-/// A project file that says nothing wrong; where there is none, nothing is said.
+/// A valid project file; empty if there is none.
 #[derive(Clone, Debug)]
 pub struct ProjectFile {
-    /// The folder that it stands in; its paths are relative to it.
+    /// Its folder, to which its paths are relative.
     pub folder: PathBuf,
-    /// Whether there is such a file.
+    /// Whether the file exists.
     pub exists: bool,
     pub text: String,
     pub project: Project,
@@ -26,30 +26,29 @@ pub struct ProjectFile {
 /// A toolbox of the project and its text.
 #[derive(Clone, Debug)]
 pub struct ToolboxFile {
-    /// What the project file says of it.
+    /// Its entry in the project file.
     pub toolbox: Toolbox,
     pub path: PathBuf,
-    /// The text of its file.
     pub text: String,
-    /// The Rust crate that implements it, or why there is none.
+    /// Its Rust crate, or the error.
     pub krate: Result<CrateLink, Mistake>,
 }
 
-/// Why a project cannot be used.
+/// Errors of a project.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ProjectError {
     /// The project file cannot be read.
     Unreadable {
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         error: io::Error,
     },
-    /// The project file says something wrong.
+    /// The project file has errors.
     Wrong {
         path: PathBuf,
         text: String,
-        /// What is wrong, at least one thing, in the order of the text.
+        /// The errors in source order, at least one.
         mistakes: Vec<Mistake>,
     },
 }
@@ -58,7 +57,7 @@ impl ProjectFile {
     /// The nearest `afp.toml` in `folder` or above it.
     ///
     /// # Errors
-    /// The file cannot be read, or says something wrong.
+    /// The file cannot be read, or has errors.
     pub fn find(folder: &Path) -> Result<ProjectFile, ProjectError> {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let Some(home) = folder.ancestors().find(|above| above.join(NAME).is_file()) else {
@@ -92,10 +91,10 @@ impl ProjectFile {
         self.folder.join(NAME)
     }
 
-    /// The project's toolboxes with their texts.
+    /// Reads the project's toolboxes.
     ///
     /// # Errors
-    /// Toolbox files that cannot be read, each at its name in the project file.
+    /// Unreadable toolbox files, each at its name in the project file.
     pub fn toolboxes(&self) -> Result<Vec<ToolboxFile>, ProjectError> {
         let (mut files, mut mistakes) = (Vec::new(), Vec::new());
         for toolbox in &self.project.toolboxes {
@@ -128,10 +127,10 @@ impl ProjectFile {
         if mistakes.is_empty() { Ok(files) } else { Err(self.wrong(mistakes)) }
     }
 
-    /// The robot of the project with its crate; none where plans run on the Carbot.
+    /// The project's robot with its crate; `None` for the Carbot.
     ///
     /// # Errors
-    /// There is no such crate on this machine, or it is another one than the file says.
+    /// The crate is missing on this machine, or differs from the file's entry.
     pub fn robot(&self) -> Result<Option<RobotLink>, ProjectError> {
         let Some(robot) = &self.project.robot else { return Ok(None) };
         let toolboxes = &self.project.toolboxes;
@@ -144,7 +143,7 @@ impl ProjectFile {
         linked.map(Some).map_err(|mistake| self.wrong(vec![mistake]))
     }
 
-    /// The robot itself with its crate; none where there is a simulated one alone.
+    /// The hardware robot with its crate; `None` if there is only a simulated one.
     ///
     /// # Errors
     /// As [`ProjectFile::robot`].
@@ -161,19 +160,19 @@ impl ProjectFile {
         Ok(Some(linked))
     }
 
-    /// The error for what is wrong in this file beyond its own text.
+    /// Makes the error for mistakes that are not in the file's own text.
     pub fn wrong(&self, mistakes: Vec<Mistake>) -> ProjectError {
         ProjectError::Wrong { path: self.path(), text: self.text.clone(), mistakes }
     }
 }
 
 impl ProjectError {
-    /// What is wrong, one blank line between each, with terminal colours when asked.
+    /// The errors as text, separated by blank lines, optionally with terminal colours.
     pub fn render(&self, colour: bool) -> String {
         self.reports(|report| report.render(colour)).join("\n\n")
     }
 
-    /// What is made of each thing that is wrong.
+    /// Converts each error.
     pub fn reports<T>(&self, make: impl Fn(&Report<'_>) -> T) -> Vec<T> {
         match self {
             ProjectError::Unreadable { path, error } => {

@@ -1,12 +1,12 @@
-//! What can stand in a project file, table by table: what readers allow, editors offer and explain.
+//! The keys of a project file, table by table, for reader and editors.
 
 /// A key of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     pub name: &'static str,
-    /// What it says, in a sentence.
+    /// A description in one sentence.
     pub help: &'static str,
-    /// How it may be written.
+    /// An example value.
     pub example: &'static str,
 }
 
@@ -14,7 +14,6 @@ const fn key(name: &'static str, help: &'static str, example: &'static str) -> K
     Key { name, help, example }
 }
 
-/// The tables of a file.
 pub(crate) const PROJECT: &[Key] = &[
     key("run", "How the plans of the project run.", "[run]"),
     key("robot", "The robot of the project, where that is not the Carbot.", "[robot]"),
@@ -29,7 +28,7 @@ pub(crate) const RUN: &[Key] = &[
     key("measures", "By what every run is judged, too.", "measures = [\"wall\"]"),
 ];
 
-/// `[afp]`, and where a crate comes from.
+/// `[afp]`, and the origin of a crate.
 pub(crate) const ORIGIN: &[Key] = &[
     key("path", "A folder on this machine, relative to this file.", "path = \"../afp\""),
     key("git", "The address of a repository.", "git = \"https://example.org/afp\""),
@@ -90,7 +89,7 @@ pub(crate) const HARDWARE: &[Key] = &[
 pub(crate) const REALTIME: &[Key] =
     &[key("stall", "The run ends if the control loop is later than this.", "stall = \"100 ms\"")];
 
-/// What a crate has beside where it comes from.
+/// The keys of a crate in addition to its origin.
 pub(crate) const CRATE: &[Key] = &[
     key("package", "The name of the package.", "package = \"my-gripper\""),
     key(
@@ -112,7 +111,7 @@ pub(crate) const TARGET: &[Key] = &[
     ),
 ];
 
-/// The keys of a table by the names that lead to it; none where names are free, or of a table that is not known.
+/// The keys of a table, given by its path; empty for free names or an unknown table.
 pub fn keys(table: &[&str]) -> Vec<Key> {
     let lists: &[&[Key]] = match table {
         [] => &[PROJECT],
@@ -131,7 +130,7 @@ pub fn keys(table: &[&str]) -> Vec<Key> {
     lists.concat()
 }
 
-/// The table with a key of that name, of those that stand in a file once.
+/// The only table that has a key with this name, if it occurs once in a file.
 pub(crate) fn table_of(name: &str) -> Option<&'static str> {
     let has = |table: &&str| keys(&[*table]).iter().any(|key| key.name == name);
     ["run", "robot", "afp"].into_iter().find(has)
@@ -158,7 +157,7 @@ mod tests {
             assert!(!all.is_empty(), "{head}");
             for key in all {
                 let (_, mistakes) = read(&format!("[{head}]\n{}\n", key.example));
-                // Others may be missing, or name what is not there.
+                // Other keys may be missing or refer to missing files.
                 let unknown = mistakes.iter().find(|it| {
                     it.message.ends_with(&format!("has no '{}'", key.name))
                         && !it.help.contains('=')

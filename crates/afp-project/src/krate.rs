@@ -1,4 +1,4 @@
-//! The Rust crate of a toolbox or of the robot: where it is and what it is called.
+//! The Rust crate of a toolbox or robot: its location and name.
 
 use std::path::{Path, PathBuf};
 
@@ -9,33 +9,31 @@ use toml_edit::Document;
 use crate::path::{NAME, shown};
 use crate::project::{Crate, Hardware, Origin, Robot, Toolbox};
 
-/// A crate of the project, as a manifest can depend on it.
+/// A crate of the project, for a manifest's dependency.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CrateLink {
-    /// The key of the dependency: with `_` for `-` it is the crate's name in Rust.
+    /// The key of the dependency; with `_` for `-` the crate's name in Rust.
     pub key: String,
-    /// The name of the package.
     pub package: String,
-    /// Where the package comes from; a folder as an absolute path.
+    /// The origin of the package; a folder as an absolute path.
     pub origin: Origin,
-    /// Its folder, where it is on this machine.
+    /// Its folder, if it is on this machine.
     pub folder: Option<PathBuf>,
     /// The module in it, if not its root.
     pub module: Option<String>,
 }
 
 impl CrateLink {
-    /// The path of the module that has `templates`, as other crates name it.
+    /// The path of the module with `templates`, for other crates.
     pub fn rust_path(&self) -> String {
         self.in_crate(&self.rust_name())
     }
 
-    /// The crate's name in Rust.
     pub fn rust_name(&self) -> String {
         self.key.replace('-', "_")
     }
 
-    /// The path of the module that has `templates`, behind another name for the crate.
+    /// The path of the module with `templates`, with another crate name.
     pub fn in_crate(&self, name: &str) -> String {
         match &self.module {
             Some(module) => format!("{name}::{module}"),
@@ -44,54 +42,55 @@ impl CrateLink {
     }
 }
 
-/// The robot's type and the crate that holds it.
+/// The robot's type and its crate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RobotLink {
-    /// The toolbox of the project that declares its devices.
+    /// The toolbox with its devices.
     pub toolbox: Option<String>,
     pub krate: CrateLink,
-    /// The type, seen from the crate's root.
+    /// The type, relative to the crate's root.
     pub sim: String,
 }
 
 impl RobotLink {
-    /// The path of the type, as other crates name it.
+    /// The path of the type, for other crates.
     pub fn rust_type(&self) -> String {
         format!("{}::{}", self.krate.rust_name(), self.sim)
     }
 }
 
-/// The type of the robot itself and the crate that holds it.
+/// The type of the hardware robot and its crate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HardwareLink {
     pub krate: CrateLink,
-    /// The type, seen from the crate's root.
+    /// The type, relative to the crate's root.
     pub ty: String,
-    /// Name and value of its settings, and of those of [`Realtime`](crate::Realtime) with their prefix.
+    /// Names and values of its settings, and of [`Realtime`](crate::Realtime) with their prefix.
     pub settings: Vec<(String, String)>,
 }
 
 impl HardwareLink {
-    /// The path of the type, as other crates name it.
+    /// The path of the type, for other crates.
     pub fn rust_type(&self) -> String {
         format!("{}::{}", self.krate.rust_name(), self.ty)
     }
 }
 
-/// What is wrong, and what to do.
+/// An error and its help.
 type Wrong = (String, String);
 
 /// Finds the crate of a toolbox of the project in `folder`; `file` is the toolbox file.
 ///
 /// # Errors
-/// There is no such crate on this machine, or it is another one than was said.
+/// The crate is missing on this machine, or differs from the entry.
 pub(crate) fn link(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Mistake> {
     let wrong = |(message, help)| Mistake { span: Some(toolbox.span.clone()), message, help };
     let what = format!("the file of the toolbox '{}'", toolbox.name);
     find(folder, &toolbox.krate, &toolbox.name, (&what, file)).map_err(wrong)
 }
 
-/// Finds the crate of the robot of the project in `folder`; `file` is the file of its toolbox, else the project file.
+/// Finds the robot's crate for the project in `folder`; `file` is its toolbox file, or else the
+/// project file.
 ///
 /// # Errors
 /// As [`link`].
@@ -107,7 +106,7 @@ pub(crate) fn link_robot(
     Ok(RobotLink { toolbox: robot.toolbox.clone(), krate, sim: robot.sim.clone() })
 }
 
-/// Finds the crate of the robot itself, for the project in `folder`; `krate` is that of the simulated one.
+/// Finds the hardware robot's crate for the project in `folder`; `krate` is the simulated robot's.
 ///
 /// # Errors
 /// As [`link`].
@@ -128,7 +127,7 @@ pub(crate) fn link_hardware(
     Ok(HardwareLink { krate, ty: ty.clone(), settings: settings.clone() })
 }
 
-/// Finds a crate; without an origin it is the one around a file, which is called something.
+/// Finds a crate; without an origin, the crate around a file.
 fn find(
     folder: &Path,
     krate: &Crate,
@@ -139,7 +138,7 @@ fn find(
     let home = match origin {
         Some(Origin::Path(path)) => folder.join(path),
         Some(elsewhere) => {
-            // Nothing is known of a crate that cargo has yet to fetch.
+            // Cargo may not have fetched the crate yet.
             let name = package.clone().unwrap_or_else(|| name.to_owned());
             let (origin, module) = (elsewhere.clone(), module.clone());
             return Ok(CrateLink {
@@ -170,7 +169,7 @@ fn find(
     Ok(CrateLink { key, package: names.package, origin, folder: Some(folder), module })
 }
 
-/// The nearest folder around a file that has a manifest.
+/// The nearest folder around a file with a manifest.
 fn around(what: &str, file: &Path) -> Result<PathBuf, Wrong> {
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     let mut folders = file.ancestors().skip(1);
@@ -183,7 +182,7 @@ fn around(what: &str, file: &Path) -> Result<PathBuf, Wrong> {
     })
 }
 
-/// What a manifest calls its package and its library.
+/// Names of a manifest's package and library.
 struct Names {
     package: String,
     library: Option<String>,
@@ -209,7 +208,7 @@ impl Names {
         }
     }
 
-    /// The package's name, unless its library is called something else.
+    /// The package's name, unless its library has another name.
     fn key(&self) -> String {
         match &self.library {
             Some(library) if *library != self.package.replace('-', "_") => library.clone(),

@@ -1,14 +1,15 @@
-//! The project file `afp.toml`: toolboxes and a robot of one's own, targets, the world, where the afp crates are.
+//! The project file `afp.toml`: your own toolboxes and robot, targets, the world, the origin of the
+//! afp crates.
 //!
-//! Compiler macros, the command line and generated programs all read it here. [`read`] goes from a
-//! text to a [`Project`] and does no I/O; [`ProjectFile`] finds the file and what it names.
+//! Macros, the command line and generated programs read it with this crate. [`read`] converts a
+//! text to a [`Project`] without I/O; [`ProjectFile`] finds the file and its crates.
 //!
 //! ```toml
 //! [run]
 //! world = "worlds/hall.toml"
 //!
 //! [toolboxes]
-//! gripper = { path = "gripper/gripper.afp" }                  # the crate around the file
+//! gripper = { path = "gripper/gripper.afp" } # the crate around the file
 //! lamps = { path = "lamps.afp", crate = { git = "https://example.org/lamps" } }
 //!
 //! [target.arm]
@@ -18,7 +19,7 @@
 //! budgets.gripper.Grip = "30 us"
 //!
 //! [robot]
-//! toolbox = "gripper"                                         # its crate holds the robot, too
+//! toolbox = "gripper" # its crate also has the robot
 //! sim = "Arm"
 //! hardware = { type = "Board", crate = { path = "board" }, settings = { port = "/dev/ttyUSB0" } }
 //!

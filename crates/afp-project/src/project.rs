@@ -1,26 +1,26 @@
-//! What a project file says, as values.
+//! The content of a project file.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// What `afp.toml` says. Paths are as written: relative to the folder of the file.
+/// The content of `afp.toml`. Paths are relative to the file's folder.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Project {
-    /// The world that plans are run in.
+    /// The default world of runs.
     pub world: Option<String>,
-    /// The measures of the robot that runs are judged by, too.
+    /// Additional measures of the robot for runs.
     pub measures: Vec<String>,
-    /// Where generated crates take the `afp` crates from.
+    /// The origin of the `afp` crates for generated crates.
     pub afp: Option<Origin>,
-    /// The robot that plans run on; without one it is the Carbot.
+    /// The robot; defaults to the Carbot.
     pub robot: Option<Robot>,
     /// Toolboxes of the project, in the order of the file.
     pub toolboxes: Vec<Toolbox>,
-    /// What plans shall run on, in the order of the file.
+    /// The targets, in the order of the file.
     pub targets: Vec<Target>,
 }
 
-/// Where a crate comes from.
+/// The origin of a crate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// A folder.
@@ -34,68 +34,67 @@ pub enum Origin {
 /// A toolbox of the project.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Toolbox {
-    /// The name behind `use`.
+    /// The name after `use`.
     pub name: String,
     /// Its `.afp` file.
     pub path: String,
     /// The Rust crate that implements it.
     pub krate: Crate,
-    /// The name in the text, in bytes.
+    /// Byte range of the name.
     pub span: Range<usize>,
 }
 
 /// The robot of the project.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Robot {
-    /// The toolbox of the project that declares its devices.
+    /// The toolbox with its devices.
     pub toolbox: Option<String>,
-    /// The type that implements `afp_session::Simulated`, seen from the root of its crate.
+    /// The type that implements `afp_session::Simulated`, relative to its crate's root.
     pub sim: String,
-    /// Its crate; else that of its toolbox, else the one around the project file.
+    /// Its crate; defaults to the toolbox's, then to the crate around the project file.
     pub krate: Option<Crate>,
-    /// The robot itself, beside the simulated one.
+    /// The hardware robot, in addition to the simulated one.
     pub hardware: Option<Hardware>,
-    /// How the control loop of the robot itself runs: names of [`Realtime`](crate::Realtime) and values, in the order of
-    /// the file.
+    /// Settings of the control loop: names of [`Realtime`](crate::Realtime) and values, in the
+    /// order of the file.
     pub realtime: Vec<(String, String)>,
-    /// The heading in the text, in bytes.
+    /// Byte range of the heading.
     pub span: Range<usize>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hardware {
-    /// The type that implements `afp_session::Hardware`, seen from the root of its crate.
+    /// The type that implements `afp_session::Hardware`, relative to its crate's root.
     pub ty: String,
-    /// Its crate; else that of the simulated robot.
+    /// Its crate; defaults to the simulated robot's.
     pub krate: Option<Crate>,
-    /// What it is opened with, name and value, in the order of the file.
+    /// Settings for opening it, by name, in the order of the file.
     pub settings: Vec<(String, String)>,
-    /// The key in the text, in bytes.
+    /// Byte range of the key.
     pub span: Range<usize>,
 }
 
-/// The Rust crate of a toolbox or of the robot, as far as it is said.
+/// The Rust crate of a toolbox or robot, as far as given.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Crate {
-    /// The name of its package; else that of the manifest.
+    /// Name of its package; defaults to the manifest's.
     pub package: Option<String>,
-    /// Where it comes from; else from the nearest folder around the toolbox file that has a
-    /// manifest.
+    /// Its origin; defaults to the nearest folder around the toolbox file with a manifest.
     pub origin: Option<Origin>,
-    /// The module in it that has `templates` beside the types that implement them; else its root.
+    /// The module with `templates` and the implementing types; defaults to the root.
     pub module: Option<String>,
 }
 
-/// A machine that runs plans, where it differs from the built-in one of its name.
+/// A target machine; unset values are those of the built-in target with this name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
     pub name: String,
-    /// The grain of its time in nanoseconds, more than 0.
+    /// Time resolution in nanoseconds, greater than 0.
     pub tick: Option<u64>,
-    /// The share of the processor that a plan may ask for, more than 0 and at most 1.
+    /// The plan's maximum share of the processor, greater than 0 and at most 1.
     pub capacity: Option<f64>,
-    /// How many times as long as the toolboxes declare a poll takes, more than 0.
+    /// The factor on the toolboxes' poll times, greater than 0.
     pub slowdown: Option<f64>,
-    /// What one poll takes at most in nanoseconds, by toolbox and template.
+    /// Maximum time of one poll in nanoseconds, by toolbox and template.
     pub budgets: BTreeMap<String, BTreeMap<String, u64>>,
 }

@@ -1,4 +1,4 @@
-//! From the text of a project file to its meaning; whatever is wrong is said, all at once.
+//! Parses a project file and reports all errors at once.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,8 +13,7 @@ use crate::project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
 use crate::realtime::Realtime;
 use crate::time::duration;
 
-/// Reads the text of an `afp.toml`. What is wrong is left out of the project and said beside it, in
-/// the order of the text.
+/// Parses an `afp.toml`. Invalid parts are omitted, and their errors returned in source order.
 pub fn read(text: &str) -> (Project, Vec<Mistake>) {
     let mut reader = Reader { mistakes: Vec::new() };
     let mut project = Project::default();
@@ -70,7 +69,7 @@ impl Reader {
                 },
             }
         }
-        // It names a toolbox, which may stand below it.
+        // It names a toolbox, which may be declared later.
         project.robot = robot.and_then(|pair| self.robot(&pair, &project.toolboxes));
     }
 
@@ -99,7 +98,7 @@ impl Reader {
         self.single(afp, origins, help)
     }
 
-    /// The one origin among those written; none is fine for whoever has another way to know.
+    /// The only origin, or an error for several; none is valid if there is a default.
     fn single(&mut self, of: &Pair<'_>, mut all: Vec<Origin>, help: &str) -> Option<Origin> {
         if all.len() > 1 {
             let message = format!("'{}' wants exactly one of 'path', 'git' and 'version'", of.key);
@@ -108,7 +107,7 @@ impl Reader {
         all.pop()
     }
 
-    /// A key that says where a crate comes from; the inner `None` stands for a wrong value.
+    /// A key with a crate's origin; the inner `None` is an invalid value.
     fn origin(&mut self, pair: &Pair<'_>) -> Option<Option<Origin>> {
         let (make, what): (fn(String) -> Origin, _) = match pair.key {
             "path" => (Origin::Path, "a folder in quotes"),
@@ -178,7 +177,7 @@ impl Reader {
         Some(Hardware { ty: ty?, krate, settings, span: hardware.span.clone() })
     }
 
-    /// Names with texts, numbers or truth values, each as its text.
+    /// Names with strings, numbers or truth values, as text.
     fn settings(&mut self, settings: &Pair<'_>) -> Vec<(String, String)> {
         let mut all = Vec::new();
         for pair in self.table(settings, "settings = { port = \"/dev/ttyUSB0\" }") {
@@ -190,7 +189,6 @@ impl Reader {
         all
     }
 
-    /// The names and values of [`Realtime`].
     fn realtime(&mut self, realtime: &Pair<'_>) -> Vec<(String, String)> {
         let mut all = Vec::new();
         for pair in self.table(realtime, "stall = \"100 ms\"") {
@@ -307,7 +305,7 @@ impl Reader {
         value
     }
 
-    /// What each pair of a table reads as.
+    /// Reads each pair of a table.
     fn each<T>(&mut self, pair: &Pair<'_>, one: fn(&mut Reader, &Pair<'_>) -> Option<T>) -> Vec<T> {
         let pairs = self.table(pair, &format!("a heading '[{}]'", pair.key));
         pairs.iter().filter_map(|pair| one(self, pair)).collect()
@@ -341,7 +339,7 @@ impl Reader {
         })
     }
 
-    /// A value that cannot be.
+    /// Reports an invalid value.
     fn value(&mut self, pair: &Pair<'_>, what: &str) {
         let message = format!("'{}' cannot have this value", pair.key);
         self.wrong(value_span(pair), message, &format!("write {what}"));
@@ -365,7 +363,7 @@ fn pairs(table: &dyn TableLike) -> Vec<Pair<'_>> {
     pairs.collect()
 }
 
-/// A text, a number or a truth value, as its text.
+/// A string, a number or a truth value, as text.
 fn simple(pair: &Pair<'_>) -> Option<String> {
     match pair.item.as_value()? {
         Value::String(text) => Some(text.value().clone()),

@@ -1,10 +1,11 @@
-//! How the control loop of a real robot runs: `[robot.realtime]` of a project, and `--set robot.realtime.NAME`.
+//! Settings of a real robot's control loop: `[robot.realtime]` of a project, and `--set
+//! robot.realtime.NAME`.
 
 use afp_core::Duration;
 
 use crate::time::duration;
 
-/// How the control loop of a real robot runs.
+/// Settings of a real robot's control loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Realtime {
     /// The run ends if the control loop is later than this.
@@ -12,15 +13,15 @@ pub struct Realtime {
 }
 
 impl Realtime {
-    /// The first part of the settings' names, apart from those of the robot's driver.
+    /// The prefix of the settings' names, which separates them from the driver's.
     pub const PREFIX: &str = "realtime.";
     /// The names of the settings, without the prefix.
     pub const NAMES: [&str; 1] = ["stall"];
 
-    /// Sets the value of a name from its text.
+    /// Sets a value from its text.
     ///
     /// # Errors
-    /// Says which values the name takes.
+    /// The valid values.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), &'static str> {
         if Realtime::NAMES.contains(&name) {
             let limits = Duration::from_millis(1)..=Duration::from_secs(10);

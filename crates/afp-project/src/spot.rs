@@ -1,29 +1,29 @@
-//! Where in a project file a place is, whatever is wrong with the text: what editors ask while it is typed.
+//! The context at a place of a project file, which may have errors: for editors during typing.
 
 use std::ops::Range;
 
 /// A place in a project file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Spot<'t> {
-    /// The names that lead to the table.
+    /// The path of the table.
     pub table: Vec<&'t str>,
     pub kind: SpotKind,
-    /// The name there, empty where there is none yet.
+    /// The name at the place; empty if there is none yet.
     pub word: Range<usize>,
 }
 
-/// What stands at a place.
+/// The kind of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpotKind {
-    /// A name between the brackets of a heading.
+    /// A name in a heading.
     Heading,
-    /// A key, or where one may begin.
+    /// A key, or the place for one.
     Key,
     /// A value or a comment.
     Value,
 }
 
-/// What is at a byte of a text. Keys with quotes are taken without; a value that goes over several lines counts as keys
+/// The context at a byte offset. Quotes are removed from keys; a multi-line value counts as keys
 /// from its second line on.
 pub fn spot(text: &str, offset: usize) -> Spot<'_> {
     let offset =
@@ -44,7 +44,7 @@ pub fn spot(text: &str, offset: usize) -> Spot<'_> {
     in_line(text, start..end, offset, heading(&text[..start]))
 }
 
-/// The headings of a text: the names that lead to each table, and where they stand.
+/// The places of all headings.
 pub fn headings(text: &str) -> Vec<Range<usize>> {
     let mut start = 0;
     let lines = text.split_inclusive('\n').map(|line| {
@@ -56,7 +56,7 @@ pub fn headings(text: &str) -> Vec<Range<usize>> {
     heads.map(|(at, line)| at + line.len() - line.trim_start().len()..at + line.len()).collect()
 }
 
-/// The table whose lines follow a text.
+/// The path of the table at the end of a text.
 fn heading(before: &str) -> Vec<&str> {
     let last = headings(before).pop().map(|span| &before[span]);
     let inner = last.map(|line| line.trim_matches('['));
@@ -64,7 +64,7 @@ fn heading(before: &str) -> Vec<&str> {
     names.into_iter().flat_map(|names| names.split('.')).map(bare).collect()
 }
 
-/// The names in front of a place, and the one at it.
+/// The names before a place, and the name at it.
 fn path(text: &str, names: Range<usize>, offset: usize) -> (Vec<&str>, Range<usize>) {
     let from = text[names.start..offset].rfind('.').map_or(names.start, |at| names.start + at + 1);
     let to = text[offset..names.end].find('.').map_or(names.end, |at| offset + at);
@@ -79,14 +79,14 @@ fn bare(name: &str) -> &str {
     name.trim().trim_matches(['"', '\''])
 }
 
-/// The place in a line of keys and values, braces included.
+/// The context in a line of keys and values, including braces.
 fn in_line<'t>(
     text: &'t str,
     line: Range<usize>,
     offset: usize,
     mut table: Vec<&'t str>,
 ) -> Spot<'t> {
-    // How many names each brace has added, and where the key begins; none in a value.
+    // The number of names that each brace has added, and the start of the key; `None` in a value.
     let (mut open, mut key) = (Vec::new(), Some(line.start));
     let mut names: Vec<&str> = Vec::new();
     let mut quote = None;
@@ -128,7 +128,7 @@ fn in_line<'t>(
 mod tests {
     use super::*;
 
-    /// The place of `|` in a text: table, kind, word.
+    /// The context at `|` in a text: table, kind, word.
     fn at(text: &str) -> String {
         let offset = text.find('|').expect("a mark");
         let text = text.replacen('|', "", 1);

@@ -1,12 +1,12 @@
-//! Times as people write them outside of plans: in `afp.toml` and on the command line.
+//! Durations outside of plans: in `afp.toml` and on the command line.
 
 use afp_core::Duration;
 use afp_types::{SingleUnit, parse_quantity};
 
-/// A span of time, such as `20s` or `1.5 ms`, to the nearest nanosecond.
+/// Parses a duration such as `20s` or `1.5 ms`, to the nearest nanosecond.
 ///
 /// # Errors
-/// Says what was expected.
+/// The expected format.
 pub fn duration(text: &str) -> Result<Duration, String> {
     match parse_quantity(text, SingleUnit::of("duration").map(SingleUnit::unit)) {
         Ok(secs) if secs >= 0.0 => Ok(Duration::from_secs_f64(secs)),

@@ -1,60 +1,59 @@
-//! The files of a project's folder.
-
 use std::collections::{HashSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use crate::path::NAME;
 
-/// Folders deeper than this are not looked into.
+/// Maximum depth of the search.
 const DEPTH: usize = 12;
 
-/// Where a project keeps scenarios, besides its folder itself.
+/// A project's folders for scenarios, in addition to its root.
 const SCENARIOS: [&str; 3] = ["plans", "tests", "scenarios"];
 
-/// What lies below a folder.
+/// The files below a folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
-    /// The plans, toolboxes and scenarios, and project files, by path.
+    /// Plans, toolboxes, scenarios and project files, by path.
     pub files: Vec<PathBuf>,
-    /// The logs of runs, and those that tools have put where builds go, by path.
+    /// Logs of runs, including logs in build folders, by path.
     pub logs: Vec<PathBuf>,
-    /// How many entries of folders were looked at.
+    /// Number of visited folder entries.
     pub entries: usize,
-    /// Whether there are more: the folders farthest in were not looked into.
+    /// Whether the list is incomplete: the deepest folders were skipped.
     pub is_cut: bool,
 }
 
-/// A folder that cannot be read, and why.
+/// An unreadable folder, and the reason.
 pub type Unread = (PathBuf, io::Error);
 
-/// What lies below a folder, the nearest first, as far as `most` entries go. Hidden folders and those that builds fill are
-/// left out, so are those that cannot be read, and links to folders.
+/// Lists the files below a folder, the nearest first, visiting at most `most` entries. Skips hidden
+/// folders, build folders, unreadable folders, and links to folders.
 pub fn list(folder: &Path, most: usize) -> Listing {
     let built = Inner { path: folder.join("target/afp"), depth: DEPTH, built: true };
     let own = Inner { path: folder.to_owned(), depth: DEPTH, built: false };
     Walk::default().through([own, built], most).found
 }
 
-/// The plans, toolboxes and scenarios below a folder, and project files, by path: all that [`list`] would find.
+/// Plans, toolboxes, scenarios and project files below a folder, by path, as in [`list`] without a
+/// limit.
 pub fn files(folder: &Path) -> Vec<PathBuf> {
     let own = Inner { path: folder.to_owned(), depth: DEPTH, built: false };
     Walk::default().through([own], usize::MAX).found.files
 }
 
-/// The same for those who must miss none: with the folders that links lead to.
+/// Like [`files`], but complete: follows links to folders.
 ///
 /// # Errors
-/// A folder that cannot be read.
+/// An unreadable folder.
 pub fn all_files(folder: &Path) -> Result<Vec<PathBuf>, Unread> {
     let own = Inner { path: folder.to_owned(), depth: DEPTH, built: false };
     Walk::missing_none().through([own], usize::MAX).whole()
 }
 
-/// Those of [`all_files`] that lie where a project keeps scenarios.
+/// The files of [`all_files`] in a project's folders for scenarios.
 ///
 /// # Errors
-/// A folder that cannot be read.
+/// An unreadable folder.
 pub fn scenario_files(folder: &Path) -> Result<Vec<PathBuf>, Unread> {
     let inner = |name| Inner { path: folder.join(name), depth: DEPTH - 1, built: false };
     let own = Inner { path: folder.to_owned(), depth: 0, built: false };
@@ -62,25 +61,23 @@ pub fn scenario_files(folder: &Path) -> Result<Vec<PathBuf>, Unread> {
     Walk::missing_none().through(folders, usize::MAX).whole()
 }
 
-/// A folder that is to be looked into.
+/// A folder to visit.
 struct Inner {
     path: PathBuf,
-    /// How many folders deep.
+    /// Depth of the folder.
     depth: usize,
-    /// Whether builds fill it: of its files only logs matter.
+    /// Whether it is a build folder: only its logs matter.
     built: bool,
 }
 
-/// A walk through folders.
 #[derive(Default)]
 struct Walk {
     found: Listing,
     waiting: VecDeque<Inner>,
-    /// Whether links to folders are followed.
+    /// Whether to follow links to folders.
     follows: bool,
-    /// The folders that links have led to: none is walked twice, and no circle.
+    /// Folders reached by links, so that none is visited twice.
     linked: HashSet<PathBuf>,
-    /// The first folder that could not be read.
     unread: Option<Unread>,
 }
 
@@ -95,7 +92,7 @@ impl Walk {
             let entries = match fs::read_dir(&folder.path) {
                 Ok(entries) => entries,
                 Err(error) => {
-                    // One that need not be there has no files.
+                    // A missing folder has no files.
                     if error.kind() != io::ErrorKind::NotFound {
                         self.unread.get_or_insert((folder.path, error));
                     }
@@ -116,7 +113,7 @@ impl Walk {
         self
     }
 
-    /// All files, if all folders could be read.
+    /// All files, if all folders were readable.
     fn whole(self) -> Result<Vec<PathBuf>, Unread> {
         self.unread.map_or(Ok(self.found.files), Err)
     }
@@ -137,7 +134,8 @@ impl Walk {
             return;
         }
         let is_text = (name.ends_with(".afp") || name == NAME) && !folder.built;
-        // No pipe, which would keep its reader waiting; where a link leads nowhere, whoever reads it is told.
+        // Excludes pipes, which would block their reader; a broken link is reported when it is
+        // read.
         let is_file = path.is_file() || self.follows && is_link && !path.exists();
         if (is_text || name.ends_with(".mcap")) && is_file {
             let kind = if is_text { &mut self.found.files } else { &mut self.found.logs };
@@ -191,7 +189,7 @@ mod tests {
         fs::write(path("common/a.afp"), "").unwrap();
         symlink("../common", path("plans/linked")).unwrap();
         symlink("..", path("plans/own/circle")).unwrap();
-        // Those that are not walked hide nothing of the others.
+        // Skipped folders do not hide others.
         symlink("common", path("lib")).unwrap();
         symlink("../common", path("plans/.hidden")).unwrap();
         symlink("nowhere.afp", path("plans/lost.afp")).unwrap();
@@ -200,7 +198,7 @@ mod tests {
         assert!(has("plans/linked/a.afp") && has("plans/lost.afp"), "{found:?}");
         assert!(found.len() < 10, "{found:?}");
         assert_eq!(files(place.path()), [path("common/a.afp")]);
-        // A file in the place of a folder cannot be read as one, whoever asks.
+        // A file in place of a folder is always unreadable as one.
         fs::write(path("tests"), "").unwrap();
         assert_eq!(scenario_files(place.path()).unwrap_err().0, path("tests"));
     }

@@ -1,5 +1,3 @@
-//! Project files in folders.
-
 use std::fs;
 use std::path::Path;
 
@@ -96,7 +94,7 @@ b = { path = 'a.afp', crate = { path = 'b' } }";
     assert_eq!((&*a.key, &*a.rust_path()), ("far-away", "far_away::m"));
     assert_eq!((a.origin, a.folder), (Origin::Git("https://x".to_owned()), None));
     let b = files[1].krate.clone().unwrap();
-    // The name of the library is what Rust code says.
+    // Rust code uses the name of the library.
     assert_eq!((&*b.key, &*b.package, &*b.rust_path()), ("short", "bb", "short"));
 }
 

@@ -1,4 +1,4 @@
-//! Texts of project files, sound and broken.
+//! Valid and invalid project files.
 
 use super::read;
 use crate::project::{Origin, Project};
@@ -47,7 +47,7 @@ version = '0.1'
     assert_eq!(read("").0, Project::default());
 }
 
-/// The texts that mistakes are about.
+/// The texts at the errors.
 fn wrong(text: &str) -> Vec<&str> {
     let (_, mistakes) = read(text);
     for mistake in &mistakes {
