@@ -1,4 +1,4 @@
-//! Report once, when a time is over.
+//! Report once, after a time.
 
 use afp_core::{Events, Fault, Instant, Supervisor};
 
@@ -6,14 +6,13 @@ use crate::since::Since;
 use crate::templates;
 use crate::templates::after::{Event, Inputs, Live};
 
-/// The template's only event.
 const ELAPSED: u16 = 0;
 
 /// Reports at the first poll after its time, once for each start.
 #[derive(Clone, Copy, Debug)]
 pub struct After {
     since: Since,
-    /// The start whose time is over.
+    /// The start for which the time is over.
     over: Option<Instant>,
 }
 

@@ -1,4 +1,4 @@
-//! Report that a value becomes another one.
+//! Report changes of a value.
 
 use afp_core::rt::Any;
 use afp_core::{Events, Fault, Instant, Supervisor};
@@ -6,10 +6,9 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 use crate::templates;
 use crate::templates::changed::{Event, Inputs, Live};
 
-/// The template's only event.
 const CHANGED: u16 = 0;
 
-/// Compares a value with that of the poll before; the first poll takes note of it.
+/// Compares a value with that of the previous poll; the first poll only stores it.
 #[derive(Clone, Copy, Debug)]
 pub struct Changed<V> {
     before: Option<V>,

@@ -1,14 +1,13 @@
-//! Limit the time that an action may take.
+//! Limit the time of an action.
 
 use afp_core::{Events, Fault, Instant, Supervisor};
 
 use crate::templates;
 use crate::templates::check_timeout::{Event, Inputs, Live};
 
-/// The template's only event.
 const TIMED_OUT: u16 = 0;
 
-/// Reports that its time is over, at every poll from then on.
+/// Reports at every poll after its time is over.
 #[derive(Clone, Copy, Debug)]
 pub struct CheckTimeout {
     until: Instant,

@@ -9,7 +9,6 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 use crate::templates;
 use crate::templates::check_value::{Event, Inputs, Live};
 
-/// The template's events, by position.
 const BELOW: u16 = 0;
 const ABOVE: u16 = 1;
 

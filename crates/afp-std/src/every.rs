@@ -5,11 +5,9 @@ use afp_core::{Duration, Events, Fault, Instant, Supervisor};
 use crate::templates;
 use crate::templates::every::{Event, Inputs, Live};
 
-/// The template's only event.
 const DUE: u16 = 0;
 
-/// Reports at the first poll at or behind each whole period since its start, once for all that have
-/// passed meanwhile.
+/// Reports at the first poll after each whole period since its start; missed periods count once.
 #[derive(Clone, Copy, Debug)]
 pub struct Every {
     next: Instant,

@@ -1,4 +1,4 @@
-//! Do nothing until an event leads on.
+//! Do nothing until an event interrupts.
 
 use afp_core::{Actor, Fault, Instant, Poll};
 

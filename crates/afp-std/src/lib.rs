@@ -27,7 +27,7 @@ pub use stopwatch::Stopwatch;
 pub use switch::Switch;
 pub use wait::Wait;
 
-/// Registers the templates on a platform, as the macros of this name of other toolboxes do those that it supports.
+/// Registers the templates on a platform, like the macros with this name in other toolboxes.
 #[macro_export]
 macro_rules! register {
     ($registry:expr, $platform:ty) => {

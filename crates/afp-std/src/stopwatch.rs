@@ -7,7 +7,6 @@ use crate::since::Since;
 use crate::templates;
 use crate::templates::stopwatch::{Event, Inputs, Live};
 
-/// The template's only event.
 const TICKED: u16 = 0;
 
 /// Reports the time since its start at every poll.

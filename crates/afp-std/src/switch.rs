@@ -1,4 +1,4 @@
-//! Go the way of a value of an enum.
+//! Branch by an enum value.
 
 use core::marker::PhantomData;
 
@@ -14,7 +14,7 @@ pub struct Switch<V>(PhantomData<V>);
 
 impl<V: Discrete> Computation<templates::Switch<V>> for Switch<V> {
     /// # Errors
-    /// [`Fault::INTERNAL`] for what is no value of an enum, which no plan can bind.
+    /// [`Fault::INTERNAL`] for a value that is not an enum, which the checker excludes.
     fn compute(inputs: Inputs<V>) -> Result<State, Fault> {
         match inputs.value.as_value() {
             ValueRef::Choice(place) => Ok(State(place)),
