@@ -1,16 +1,16 @@
 //! The built-in toolbox files and their icons, as data.
 //!
-//! Whoever runs the compiler passes these texts to it, so that `use std` and `use carbot` need no
-//! files beside the program.
+//! Callers of the compiler pass these texts to it, so that `use std` and `use carbot` need no
+//! files.
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "project")]
 pub mod project;
 
-/// A toolbox that is embedded wherever the compiler runs.
+/// A toolbox embedded in every program with a compiler.
 #[derive(Clone, Copy, Debug)]
 pub struct Builtin {
-    /// The name by which `use` finds it.
+    /// The name for `use`.
     pub name: &'static str,
     /// The name of its file, for diagnostics.
     pub file_name: &'static str,
@@ -35,16 +35,14 @@ pub const ALL: &[Builtin] = &[
     },
 ];
 
-/// Each toolbox as a set of toolboxes takes it in: the name of its file, its text, and the crate that
-/// implements it.
+/// File name, text and crate of each toolbox.
 pub fn sources() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
     ALL.iter().map(|toolbox| (toolbox.file_name, toolbox.text, toolbox.rust_path))
 }
 
 macro_rules! icons {
     ($($name:literal),* $(,)?) => {
-        /// Every icon: the name that templates give, and the SVG text (24 x 24, drawn in
-        /// `currentColor`).
+        /// Every icon: its name in templates, and the SVG text (24 x 24, drawn in `currentColor`).
         pub const ICONS: &[(&str, &str)] =
             &[$(($name, include_str!(concat!("../icons/", $name, ".svg")))),*];
     };
@@ -104,13 +102,13 @@ icons! {
     "widest_gap",
 }
 
-/// Whether a text can be the name of an icon, and so of a file: letters, digits, `-` and `_`.
+/// Whether a text is a valid icon name, and thus file name: letters, digits, `-` and `_`.
 pub fn is_icon_name(name: &str) -> bool {
     let plain = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | '_');
     !name.is_empty() && name.chars().all(plain)
 }
 
-/// The SVG text of an icon; `None` for a name that is not built in.
+/// The SVG text of an icon; `None` for an unknown name.
 pub fn icon(name: &str) -> Option<&'static str> {
     ICONS.iter().find(|(known, _)| *known == name).map(|(_, svg)| *svg)
 }

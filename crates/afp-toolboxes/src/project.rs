@@ -1,9 +1,9 @@
-//! The toolboxes that the plans of a project may use, with the crates that implement them: those that are built
-//! in, and those that `afp.toml` names.
+//! The toolboxes for the plans of a project, with their crates: the built-in ones, and those in
+//! `afp.toml`.
 //!
-//! Command line, macros, tests and Python all ask here, so that a plan means the same to each of them. The language
-//! server alone reads toolboxes otherwise, since its files are those of a client and may be half written
-//! (ARCHITECTURE.md).
+//! Command line, macros, tests and Python all use this module, so that a plan has the same meaning
+//! in each. Only the language server reads toolboxes separately, since its files are a client's and
+//! may be incomplete (ARCHITECTURE.md).
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,18 +16,18 @@ use afp_dsl::toolbox::Toolbox;
 use afp_project::{CrateLink, Mistake, ProjectError, ProjectFile, ToolboxFile, shown};
 use afp_syntax::source::Source;
 
-/// A project and the toolboxes that it has beyond the built-in ones.
+/// A project and its own toolboxes.
 #[derive(Debug)]
 pub struct OwnToolboxes {
     pub project: ProjectFile,
     files: Vec<ToolboxFile>,
 }
 
-/// A toolbox of the project and the crate behind it.
+/// A toolbox of the project and its crate.
 #[derive(Clone, Debug)]
 pub struct OwnToolbox {
     pub name: String,
-    /// Its file, as diagnostics show it, and the file's text.
+    /// Its file and text, named as in diagnostics.
     pub source: Source,
     pub declared: Arc<Toolbox>,
     pub krate: CrateLink,
@@ -37,34 +37,34 @@ impl OwnToolboxes {
     /// Reads the toolbox files of a project.
     ///
     /// # Errors
-    /// One of them cannot be read.
+    /// A file cannot be read.
     pub fn read(project: ProjectFile) -> Result<Self, ProjectError> {
         let files = project.toolboxes()?;
         Ok(OwnToolboxes { project, files })
     }
 
-    /// Those of the project whose `afp.toml` is nearest to a plan.
+    /// Reads the project of a plan: the nearest `afp.toml`.
     ///
     /// # Errors
-    /// The project file or one of them cannot be read, or the project file is wrong.
+    /// The project file or a toolbox cannot be read, or the project file has errors.
     pub fn of_plan(plan: &Path) -> Result<Self, ProjectError> {
         OwnToolboxes::read(ProjectFile::of_plan(plan)?)
     }
 
-    /// The built-in toolboxes and those of the project, which take the place of built-in ones of the
-    /// same name.
+    /// The built-in toolboxes and those of the project, which replace built-in ones with the same
+    /// name.
     ///
     /// # Errors
-    /// A toolbox file is that of another toolbox than the project says.
+    /// A file declares another toolbox than the project file names.
     pub fn with_built_in(&self) -> Result<Toolboxes, ProjectError> {
         self.with_built_in_as(source, rust_path)
     }
 
-    /// As [`OwnToolboxes::with_built_in`]; the caller says how messages show the files, and by which paths it
-    /// reaches the crates.
+    /// Like [`OwnToolboxes::with_built_in`]; the caller determines file names in messages and paths
+    /// of crates.
     ///
     /// # Errors
-    /// A toolbox file is that of another toolbox than the project says.
+    /// A file declares another toolbox than the project file names.
     pub fn with_built_in_as(
         &self,
         source: impl Fn(&ToolboxFile) -> Source,
@@ -87,7 +87,7 @@ impl OwnToolboxes {
         }
     }
 
-    /// The files of the project's toolboxes, in its order.
+    /// The project's toolboxes, in order.
     pub fn files(&self) -> &[ToolboxFile] {
         &self.files
     }
@@ -97,15 +97,15 @@ impl OwnToolboxes {
         self.files.iter().map(|file| (file.toolbox.name.as_str(), file.text.as_str()))
     }
 
-    /// The toolbox that declares the devices of the project's robot.
+    /// The toolbox with the devices of the project's robot.
     fn of_robot(&self) -> Option<&String> {
         self.project.project.robot.as_ref()?.toolbox.as_ref()
     }
 
-    /// Those that a plan uses, and that of the robot, with their crates.
+    /// The toolboxes of a plan and of the robot, with their crates.
     ///
     /// # Errors
-    /// There is no such crate, or the robot's toolbox is wrong.
+    /// A crate is missing, or the robot's toolbox has errors.
     pub fn used_by(&self, graph: &Graph) -> Result<Vec<OwnToolbox>, ProjectError> {
         self.linked(|name| {
             let used = graph.toolboxes.iter().find(|toolbox| toolbox.name == name);
@@ -118,16 +118,15 @@ impl OwnToolboxes {
         })
     }
 
-    /// All of them, with their crates.
+    /// All toolboxes with their crates.
     ///
     /// # Errors
-    /// There is no such crate, or a toolbox is wrong.
+    /// A crate is missing, or a toolbox has errors.
     pub fn all(&self) -> Result<Vec<OwnToolbox>, ProjectError> {
         let known = self.with_built_in()?;
         self.linked(|name| Ok(known.get(name).cloned()))
     }
 
-    /// Those that are wanted, with their crates.
     fn linked(
         &self,
         wanted: impl Fn(&str) -> Result<Option<Arc<Toolbox>>, ProjectError>,
@@ -149,8 +148,7 @@ impl OwnToolboxes {
 }
 
 impl OwnToolboxes {
-    /// The text of an icon: `icons/NAME.svg` beside the file of the project's toolbox, else that of a
-    /// built-in one.
+    /// The text of an icon: `icons/NAME.svg` next to the project's toolbox file, or a built-in one.
     pub fn icon(&self, toolbox: &Toolbox, name: &str) -> Option<String> {
         if !crate::is_icon_name(name) {
             return None;
@@ -164,7 +162,8 @@ impl OwnToolboxes {
     }
 }
 
-/// Names and texts of the toolboxes of a plan of these beyond the built-in ones: of its project, or of another language.
+/// Names and texts of the toolboxes of a plan that are not built in: from its project, or from
+/// another language.
 pub fn own_toolbox_texts<'a>(
     compiled: &'a Compiled,
     graph: &'a Graph,
@@ -173,7 +172,8 @@ pub fn own_toolbox_texts<'a>(
     compiled.toolbox_texts(graph).filter(move |(_, text)| !built_in(text))
 }
 
-/// The path of the crate behind a toolbox. Plans can be checked before there is one; whoever needs it asks for it.
+/// The path of a toolbox's crate. Plans can be checked before the crate exists; an error is
+/// reported when it is needed.
 fn rust_path(file: &ToolboxFile) -> String {
     file.krate.as_ref().map_or_else(|_| file.toolbox.name.clone(), CrateLink::rust_path)
 }
@@ -182,7 +182,7 @@ fn source(file: &ToolboxFile) -> Source {
     Source::new(shown(&file.path).display().to_string(), &file.text)
 }
 
-/// A file that does not say what the project calls it.
+/// The error of a file that declares another toolbox than the project file names.
 fn misnamed(file: &ToolboxFile) -> Mistake {
     let (path, name) = (shown(&file.path), &file.toolbox.name);
     Mistake {
@@ -197,7 +197,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// What is said of a project with these files of toolboxes.
+    /// The errors of a project with these toolbox files.
     fn said(project: &str, files: &[(&str, &str)]) -> Option<String> {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("afp.toml"), project).unwrap();
