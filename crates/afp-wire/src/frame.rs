@@ -10,12 +10,12 @@ use serde::{Deserialize, Serialize};
 
 const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
-/// What a frame carries, and whose it is.
+/// Content of a frame and its sender.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Frame<T> {
-    /// The life of the sender.
+    /// Boot id of the sender.
     pub boot: u32,
-    /// Counts the frames of that life.
+    /// Counts the frames since that boot.
     pub sequence: u16,
     pub packet: Packet<T>,
 }

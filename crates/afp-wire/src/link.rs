@@ -1,4 +1,4 @@
-//! One end of a line: what it says, who the other end is, and which of its frames count.
+//! One end of a line: its frames, the other end, and the checks of received frames.
 
 use core::fmt;
 
@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 
 use crate::frame::{self, Frame, Packet, TooLong};
 
-/// What one end says. It holds no port: its bytes go wherever the caller writes them.
+/// The sending half of an end. It has no port: the caller writes its bytes.
 #[derive(Debug)]
 pub struct Sender {
     boot: u32,
@@ -16,7 +16,8 @@ pub struct Sender {
     next: u16,
 }
 
-/// What one end hears, in frames of up to `LONGEST` bytes. It holds no port: the caller passes each byte that arrives.
+/// The receiving half of an end, for frames of up to `LONGEST` bytes. It has no port: the caller
+/// passes each byte that arrives.
 #[derive(Debug)]
 pub struct Receiver<const LONGEST: usize> {
     version: u16,
@@ -33,14 +34,14 @@ struct Peer {
     boot: u32,
     /// The sequence number of its last frame.
     last: u16,
-    /// When that frame came.
+    /// The time of that frame.
     heard: Instant,
 }
 
 /// A frame from the other end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Received<T> {
-    /// The other end is there, and its messages have our version.
+    /// The other end is connected and has the same message version.
     Hello,
     /// A message.
     Message {
@@ -51,7 +52,7 @@ pub enum Received<T> {
     },
 }
 
-/// Why a frame does not count.
+/// Why a frame is rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rejected {
     /// Bytes were lost, added or changed.
@@ -86,9 +87,10 @@ impl fmt::Display for Rejected {
 impl core::error::Error for Rejected {}
 
 impl Sender {
-    /// An end that has a boot id of its own and messages of a version.
+    /// An end with its own boot id and a message version.
     ///
-    /// `boot` must differ from those of earlier starts of the same end: a random number, or a counter in persistent memory.
+    /// `boot` must differ from those of earlier starts of the same end: a random number, or a
+    /// counter in persistent memory.
     pub const fn new(boot: u32, version: u16) -> Self {
         Sender { boot, version, next: 0 }
     }
@@ -130,7 +132,8 @@ impl<const LONGEST: usize> Receiver<LONGEST> {
         Receiver { version, peer: None, inbox: [0; LONGEST], length: 0, overflows: false }
     }
 
-    /// Takes a byte from the line. Returns the frame that it ends, or why that frame does not count.
+    /// Takes a byte from the line. Returns the frame that it completes, or why the frame is
+    /// rejected.
     pub fn receive<T: DeserializeOwned>(
         &mut self,
         byte: u8,
@@ -189,12 +192,12 @@ impl<const LONGEST: usize> Receiver<LONGEST> {
         self.peer.is_some()
     }
 
-    /// Whether the other end has not been heard for longer than `limit`, or never.
+    /// Whether the other end has been silent for longer than `limit`, or always.
     pub fn is_silent(&self, now: Instant, limit: Duration) -> bool {
         self.peer.is_none_or(|peer| now.since(peer.heard) > limit)
     }
 
-    /// Forgets the other end: the next hello of any life of it begins a new connection.
+    /// Forgets the other end: its next hello begins a new connection, after any restart.
     pub fn forget(&mut self) {
         self.peer = None;
     }
