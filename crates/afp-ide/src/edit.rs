@@ -75,6 +75,7 @@ pub enum Change {
     },
     /// Adds plans, given as text, after the last plan.
     AddPlan {
+        /// The text of one or more plans.
         text: String,
     },
     /// Adds entries, elements or supervisors, given as text.
@@ -100,17 +101,9 @@ pub enum Change {
         to: String,
     },
     /// Renames a column of a table and its bindings in all files.
-    RenameColumn {
-        table: String,
-        column: String,
-        to: String,
-    },
+    RenameColumn { table: String, column: String, to: String },
     /// Renames a value of an enum in all files.
-    RenameValue {
-        enumeration: String,
-        value: String,
-        to: String,
-    },
+    RenameValue { enumeration: String, value: String, to: String },
     /// Connects a state or event, or changes its target.
     Connect {
         #[serde(with = "wire")]
@@ -126,10 +119,8 @@ pub enum Change {
         from: Item,
         outcome: String,
     },
-    SetStart {
-        plan: String,
-        to: String,
-    },
+    /// Sets the first element of a plan.
+    SetStart { plan: String, to: String },
     /// Moves an item before another one of its list, or after the last of its kind.
     Reorder {
         #[serde(with = "wire")]
@@ -219,10 +210,7 @@ pub enum Change {
     },
     /// Replaces a sub-plan by its elements. Its plan stays, and may be in a different file. New
     /// `use` lines import the names of the elements.
-    Inline {
-        plan: String,
-        element: String,
-    },
+    Inline { plan: String, element: String },
 }
 
 impl Change {

@@ -21,11 +21,10 @@ pub(crate) struct Mover {
 
 #[derive(Clone)]
 enum MovedBy {
+    /// Follows a path.
     Scripted(Path),
     /// It is pushed; its radius of gyration is in metres and at least a centimetre.
-    Pushed {
-        gyration: f32,
-    },
+    Pushed { gyration: f32 },
 }
 
 impl Mover {

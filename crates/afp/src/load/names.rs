@@ -16,6 +16,7 @@ use afp_syntax::source::Span;
 pub struct PlanNames(Arc<Unfolded>);
 
 impl PlanNames {
+    /// The names of a graph's main plan.
     pub fn new(graph: &Graph) -> Self {
         PlanNames(Arc::new(unfold::unfold(graph)))
     }
