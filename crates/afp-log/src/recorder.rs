@@ -27,8 +27,8 @@ const CAPACITY: usize = 8192;
 const ROOM: usize = 256;
 /// The flush interval, so that a crash loses little.
 const FLUSH_EVERY: Span = Span::from_millis(250);
-/// The writer's pause if the queue is empty.
-const REST: Span = Span::from_micros(500);
+/// The recorder's pause if the queue is full.
+const REST: Span = Span::from_micros(125);
 
 /// Behaviour if the writer is too slow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,6 +191,14 @@ impl Recorder {
         self.push(Item::Event(Box::new(event)), at);
     }
 
+    /// Writes that items were dropped before they came here, and the values of all entries now.
+    pub fn loss(&mut self, at: Instant, count: u64, entries: &[Value]) {
+        self.lost += count;
+        self.unreported += count;
+        self.entries = entries.to_vec();
+        self.tell_of_loss(at);
+    }
+
     /// Writes the results as the metadata record `afp.end`.
     pub fn end(&mut self, at: Instant, facts: Vec<(String, String)>) {
         self.push(Item::End { at, facts }, at);
@@ -237,6 +245,13 @@ impl Recorder {
         Ok(Written { path, bytes, lost: self.lost })
     }
 
+    /// Wakes the writer, which otherwise looks for items every 250 ms.
+    pub(crate) fn wake(&self) {
+        if let Some(thread) = &self.thread {
+            thread.thread().unpark();
+        }
+    }
+
     fn say(&mut self, at: Instant, said: Said) {
         self.push(Item::Said { at, said }, at);
     }
@@ -265,7 +280,8 @@ impl Recorder {
                 return;
             }
             item = back;
-            thread::sleep(REST / 4);
+            self.wake();
+            thread::sleep(REST);
         }
     }
 
@@ -280,6 +296,7 @@ impl Recorder {
         let thread = self.thread.take()?;
         self.end.unreported.store(self.unreported, Ordering::Relaxed);
         self.end.state.store(how, Ordering::Release);
+        thread.thread().unpark();
         Some(thread.join().unwrap_or(Err(LogError::Writer)))
     }
 }
@@ -330,7 +347,7 @@ fn write_all(mut file: Encoder, mut items: Consumer<Item>, end: &End) -> Outcome
             };
         }
         if idle {
-            thread::sleep(REST);
+            thread::park_timeout(FLUSH_EVERY);
         }
     }
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, signals};
 use afp_core::trace::{Ending, Record, Sink};
-use afp_core::{Duration, Instant};
+use afp_core::{Duration, Instant, Value};
 use afp_session::{
-    AnySession, Applied, Datum, Done, NamedRecord, Observer, Requested, RunEvent, SAMPLE,
+    AnySession, Applied, Datum, Done, FILM, NamedRecord, Observer, Requested, RunEvent, SAMPLE,
     SampleRef, Sampling, Shape,
 };
 
@@ -14,8 +14,6 @@ use crate::channels::{FRAMES, Signal};
 use crate::error::LogError;
 use crate::recorder::{Recorder, Written};
 use crate::robot::{Image, Level, Transform};
-
-const FILM: Duration = Duration::from_millis(500);
 
 /// The interval in which live clients get the whole scene.
 const SCENES: Duration = Duration::from_secs(1);
@@ -171,6 +169,10 @@ impl Observer for SessionLog {
         true
     }
 
+    fn on_loss(&mut self, at: Instant, count: u64, entries: &[Value]) {
+        self.recorder.loss(at, count, entries);
+    }
+
     fn sampling(&self) -> Sampling {
         Sampling::Every(SAMPLE)
     }
@@ -229,6 +231,7 @@ impl Observer for SessionLog {
             self.recorder.scene(at, std::mem::take(&mut self.moved));
         }
         self.after_loss(at);
+        self.recorder.wake();
     }
 }
 

@@ -47,6 +47,11 @@ impl Pace {
         Pace { begun: Wall::now(), stood: Cell::default(), keeper, keys }
     }
 
+    /// Whether the robot itself keeps the time.
+    pub(crate) fn is_of_robot(&self) -> bool {
+        self.keeper == TimeKeeper::Robot
+    }
+
     /// Seconds of real time so far.
     pub(crate) fn spent(&self) -> f64 {
         self.begun.elapsed().as_secs_f64()

@@ -6,11 +6,12 @@ mod progress;
 mod summary;
 mod timeline;
 
-use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use afp_core::Instant;
 use afp_core::trace::{ComponentKind, Names, Record};
+use afp_core::{Instant, Value};
 use afp_log::LogData;
 use afp_session::{Applied, EventKind, NamedRecord, Observer, RunEvent};
 
@@ -54,15 +55,25 @@ pub fn event_line(event: &RunEvent) -> Option<String> {
 }
 
 /// Tells of a run as an observer.
-pub(crate) struct Shown<'a>(pub &'a RefCell<Report>);
+pub(crate) struct Shown<'a>(pub &'a Mutex<Report>);
+
+/// The report, for one of those who share it.
+pub(crate) fn of(report: &Mutex<Report>) -> MutexGuard<'_, Report> {
+    report.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 impl Observer for Shown<'_> {
     fn on_record(&mut self, named: &NamedRecord<'_>) {
-        self.0.borrow_mut().tell(named.at, named.record, named.names);
+        of(self.0).tell(named.at, named.record, named.names);
     }
 
     fn on_request(&mut self, applied: &Applied<'_>) {
-        self.0.borrow_mut().tell_event(&applied.event());
+        of(self.0).tell_event(&applied.event());
+    }
+
+    fn on_loss(&mut self, at: Instant, count: u64, _: &[Value]) {
+        let kind = EventKind::Lost(count);
+        of(self.0).tell_event(&RunEvent { at, kind, ..RunEvent::default() });
     }
 }
 
@@ -75,6 +86,8 @@ pub(crate) struct Report {
     progress: Progress,
     /// Why nothing can be written any more.
     failure: Option<io::Error>,
+    /// Whether nobody reads any more, or nothing can be written.
+    closed: Arc<AtomicBool>,
 }
 
 impl Report {
@@ -82,21 +95,23 @@ impl Report {
     /// There is no thread for what must not wait.
     pub(crate) fn new(json: bool, end: Instant, keeper: TimeKeeper) -> io::Result<Self> {
         let terminal = io::stdout().is_terminal();
+        let closed: Arc<AtomicBool> = Arc::default();
         let out = match (keeper, terminal) {
-            (TimeKeeper::Robot, _) => {
-                Out::Background(BackgroundWriter::new(Box::new(anstream::stdout()))?)
-            }
+            (TimeKeeper::Robot, _) => Out::Background(BackgroundWriter::new(
+                Box::new(anstream::stdout()),
+                closed.clone(),
+            )?),
             // Line by line for people, in blocks for pipes.
             (_, true) => Out::Here(Box::new(anstream::stdout())),
             (_, false) => Out::Here(Box::new(io::BufWriter::new(anstream::stdout()))),
         };
         let progress = Progress::new(end, keeper != TimeKeeper::Robot);
-        Ok(Report { out, terminal, json, progress, failure: None })
+        Ok(Report { out, terminal, json, progress, failure: None, closed })
     }
 
-    /// Whether nobody reads any more, or nothing can be written.
-    pub(crate) fn is_closed(&self) -> bool {
-        self.failure.is_some() || self.out.has_failed()
+    /// Whether nobody reads any more, or nothing can be written; for other threads to look at.
+    pub(crate) fn closed(&self) -> Arc<AtomicBool> {
+        self.closed.clone()
     }
 
     /// The lines that say what runs.
@@ -173,6 +188,7 @@ impl Report {
     fn write(&mut self, text: &str) {
         if self.failure.is_none() {
             self.failure = writeln!(self.out, "{text}").err();
+            self.closed.fetch_or(self.failure.is_some(), Ordering::Relaxed);
         }
     }
 }

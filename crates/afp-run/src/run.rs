@@ -5,9 +5,9 @@ mod gate;
 mod hardware;
 mod paths;
 
-use std::cell::RefCell;
 use std::io;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use afp_core::trace::Names;
 use afp_core::{Duration, Ending, Instant};
@@ -15,8 +15,8 @@ use afp_log::svg::{self, Picture};
 use afp_log::{About, LogError, Recorder, SessionLog, WhenFull, Written};
 use afp_project::ProjectFile;
 use afp_session::{
-    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
-    Requested, SessionError, TextFile, Track, Watch,
+    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Recipe, Requested,
+    SessionError, TextFile, Track, Watch,
 };
 
 use crate::again::Again;
@@ -28,14 +28,14 @@ use crate::options::{OnRobot, RunOptions, TimeKeeper};
 use crate::output::write_whole;
 use crate::pace::Pace;
 use crate::picture::Rasterizer;
-use crate::report::{Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
+use crate::report::{self, Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
 use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::watchdog::Watchdog;
 use crate::world::{BUILT_IN, LoadedWorld};
 use crate::{Program, inputs, requests};
 
-use driver::Driver;
+use driver::{AnyObserver, Driven, Driver};
 use gate::RunGate;
 use paths::Paths;
 
@@ -170,12 +170,8 @@ fn log_of(
 ) -> Result<SessionLog, RunError> {
     let Setting { options, world, .. } = *setting;
     let (devices, scene) = (session.devices(), world.world.scene());
-    // The robot does not wait for the disk.
-    let when_full = match options.time_keeper() {
-        TimeKeeper::Robot => WhenFull::Drop,
-        TimeKeeper::Nobody | TimeKeeper::Gate(_) => WhenFull::Wait,
-    };
-    let recorder = Recorder::create(path, &about(setting), session.owned_names(), when_full)?;
+    let names = session.owned_names();
+    let recorder = Recorder::create(path, &about(setting), names, WhenFull::Wait)?;
     if let Some(kept) = recorder.kept() {
         let kept = kept.display();
         warn(&format!(
@@ -209,8 +205,8 @@ fn drive(
     let mut log = paths.log.as_deref().map(|path| log_of(path, session, setting)).transpose()?;
     let report = Report::new(options.json, end, keeper);
     let report =
-        RefCell::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);
-    report.borrow_mut().head(&head(setting));
+        Mutex::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);
+    report::of(&report).head(&head(setting));
     let mut counts = Counts::new(session.names());
     // A path is for the picture; without one, a run of days takes no more memory than one of minutes.
     let track = if paths.svg.is_some() { Track::new } else { Track::distance_alone };
@@ -225,22 +221,20 @@ fn drive(
     let mut gate = RunGate::new(&report, Pace::new(keeper), stop.clone(), live.as_deref());
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
-    let mut observers: Vec<&mut dyn Observer> =
+    let mut observers: Vec<&mut AnyObserver<'_>> =
         vec![&mut counts, &mut track, &mut requests, &mut shown];
     let logs = log.iter_mut().chain(&mut sent);
-    observers.extend(logs.map(|log| log as &mut dyn Observer));
-    let driver = Driver { keeper, end, live: live.as_deref() };
+    observers.extend(logs.map(|log| log as &mut AnyObserver<'_>));
     let names = session.owned_names();
     let watchdog =
         guards.watch.map(|(watch, stall)| Watchdog::start(watch, stall, stop.clone(), names));
     let watchdog =
         watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
-    let went = driver.run_to_end(session, &mut gate, &mut observers);
-    drop(watchdog);
-    // The robot stands before anything is written that may take its time.
-    let measured = session.end();
+    let driver = Driver { watchdog, keeper, end, live: live.as_deref() };
+    // The robot stands afterwards, before anything is written that may take its time.
+    let driven = driver.drive(session, &mut gate, &mut observers);
     stop.set_last_resort(None);
-    let stopped_by = went.map_err(|error| inputs::missing(error, session.names()))?;
+    let Driven { stopped_by, measured, lost } = driven?;
     let speed = session.now().as_secs_f64() / gate.spent();
     drop(gate);
     let written = log.map(|log| log.finish(session)).transpose();
@@ -248,8 +242,13 @@ fn drive(
     drop(live);
     let requests = requests.finish(session);
     let asked = requests.len();
-    let came = Came { stopped_by, speed, measured, written, counts, track, requests, raster };
-    let code = came.finish(session, report.into_inner(), &paths, setting)?;
+    let came = Came { stopped_by, speed, measured, lost, written, counts, track, requests, raster };
+    let code = came.finish(
+        session,
+        report.into_inner().unwrap_or_else(PoisonError::into_inner),
+        &paths,
+        setting,
+    )?;
     let until = setting.recipe.until;
     // What somebody has stopped has no trace to compare.
     let again = setting.again.filter(|_| stopped_by != Some(StoppedBy::Signal));
@@ -274,6 +273,8 @@ struct Came<'a> {
     stopped_by: Option<StoppedBy>,
     speed: f64,
     measured: Figures,
+    /// The items that a full queue kept from the observers.
+    lost: u64,
     written: Result<Option<Written>, LogError>,
     counts: Counts,
     track: Track,
@@ -291,7 +292,8 @@ impl Came<'_> {
         paths: &Paths,
         setting: &Setting<'_>,
     ) -> Result<u8, RunError> {
-        let Came { stopped_by, speed, measured, written, counts, track, requests, raster } = self;
+        let Came { stopped_by, speed, measured, lost, written, .. } = self;
+        let Came { counts, track, requests, raster, .. } = self;
         let ran = Ran {
             plan: setting.program.name,
             world: setting.world.world.name(),
@@ -299,7 +301,8 @@ impl Came<'_> {
             stopped_by,
             end: session.now(),
             misses: session.misses(),
-            trace: session.trace(),
+            // A part of the records has no hash of all.
+            trace: Some(session.trace()).filter(|_| lost == 0),
             distance: track.way(),
             requests,
         };
@@ -307,9 +310,8 @@ impl Came<'_> {
         let svg = paths.svg.as_deref();
         let drawn = svg.map(|path| draw(path, &figures, &track, raster, session.names(), setting));
         let drawn = drawn.unwrap_or(Ok(()));
-        let lost = written.as_ref().ok().and_then(Option::as_ref).map_or(0, |written| written.lost);
-        let log =
-            written.as_ref().ok().and_then(Option::as_ref).map(|written| written.path.clone());
+        let log = written.as_ref().ok().and_then(Option::as_ref);
+        let log = log.map(|written| written.path.clone());
         let svg = paths.svg.clone().filter(|_| drawn.is_ok());
         let told = report.end(&Summary { figures, speed, log, svg, lost });
         told.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?;

@@ -134,6 +134,9 @@ pub trait AnySession: Send {
     /// on every machine.
     fn trace(&self) -> TraceHash;
 
+    /// Sets the hash of the trace, which an observer has made.
+    fn set_trace(&mut self, trace: TraceHash);
+
     /// What was asked for so far, with the instants: asked for from the start on, the same run comes of it.
     fn requests(&self) -> &[(Instant, Request)];
 

@@ -34,6 +34,7 @@ mod holds;
 mod not_set;
 mod observer;
 mod opened;
+mod queue;
 mod recipe;
 mod record;
 mod request;
@@ -63,6 +64,7 @@ pub use observer::{Applied, Gate, Go, NamedRecord, Next, Observer, Open, Samplin
 pub use opened::Opened;
 #[cfg(feature = "load")]
 pub use opened::{Opener, hardware};
+pub use queue::{QueueReader, QueueWriter, queue};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
 pub use request::{
@@ -72,7 +74,7 @@ pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulate
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
 pub use robots::{Loader, simulated};
-pub use sample::{Image, Pose2, Ranging, SampleRef, Shape, Transform, frames};
+pub use sample::{FILM, Image, Pose2, Ranging, SampleRef, Shape, Transform, frames};
 pub use sampling::Samples;
 pub use session::{SAMPLE, Session};
 pub use stimulus::{ByNames, NameWithUnit, Report, Stimulus};

@@ -2,7 +2,7 @@
 
 use afp_core::devices::SignalId;
 use afp_core::trace::{ComponentId, Ending, Names, Record};
-use afp_core::{Duration, EntryId, Instant, ValueRef};
+use afp_core::{Duration, EntryId, Instant, Value, ValueRef};
 
 use crate::event::{Done, Requested, RunEvent};
 use crate::request::{RequestError, RequestId};
@@ -107,7 +107,7 @@ pub struct NamedRecord<'a> {
     pub record: &'a Record<'a>,
     /// The names.
     pub names: &'a dyn Names,
-    /// The record as a line of the trace, made once for all who want it; empty for a poll that saw nothing.
+    /// The record as a line of the trace, made once for all observers; empty for a poll that saw nothing.
     pub line: &'a str,
 }
 
@@ -172,6 +172,16 @@ pub trait Observer {
     /// Whether it is called for polls that saw nothing, too.
     fn wants_clear_polls(&self) -> bool {
         false
+    }
+
+    /// Whether it makes the lines and the hash of the trace, instead of the session: lines are empty then.
+    fn makes_trace(&self) -> bool {
+        false
+    }
+
+    /// So many records and samples were dropped before they were reported. The values of all entries now follow, by number.
+    fn on_loss(&mut self, at: Instant, count: u64, entries: &[Value]) {
+        let _ = (at, count, entries);
     }
 
     /// All records of a step have been reported.

@@ -7,6 +7,9 @@ use afp_core::{Instant, Value, ValueRef};
 
 use crate::watch::Pulse;
 
+/// The records of a step for which a real robot has room from the start.
+const ROOM: usize = 2048;
+
 /// A record with its time; its texts are kept in place.
 #[derive(Clone, Debug)]
 pub struct OwnedRecord {
@@ -50,10 +53,15 @@ pub struct Kept {
     records: Vec<OwnedRecord>,
     clear_polls: bool,
     /// Where another thread sees which component is called.
-    pub(crate) pulse: Option<Arc<Pulse>>,
+    pulse: Option<Arc<Pulse>>,
 }
 
 impl Kept {
+    /// Keeps the records of a step without an allocation, unless the step is close to the limit of transitions.
+    pub(crate) fn with_room(pulse: Arc<Pulse>) -> Self {
+        Kept { records: Vec::with_capacity(ROOM), pulse: Some(pulse), ..Kept::default() }
+    }
+
     /// Keeps everything.
     pub fn all() -> Self {
         Kept { clear_polls: true, ..Kept::default() }

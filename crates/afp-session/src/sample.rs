@@ -2,10 +2,13 @@
 //!
 //! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres and radians.
 
-use afp_core::Instant;
 use afp_core::devices::SignalType;
+use afp_core::{Duration, Instant, Text};
 
 use crate::datum::Datum;
+
+/// The interval of camera pictures in a log.
+pub const FILM: Duration = Duration::from_millis(500);
 
 /// The frames that logs and pictures know of any robot.
 pub mod frames {
@@ -184,6 +187,54 @@ impl SampleRef<'_> {
             SampleRef::Range(_) => SignalType::Range,
             SampleRef::Image(_) => SignalType::Image,
             SampleRef::Outline(_) => SignalType::Outline,
+        }
+    }
+}
+
+/// A sample that owns its value. Pictures, outlines and texts longer than an entry can hold are on the heap.
+pub(crate) enum OwnedSample {
+    Bool(bool),
+    Int(i64),
+    Float(f64),
+    Text(Text),
+    LongText(Box<str>),
+    Pose(Transform),
+    Range(Ranging),
+    /// The picture without its pixels, and its pixels.
+    Image(Box<(Image<'static>, Vec<u8>)>),
+    Outline(Box<Shape>),
+}
+
+impl OwnedSample {
+    pub(crate) fn new(value: SampleRef<'_>) -> Self {
+        match value {
+            SampleRef::Bool(truth) => OwnedSample::Bool(truth),
+            SampleRef::Int(number) => OwnedSample::Int(number),
+            SampleRef::Float(number) => OwnedSample::Float(number),
+            SampleRef::Text(text) => match Text::try_from(text) {
+                Ok(text) => OwnedSample::Text(text),
+                Err(_) => OwnedSample::LongText(text.into()),
+            },
+            SampleRef::Pose(frame) => OwnedSample::Pose(frame),
+            SampleRef::Range(ranging) => OwnedSample::Range(ranging),
+            SampleRef::Image(image) => {
+                OwnedSample::Image(Box::new((Image { rgb: &[], ..image }, image.rgb.to_vec())))
+            }
+            SampleRef::Outline(shape) => OwnedSample::Outline(Box::new(shape.clone())),
+        }
+    }
+
+    pub(crate) fn get(&self) -> SampleRef<'_> {
+        match self {
+            OwnedSample::Bool(truth) => SampleRef::Bool(*truth),
+            OwnedSample::Int(number) => SampleRef::Int(*number),
+            OwnedSample::Float(number) => SampleRef::Float(*number),
+            OwnedSample::Text(text) => SampleRef::Text(text),
+            OwnedSample::LongText(text) => SampleRef::Text(text),
+            OwnedSample::Pose(frame) => SampleRef::Pose(*frame),
+            OwnedSample::Range(ranging) => SampleRef::Range(*ranging),
+            OwnedSample::Image(image) => SampleRef::Image(Image { rgb: &image.1, ..image.0 }),
+            OwnedSample::Outline(shape) => SampleRef::Outline(shape),
         }
     }
 }

@@ -67,6 +67,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     measures: Vec<Box<dyn Measure<R>>>,
     samples: SampleGrid,
     trace: TraceHash,
+    /// Whether lines and hash of the trace are made here.
+    makes_trace: bool,
     /// The line of the record at hand.
     line: String,
     /// What only loaded plans can do.
@@ -114,6 +116,7 @@ where
             holds: Holds::default(),
             measures: Vec::new(),
             trace: TraceHash::default(),
+            makes_trace: true,
             line: String::new(),
             testing: None,
             robot,
@@ -162,6 +165,7 @@ where
             still: self.still,
             samples: self.samples,
             trace: self.trace,
+            makes_trace: self.makes_trace,
             testing: self.testing.as_ref().map(Testing::copy),
         })
     }
@@ -401,6 +405,7 @@ where
     /// Fits what is kept, and the grid of samples, to who is there.
     #[inline]
     fn fit(&mut self, to: &[&mut dyn Observer]) {
+        self.makes_trace = !to.iter().any(|each| each.makes_trace());
         self.sink.keep_clear_polls(to.iter().any(|each| each.wants_clear_polls()));
         let periods = periods(!self.measures.is_empty(), to);
         self.samples.fit(periods, self.robot.now(), self.started);

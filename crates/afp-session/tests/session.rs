@@ -4,6 +4,8 @@
 mod broken;
 #[path = "session/holds.rs"]
 mod holds;
+#[path = "session/queue.rs"]
+mod queue;
 mod support;
 
 use std::sync::Arc;

@@ -1,6 +1,8 @@
 //! Standard output written by a thread of its own: whoever reads slowly must not hold up a robot that moves.
 
 use std::io::{self, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::{self, JoinHandle};
 
@@ -16,10 +18,18 @@ pub(super) struct BackgroundWriter {
 }
 
 impl BackgroundWriter {
-    pub(super) fn new(out: Box<dyn Write + Send>) -> io::Result<Self> {
+    /// Sets `closed` if nothing can be written any more.
+    ///
+    /// # Errors
+    /// There is no thread for it.
+    pub(super) fn new(out: Box<dyn Write + Send>, closed: Arc<AtomicBool>) -> io::Result<Self> {
         let (pieces, waiting) = sync_channel(WAITING);
         let thread = thread::Builder::new().name("afp-report".into());
-        let writer = thread.spawn(move || write_all(out, &waiting))?;
+        let writer = thread.spawn(move || {
+            let written = write_all(out, &waiting);
+            closed.fetch_or(written.is_err(), Ordering::Relaxed);
+            written
+        })?;
         Ok(BackgroundWriter {
             pieces: Some(pieces),
             writer: Some(writer),
@@ -40,11 +50,6 @@ impl BackgroundWriter {
             // It has met an error and says which in the end.
             Some(Err(TrySendError::Disconnected(_))) | None => self.finish(),
         }
-    }
-
-    /// Whether the thread has ended by itself: it does so only after an error.
-    fn has_failed(&self) -> bool {
-        self.writer.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
     /// Waits until all is written: for when the robot stands.
@@ -76,20 +81,12 @@ impl Write for BackgroundWriter {
 /// What a report is written to.
 pub(super) enum Out {
     /// By whoever reports.
-    Here(Box<dyn Write>),
+    Here(Box<dyn Write + Send>),
     /// By a thread of its own.
     Background(BackgroundWriter),
 }
 
 impl Out {
-    /// Whether an error is known, or waits for whoever writes next.
-    pub(super) fn has_failed(&self) -> bool {
-        match self {
-            Out::Here(_) => false,
-            Out::Background(writer) => writer.has_failed(),
-        }
-    }
-
     /// What is still to be written once nothing more comes; how many lines were lost.
     pub(super) fn finish(self) -> io::Result<u64> {
         match self {
@@ -152,7 +149,7 @@ mod tests {
     fn a_reader_who_waits_holds_nobody_up_and_loses_the_last_lines_alone() {
         let (go, word) = channel();
         let (out, written) = channel();
-        let mut writer = BackgroundWriter::new(Box::new(Slow(word, out))).unwrap();
+        let mut writer = BackgroundWriter::new(Box::new(Slow(word, out)), Arc::default()).unwrap();
         for line in 0..WAITING + 10 {
             writeln!(writer, "{line}").unwrap();
         }
@@ -170,7 +167,8 @@ mod tests {
     fn an_error_of_the_reader_is_told() {
         let (out, written) = channel();
         drop(written);
-        let mut writer = BackgroundWriter::new(Box::new(Slow(channel().1, out))).unwrap();
+        let slow = Box::new(Slow(channel().1, out));
+        let mut writer = BackgroundWriter::new(slow, Arc::default()).unwrap();
         let told = (0..1000).find_map(|_| {
             std::thread::sleep(Duration::from_millis(1));
             writeln!(writer, "line").err()
@@ -183,10 +181,12 @@ mod tests {
     fn an_error_is_noticed_without_another_line() {
         let (out, written) = channel();
         drop(written);
-        let mut writer = BackgroundWriter::new(Box::new(Slow(channel().1, out))).unwrap();
+        let closed: Arc<AtomicBool> = Arc::default();
+        let slow = Box::new(Slow(channel().1, out));
+        let mut writer = BackgroundWriter::new(slow, closed.clone()).unwrap();
         writeln!(writer, "line").unwrap();
         let deadline = std::time::Instant::now() + Duration::from_secs(60);
-        while !writer.has_failed() {
+        while !closed.load(Ordering::Relaxed) {
             assert!(std::time::Instant::now() < deadline, "nobody notices");
             std::thread::sleep(Duration::from_millis(1));
         }

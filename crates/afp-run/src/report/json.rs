@@ -2,7 +2,7 @@
 //!
 //! Nothing here depends on the machine: interpreter and generated binary print the same bytes.
 
-use afp_session::{Datum, Done, EndingKind, Facts, Miss, RunEvent};
+use afp_session::{Datum, Done, EndingKind, EventKind, Facts, Miss, RunEvent};
 use serde::Serialize;
 
 #[derive(Default, Serialize)]
@@ -42,6 +42,8 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     skipped: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    lost: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     request: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<&'a str>,
@@ -70,6 +72,10 @@ pub(super) fn line(event: &RunEvent) -> Option<String> {
         lateness_s: miss.map(|miss| miss.lateness.as_secs_f64()),
         cause: miss.map_or("", Miss::word),
         skipped: miss.map(|miss| miss.skipped),
+        lost: match event.kind {
+            EventKind::Lost(count) => Some(count),
+            _ => None,
+        },
         request: request.map(|request| request.what.to_string()),
         refused: request.and_then(|request| match &request.done {
             Done::Refused(why) => Some(why.as_str()),

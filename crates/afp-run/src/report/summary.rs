@@ -77,7 +77,7 @@ pub(crate) struct Summary {
     pub log: Option<PathBuf>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub svg: Option<PathBuf>,
-    /// Log records that got lost.
+    /// Records that were lost.
     #[serde(skip_serializing_if = "is_zero")]
     pub lost: u64,
 }
@@ -90,7 +90,8 @@ pub(crate) struct Ran<'a> {
     pub stopped_by: Option<StoppedBy>,
     pub end: Instant,
     pub misses: u64,
-    pub trace: TraceHash,
+    /// None if records were lost.
+    pub trace: Option<TraceHash>,
     /// Metres; none where nobody said where the robot was.
     pub distance: Option<f64>,
     pub requests: Vec<Requested>,
@@ -153,7 +154,7 @@ impl Ran<'_> {
             distance_m: self.distance,
             requests: self.requests,
             measured,
-            trace: self.trace.to_string(),
+            trace: self.trace.map_or_else(|| "incomplete".to_owned(), |hash| hash.to_string()),
         }
     }
 }
@@ -322,7 +323,7 @@ impl Summary {
         line("trace", figures.trace.clone());
         line("speed", format!("{:.0} x real time", self.speed));
         if self.lost > 0 {
-            line("lost", format!("{BAD}{} log records{BAD:#}", self.lost));
+            line("lost", format!("{BAD}{} records and samples{BAD:#}", self.lost));
         }
         for (key, path) in [("log", &self.log), ("picture", &self.svg)] {
             if let Some(path) = path {

@@ -1,28 +1,109 @@
 //! Drives a session to the end of its run, and does what keys, signals and those who watch ask for on the way.
 
+use std::panic::resume_unwind;
+use std::thread;
+
 use afp_core::{Duration, Instant, StartError};
-use afp_session::{AnySession, Go, Observer};
+use afp_session::{AnySession, Figures, Go, Observer, QueueReader, queue};
 
 use super::gate::{Halt, RunGate};
+use crate::error::RunError;
+use crate::inputs;
 use crate::live::Live;
 use crate::options::TimeKeeper;
 use crate::report::StoppedBy;
 use crate::requests;
+use crate::watchdog::Watchdog;
 
 /// The robot itself sleeps no longer than this before keys and signals are looked at.
 const SLICE: Duration = Duration::from_millis(10);
 
+/// The observers of a real robot look at their queue this often, unless they are woken.
+const LOOK: std::time::Duration = std::time::Duration::from_millis(250);
+
+/// An observer that may work on another thread.
+pub(super) type AnyObserver<'a> = dyn Observer + Send + 'a;
+
 /// How a session is driven.
 pub(super) struct Driver<'a> {
+    pub watchdog: Option<Watchdog>,
     pub keeper: TimeKeeper,
     /// When the plan is stopped at the latest.
     pub end: Instant,
     pub live: Option<&'a dyn Live>,
 }
 
+/// A session that was driven to the end of its run.
+pub(super) struct Driven {
+    pub stopped_by: Option<StoppedBy>,
+    pub measured: Figures,
+    /// The items that a full queue kept from the observers.
+    pub lost: u64,
+}
+
+/// Stops the robot, also if a panic leaves the run.
+struct Stop<'a>(&'a mut dyn AnySession);
+
+impl Drop for Stop<'_> {
+    fn drop(&mut self) {
+        self.0.end();
+    }
+}
+
 impl Driver<'_> {
+    /// Runs the plan to its end, or until it is stopped, and stops the robot. The observers of a real robot work on a thread
+    /// of their own.
+    ///
+    /// # Errors
+    /// The plan cannot start, or there is no thread.
+    pub fn drive(
+        self,
+        session: &mut dyn AnySession,
+        gate: &mut RunGate<'_>,
+        observers: &mut [&mut AnyObserver<'_>],
+    ) -> Result<Driven, RunError> {
+        if matches!(self.keeper, TimeKeeper::Robot) {
+            return self.drive_apart(session, gate, observers);
+        }
+        let went = self.run_to_end(session, gate, &mut plain(observers));
+        let measured = session.end();
+        let stopped_by = went.map_err(|error| inputs::missing(error, session.names()))?;
+        Ok(Driven { stopped_by, measured, lost: 0 })
+    }
+
+    /// Drives a session whose observers are behind a queue.
+    fn drive_apart(
+        mut self,
+        session: &mut dyn AnySession,
+        gate: &mut RunGate<'_>,
+        observers: &mut [&mut AnyObserver<'_>],
+    ) -> Result<Driven, RunError> {
+        let (writer, reader) = queue(session.owned_names(), session.devices(), observers);
+        thread::scope(move |scope| {
+            // Dropped here in any case: the other thread waits for that.
+            let mut writer = writer;
+            let observe = move || observe(reader, &mut plain(observers));
+            let observing = thread::Builder::new().name("afp-observers".into());
+            let observing = observing.spawn_scoped(scope, observe);
+            let observing =
+                observing.map_err(RunError::file("cannot watch", "the run".as_ref()))?;
+            let thread = observing.thread().clone();
+            writer.set_wake(Box::new(move || thread.unpark()));
+            let stop = Stop(session);
+            let went = self.run_to_end(&mut *stop.0, gate, &mut [&mut writer]);
+            drop(self.watchdog.take());
+            let measured = stop.0.end();
+            // The robot stands before the observers are waited for.
+            drop(writer);
+            let (trace, lost) = observing.join().unwrap_or_else(|panic| resume_unwind(panic));
+            stop.0.set_trace(trace);
+            let stopped_by = went.map_err(|error| inputs::missing(error, stop.0.names()))?;
+            Ok(Driven { stopped_by, measured, lost })
+        })
+    }
+
     /// Runs the plan to its end, or until it is stopped; says by what.
-    pub fn run_to_end(
+    fn run_to_end(
         &self,
         session: &mut dyn AnySession,
         gate: &mut RunGate<'_>,
@@ -62,4 +143,20 @@ impl Driver<'_> {
             _ => Ok(Go::On),
         }
     }
+}
+
+/// The observers for one thread.
+fn plain<'a>(observers: &'a mut [&mut AnyObserver<'_>]) -> Vec<&'a mut dyn Observer> {
+    observers.iter_mut().map(|each| &mut **each as &mut dyn Observer).collect()
+}
+
+/// Reports everything that comes from the control thread, until it ends.
+fn observe(
+    mut reader: QueueReader,
+    to: &mut [&mut dyn Observer],
+) -> (afp_core::trace::TraceHash, u64) {
+    while reader.read(to) {
+        thread::park_timeout(LOOK);
+    }
+    reader.finish()
 }

@@ -1,18 +1,22 @@
 //! What holds a run back to real time, and what can end it.
 
-use std::cell::RefCell;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 use afp_core::Instant;
 use afp_session::{Gate, Go};
 
 use crate::live::Live;
 use crate::pace::{Pace, Waited};
-use crate::report::Report;
+use crate::report::{self, Report};
 use crate::stop::StopFlag;
 
 /// The gate of a run of the command line.
 pub(super) struct RunGate<'a> {
-    report: &'a RefCell<Report>,
+    /// The report, which learns how far the run is; none on a real robot.
+    report: Option<&'a Mutex<Report>>,
+    /// Whether the report can say nothing more.
+    closed: Arc<AtomicBool>,
     pace: Pace,
     stop: StopFlag,
     live: Option<&'a dyn Live>,
@@ -31,12 +35,15 @@ pub(super) enum Halt {
 
 impl<'a> RunGate<'a> {
     pub(super) fn new(
-        report: &'a RefCell<Report>,
+        report: &'a Mutex<Report>,
         pace: Pace,
         stop: StopFlag,
         live: Option<&'a dyn Live>,
     ) -> Self {
-        RunGate { report, pace, stop, live, halt: None }
+        let closed = report::of(report).closed();
+        // The control thread of a real robot waits for nobody.
+        let report = (!pace.is_of_robot()).then_some(report);
+        RunGate { report, closed, pace, stop, live, halt: None }
     }
 
     /// Seconds of real time so far.
@@ -59,12 +66,12 @@ impl<'a> RunGate<'a> {
 
 impl Gate for RunGate<'_> {
     fn pass(&mut self, target: Instant, now: Instant) -> Go {
-        let mut report = self.report.borrow_mut();
-        report.pass(now);
-        if report.is_closed() {
+        if let Some(report) = self.report {
+            report::of(report).pass(now);
+        }
+        if self.closed.load(Ordering::Relaxed) {
             return Go::Stop;
         }
-        drop(report);
         let asked = || self.live.is_some_and(|live| live.is_asked());
         match self.pace.wait(target, &self.stop, &asked) {
             Waited::Due => Go::On,

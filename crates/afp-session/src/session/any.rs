@@ -145,6 +145,10 @@ where
         self.trace()
     }
 
+    fn set_trace(&mut self, trace: TraceHash) {
+        self.trace = trace;
+    }
+
     fn requests(&self) -> &[(Instant, Request)] {
         self.requests()
     }

@@ -63,10 +63,9 @@ where
     /// As [`Session::new`], on a real robot: nobody presses or breaks anything of it from here, and the run ends
     /// if the control loop is later than [`STALL`].
     pub fn on_hardware(plan: P, robot: R) -> Self {
-        let mut session = Session::new(plan, robot);
-        session.stall = Some(STALL);
         let pulse: Arc<Pulse> = Arc::default();
-        session.sink.pulse = Some(pulse.clone());
+        let mut session = Session::with_sink(plan, robot, Kept::with_room(pulse.clone()));
+        session.stall = Some(STALL);
         session.pulse = Some(pulse);
         session
     }

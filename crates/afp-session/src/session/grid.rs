@@ -63,11 +63,16 @@ impl SampleGrid {
         now: Instant,
     ) -> Stretch {
         self.next = next(periods, now);
-        Stretch { after: self.taken.replace(now), to: now }
+        Stretch::between(self.taken.replace(now), now)
     }
 }
 
 impl Stretch {
+    /// From one instant, excluded, to another.
+    pub(crate) fn between(after: Option<Instant>, to: Instant) -> Self {
+        Stretch { after, to }
+    }
+
     /// Whether a multiple of a period has come.
     pub(crate) fn has_multiple_of(self, every: Duration) -> bool {
         let passed = |at: Instant| at.since(Instant::ZERO).periods(every);

@@ -58,13 +58,13 @@ where
 {
     /// Reports the records of the step that is over to measures and observers.
     pub(super) fn report_records(&mut self, to: &mut [&mut dyn Observer]) {
-        let Session { robot, names, sink, trace, line, measures, .. } = self;
+        let Session { robot, names, sink, trace, makes_trace, line, measures, .. } = self;
         let records = sink.take();
         for owned in &records {
             let (at, record) = (owned.at, owned.get());
             line.clear();
             let clear = is_clear(&record);
-            if !clear {
+            if !clear && *makes_trace {
                 // Writing to a text cannot fail.
                 let _ = write!(line, "{}", Line { at, record: &record, names: &*names });
                 trace.line(line);
