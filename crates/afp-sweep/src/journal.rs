@@ -194,6 +194,12 @@ mod tests {
         Outcome { time_s: 0.1 + 0.2, ..Outcome::failed(run, Ending::Ok, String::new()) }
     }
 
+    /// Replaces a file. A program that another test starts may still hold the lock of the old one.
+    fn replace(path: &Path, bytes: impl AsRef<[u8]>) {
+        fs::remove_file(path).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+
     #[test]
     fn only_an_incomplete_line_is_cut_off() {
         let folder = tempfile::tempdir().unwrap();
@@ -206,15 +212,15 @@ mod tests {
         let whole = fs::read(&path).unwrap();
         let third = serde_json::to_vec(&outcome(2)).unwrap();
         for torn in [1, 10, third.len()] {
-            fs::write(&path, [&whole[..], &third[..torn]].concat()).unwrap();
+            replace(&path, [&whole[..], &third[..torn]].concat());
             let (_, read) = Journal::open(&path, &header(), false).unwrap();
             assert_eq!(read, kept);
             assert_eq!(fs::read(&path).unwrap(), whole);
         }
-        fs::write(&path, [&whole[..], &[0, 0, b'\n']].concat()).unwrap();
+        replace(&path, [&whole[..], &[0, 0, b'\n']].concat());
         assert_eq!(Journal::open(&path, &header(), false).unwrap().1, kept);
         // An incomplete header is not a journal yet.
-        fs::write(&path, &whole[..20]).unwrap();
+        replace(&path, &whole[..20]);
         assert!(Journal::open(&path, &header(), false).unwrap().1.is_empty());
     }
 
@@ -230,8 +236,7 @@ mod tests {
         for at in lines[0].len()..lines[0].len() + lines[1].len() - 1 {
             let mut flipped = whole.clone();
             flipped[at] ^= 1;
-            fs::write(&path, flipped).unwrap();
-            let error = Journal::open(&path, &header(), false).unwrap_err().to_string();
+            let error = read(&path, &flipped, &header()).unwrap_err().to_string();
             assert!(error.contains("line 2 of"), "byte {at}: {error}");
         }
     }
@@ -271,6 +276,7 @@ mod tests {
         let open = Journal::open(&path, &header(), false).unwrap();
         let error = Journal::open(&path, &header(), false).unwrap_err().to_string();
         assert!(error.contains("another sweep is writing"), "{error}");
+        replace(&path, fs::read(&path).unwrap());
         drop(open);
         let other = Header { plan: "x".to_owned(), ..header() };
         let error = Journal::open(&path, &other, false).unwrap_err();
@@ -279,11 +285,13 @@ mod tests {
             error.contains("the plan has changed since") && error.contains("--restart"),
             "{error}"
         );
+        replace(&path, fs::read(&path).unwrap());
         let other = Header { grid: "seeds 0..8".to_owned(), ..header() };
         let error = Journal::open(&path, &other, false).unwrap_err().to_string();
         assert!(error.contains("started with seeds 0..9; this is seeds 0..8"), "{error}");
-        fs::write(&path, "run,world\n").unwrap();
+        replace(&path, "run,world\n");
         assert!(Journal::open(&path, &header(), false).is_err());
+        replace(&path, "run,world\n");
         assert!(Journal::open(&path, &header(), true).unwrap().1.is_empty());
     }
 }

@@ -10,7 +10,6 @@ mod grammar;
 mod lists;
 mod pages;
 mod prose;
-mod public_names;
 mod rust_blocks;
 mod safety;
 mod toml_blocks;
