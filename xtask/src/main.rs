@@ -26,6 +26,7 @@ mod scxml;
 mod shell;
 mod studio;
 mod suites;
+mod systems;
 mod vacuum;
 mod wasm;
 mod wheels;

@@ -8,7 +8,7 @@ use crate::needs::{self, Need};
 use crate::shell::{Failure, cargo, output, run as run_command};
 use crate::{
     arm, bench, dap, editors, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio,
-    vacuum, wasm, wheels,
+    systems, vacuum, wasm, wheels,
 };
 
 /// A suite: its name, its requirements in addition to Rust, and its function.
@@ -49,6 +49,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("objects", &[], objects),
     ("arm", &[], arm::run),
     ("pi", &[], pi::run),
+    ("other systems", &[Python], systems::run),
     ("engine", &[], engine::run),
     ("python", &[Python], python::run),
     ("python robot", &[Python], python::robot),
@@ -220,7 +221,7 @@ fn again(name: &str) -> String {
                 .to_owned()
         }
         "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
-        "python long" => "    cargo xtask nightly 'python long'".to_owned(),
+        "python long" | "other systems" => format!("    cargo xtask nightly '{name}'"),
         "wheels" => "    cargo xtask wheels".to_owned(),
         "arm" | "pi" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {

@@ -6,6 +6,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use afp_session::LastResort;
 
+/// The exit code after a second signal.
+#[cfg(any(unix, windows))]
+const EXIT_SIGNAL: i32 = 130;
+
 /// Whether somebody asked the process to stop.
 #[derive(Clone, Debug, Default)]
 pub struct StopFlag(Arc<Stop>);
@@ -41,13 +45,31 @@ impl StopFlag {
         signals::flag()
     }
 
-    /// A flag that nothing raises: there are no signals here.
+    /// The flag that Ctrl-C, Ctrl-Break and the end of the console raise, one for the process. A second
+    /// Ctrl-C ends the process at once.
+    ///
+    /// # Errors
+    /// Ctrl-C cannot be handled.
+    #[cfg(windows)]
+    pub fn on_signals() -> std::io::Result<Self> {
+        console::flag()
+    }
+
+    /// A flag without signals.
     ///
     /// # Errors
     /// None.
-    #[cfg(not(unix))]
+    #[cfg(not(any(unix, windows)))]
     pub fn on_signals() -> std::io::Result<Self> {
         Ok(StopFlag::default())
+    }
+
+    /// Raises the flag. Returns whether the process has to end at once: the flag was raised before, or
+    /// the robot was stopped by force.
+    #[cfg(any(unix, windows))]
+    fn raise(&self) -> bool {
+        let is_second = self.0.raised.swap(true, Ordering::Relaxed);
+        is_second || self.0.powerless.load(Ordering::Relaxed)
     }
 
     /// From now on what would put the process to sleep (SIGTSTP, from whoever sends it) asks it to stop instead: a process that
@@ -122,11 +144,8 @@ mod signals {
     use signal_hook::iterator::{Handle, Signals};
     use signal_hook::low_level;
 
-    use super::StopFlag;
+    use super::{EXIT_SIGNAL, StopFlag};
     use crate::keys;
-
-    /// The exit code after a second signal.
-    const EXIT_SIGNAL: i32 = 130;
 
     /// All that would end the process before the robot has stopped. A broken pipe is an error of what writes into it.
     const ALL: [i32; 9] =
@@ -175,14 +194,40 @@ mod signals {
             }
             // A limit of the system that was reached is reached again by what is written at the end.
             let of_limit = matches!(signal, SIGXCPU | SIGXFSZ);
-            let is_second = flag.0.raised.swap(true, Ordering::Relaxed);
-            let is_last = is_second || flag.0.powerless.load(Ordering::Relaxed);
-            if is_last && !of_limit {
+            if flag.raise() && !of_limit {
                 flag.resort();
                 keys::give_back();
                 low_level::exit(EXIT_SIGNAL);
             }
         }
+    }
+}
+
+#[cfg(windows)]
+mod console {
+    use std::io;
+    use std::sync::{Mutex, PoisonError};
+
+    use super::{EXIT_SIGNAL, StopFlag};
+
+    static FLAG: Mutex<Option<StopFlag>> = Mutex::new(None);
+
+    /// The flag; the first call makes it and the handler that raises it.
+    pub(super) fn flag() -> io::Result<StopFlag> {
+        let mut made = FLAG.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(flag) = &*made {
+            return Ok(flag.clone());
+        }
+        let flag = StopFlag::default();
+        let raised = flag.clone();
+        let handler = move || {
+            if raised.raise() {
+                raised.resort();
+                std::process::exit(EXIT_SIGNAL);
+            }
+        };
+        ctrlc::set_handler(handler).map_err(io::Error::other)?;
+        Ok(made.insert(flag).clone())
     }
 }
 
