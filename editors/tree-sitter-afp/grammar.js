@@ -107,7 +107,7 @@ module.exports = grammar({
     template: ($) => seq(choice('actor', 'supervisor', 'computation'), field('name', $.name), braces($._part)),
 
     _part: ($) =>
-      choice($.icon, $.uses, $.outcome, $.states_of, $.in_port, $.out_port, $.template_timing),
+      choice($.icon, $.uses, $.outcome, $.exclusive, $.states_of, $.in_port, $.out_port, $.template_timing),
 
     icon: ($) => seq('icon', $.string),
 
@@ -116,8 +116,12 @@ module.exports = grammar({
     outcome: ($) =>
       choice(
         seq('state', field('name', $.name), optional(seq(optional($.condition), braces($.bind_in)))),
-        seq('event', field('name', $.name), optional('once')),
+        seq('event', field('name', $.name), optional(choice('once', $.condition, $.after))),
       ),
+
+    after: ($) => seq('after', $._formula),
+
+    exclusive: ($) => seq('exclusive', field('event', $.name), field('event', $.name), optional($.condition)),
 
     condition: ($) => seq('when', $.comparison, repeat(seq('and', $.comparison))),
 

@@ -9,6 +9,8 @@ mod check_infrared;
 mod check_line;
 mod check_motion;
 mod check_progress;
+#[cfg(test)]
+mod facts;
 mod measure_distance;
 mod measure_light;
 mod plan_path;

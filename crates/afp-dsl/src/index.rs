@@ -177,6 +177,8 @@ pub enum Word {
     Field,
     /// Every actor, behind `idle`.
     All,
+    /// The supervisor that reports the second of two exclusive events.
+    Other,
 }
 
 impl DefinitionId {

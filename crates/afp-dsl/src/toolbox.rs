@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod device;
+pub mod fact;
 
 use crate::table::Table;
 use crate::types::{Enum, Object, Type};
@@ -13,6 +14,7 @@ pub use crate::types::Constant;
 pub use afp_syntax::ast::TemplateKind;
 pub use case::{Case, Condition};
 pub use device::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalType};
+pub use fact::Fact;
 
 /// A checked toolbox file.
 #[derive(Clone, Debug, Default)]
@@ -75,6 +77,8 @@ pub struct Template {
     pub outcomes: Vec<Outcome>,
     /// The states of a declared computation, with their conditions and assignments.
     pub cases: Option<Arc<[Case]>>,
+    /// What a supervisor's events say, as declared.
+    pub facts: Arc<[Fact]>,
     /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
     /// there.
     pub states_of: Option<StatesOf>,

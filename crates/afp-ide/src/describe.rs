@@ -133,6 +133,7 @@ pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
         Word::Amount => "How much there is of the fault.",
         Word::Field => "A part of the signal.",
         Word::All => "Every actor.",
+        Word::Other => "The supervisor that reports the second event.",
         #[allow(unreachable_patterns, reason = "the language grows")]
         _ => return None,
     })

@@ -9,6 +9,8 @@ mod changed;
 mod check_timeout;
 mod check_value;
 mod every;
+#[cfg(test)]
+mod facts;
 mod idle;
 mod random;
 mod since;

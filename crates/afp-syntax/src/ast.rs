@@ -33,7 +33,7 @@ pub use plan::{Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions,
 pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
 pub use table::{Column, Row, Table};
 pub use toolbox::{
-    Comparison, InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox,
+    Comparison, Exclusive, InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox,
 };
 
 /// A name and its place.

@@ -74,6 +74,7 @@ const WORDS: &[(&str, Roles)] = &[
     ("state", PART | BODY | BEHIND_NUMBER),
     ("states", PART),
     ("event", PART | BODY | BEHIND_NUMBER),
+    ("exclusive", PART | BODY | BEHIND_NUMBER),
     ("fault", DEVICE | BODY),
     ("signal", DEVICE | BODY),
     ("truth", DEVICE | BODY),

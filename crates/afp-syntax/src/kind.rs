@@ -150,8 +150,12 @@ kinds! {
     Icon
     /// `uses navigator`
     Uses
-    /// `state S when a < b { out = formula }` or `event E`
+    /// `state S when a < b { out = formula }`, `event E when a < b` or `event E after time`
     Outcome
+    /// `after time` behind an event
+    After
+    /// `exclusive E F when a < other.b`
+    Exclusive
     /// `when a < b and c == d`
     When
     /// `a < b` in a condition

@@ -277,9 +277,14 @@ impl Typer<'_> {
         diags: &mut Diagnostics,
     ) -> Option<Formula> {
         let name = reference.name()?;
-        match reference.home() {
-            Some(home) => self.choice(&home, &name, span, diags),
-            None => self.entry(&name, diags),
+        let Some(home) = reference.home() else { return self.entry(&name, diags) };
+        match self.scope.indices.find(&format!("{}.{}", home.text, name.text)) {
+            Some(index) => {
+                self.scope.record.word(home.span, Word::Other);
+                self.scope.record.definition(name.span, self.scope.entries[index].name.span);
+                self.read(index, span)
+            }
+            None => self.choice(&home, &name, span, diags),
         }
     }
 
@@ -336,9 +341,13 @@ impl Typer<'_> {
             );
             return None;
         }
+        self.read(index, name.span)
+    }
+
+    fn read(&self, index: usize, span: Span) -> Option<Formula> {
         let id = EntryId(u16::try_from(index).ok()?);
-        let ty = entry.ty.clone()?;
-        Some(Formula::new(Op::Entry(id), [], ty, name.span))
+        let ty = self.scope.entries[index].ty.clone()?;
+        Some(Formula::new(Op::Entry(id), [], ty, span))
     }
 
     /// A value of an enum.

@@ -1,7 +1,9 @@
 //! Reads a toolbox file and checks what it declares.
 
 mod cases;
+mod condition;
 mod device;
+mod facts;
 mod ports;
 mod template;
 

@@ -9,7 +9,8 @@ mod choices;
 mod count;
 mod counters;
 mod decided;
-pub(super) mod holding;
+pub(super) mod facts;
+mod holding;
 mod instant;
 mod ways;
 
@@ -265,7 +266,7 @@ impl<'a, 'b> Quick<'a, 'b> {
     ) -> bool {
         let unsure = inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause));
         let lasts = |cycle: &[Edge]| {
-            !holding::contradict(self.view, cycle)
+            !facts::contradict(self.view, cycle)
                 && !decided::breaks_off(self.view, cycle, constants)
                 && !self.view.counters().end(self.view, cycle.iter())
         };

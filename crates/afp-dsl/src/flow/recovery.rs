@@ -12,7 +12,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::flow::cycles::holding;
+use crate::flow::cycles::facts;
 use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, SupervisorId};
@@ -144,7 +144,7 @@ fn alternate(
                 }
                 let mut next = view.rests(other.to).into_iter();
                 let next = next.find(|next| *next != during && holds(*next, *one));
-                if let Some(next) = next.filter(|_| !holding::contradict(view, &[own, *other])) {
+                if let Some(next) = next.filter(|_| !facts::contradict(view, &[own, *other])) {
                     told.insert(pair);
                     diags.push(turns(view, (own.cause, next), (other.cause, during)));
                 }

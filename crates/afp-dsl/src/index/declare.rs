@@ -195,7 +195,11 @@ pub(crate) fn of_template(
                 (port.name(), DefinitionKind::Output, port.span(), port.doc(), port.ty())
             }
             Part::Outcome(node) => (node.name(), outcome, node.span(), node.doc(), None),
-            Part::Icon(..) | Part::Uses(..) | Part::Timing(_) | Part::StatesOf(..) => continue,
+            Part::Icon(..)
+            | Part::Uses(..)
+            | Part::Timing(_)
+            | Part::StatesOf(..)
+            | Part::Exclusive(_) => continue,
         };
         if let Some(name) = name {
             let ty = ty.and_then(|ty| type_of(&ty, meanings));

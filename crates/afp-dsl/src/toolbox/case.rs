@@ -24,7 +24,12 @@ pub struct Condition {
 }
 
 /// The values of input ports that are known.
-pub(crate) type KnownInputs<'a> = &'a dyn Fn(u16) -> Option<Constant>;
+pub type KnownInputs<'a> = &'a dyn Fn(u16) -> Option<Constant>;
+
+/// The value of a formula over input ports, if it is known and the formula does not fail.
+pub fn value(formula: &Formula, inputs: KnownInputs<'_>) -> Option<Constant> {
+    evaluate(formula, inputs).ok()?
+}
 
 impl Case {
     /// Its formulas, conditions first.
@@ -36,7 +41,7 @@ impl Case {
     /// The value that the state assigns to an output, if it is known.
     pub(crate) fn written(&self, output: u16, inputs: KnownInputs<'_>) -> Option<Constant> {
         let (_, formula) = self.writes.iter().find(|(port, _)| *port == output)?;
-        evaluate(formula, inputs).ok()?
+        value(formula, inputs)
     }
 
     /// Whether none of its formulas can fail if no input does: it reads ports and constants, or counts up to a limit.
@@ -48,8 +53,8 @@ impl Case {
     }
 
     fn holds(&self, inputs: KnownInputs<'_>) -> Result<bool, Error> {
-        for Condition { left, comparison, right } in &self.when {
-            if !comparison.of(left.part(), right.part(), &Known(inputs))? {
+        for condition in &self.when {
+            if !condition.holds(inputs)? {
                 return Ok(false);
             }
         }
@@ -58,6 +63,14 @@ impl Case {
 }
 
 impl Condition {
+    /// Whether it holds.
+    ///
+    /// # Errors
+    /// Those of the formulas; [`Error::Unknown`] if an input is not known.
+    pub fn holds(&self, inputs: KnownInputs<'_>) -> Result<bool, Error> {
+        self.comparison.of(self.left.part(), self.right.part(), &Known(inputs))
+    }
+
     /// The port that is less than another one, if a formula adds one to it.
     fn counted(&self, next: Part<'_>) -> Option<(u16, u16)> {
         let (Op::Entry(value), Op::Entry(limit)) = (self.left.op(), self.right.op()) else {

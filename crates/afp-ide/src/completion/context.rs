@@ -211,7 +211,9 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
         ("on", Kind::Reactions) => {
             ancestor(word, &[Kind::Element]).map_or(Place::Nothing, Place::Watchers)
         }
-        ("every" | "deadline" | "budget" | "stop", Kind::Timing) => Place::Value(Wanted::Time),
+        ("every" | "deadline" | "budget" | "stop", Kind::Timing) | ("after", Kind::After) => {
+            Place::Value(Wanted::Time)
+        }
         ("at", Kind::Stimulus) | ("until", _) | ("within" | "before" | "after", Kind::Bound) => {
             Place::Value(Wanted::Time)
         }

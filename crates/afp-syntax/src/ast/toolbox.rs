@@ -16,6 +16,8 @@ views! {
     OutPort
     /// A state or an event.
     Outcome
+    /// Two events that cannot both hold.
+    Exclusive
     /// `a < b`
     Comparison
     /// `every 10 ms` or another time.
@@ -48,6 +50,7 @@ pub enum Part {
     Outcome(Outcome),
     /// `states of port`: the port, the place of `states`, and the help above it.
     StatesOf(Option<Name>, Span, String),
+    Exclusive(Exclusive),
     Timing(Timing),
 }
 
@@ -85,6 +88,7 @@ impl Template {
                 Kind::InPort => Part::In(InPort::new(node, file)),
                 Kind::OutPort => Part::Out(OutPort::new(node, file)),
                 Kind::Outcome => Part::Outcome(Outcome::new(node, file)),
+                Kind::Exclusive => Part::Exclusive(Exclusive::new(node, file)),
                 Kind::StatesOf => Part::StatesOf(name(Kind::Name), span, doc(&node)),
                 Kind::Timing => Part::Timing(Timing::new(node, file)),
                 _ => return None,
@@ -146,17 +150,20 @@ impl Outcome {
 }
 
 impl Outcome {
-    /// Whether it has a condition or a body.
+    /// Whether it has a condition, a time or a body.
     pub fn is_declared(&self) -> bool {
-        self.body().is_some() || self.when().is_some()
+        self.body().is_some() || self.when().is_some() || self.after().is_some()
     }
 
     /// The place of `when`, and the comparisons behind it.
     pub fn when(&self) -> Option<(Span, Vec<Comparison>)> {
-        let when = child(&self.node, Kind::When)?;
-        let compared = when.children().filter(|node| node.kind() == Kind::Comparison);
-        let compared = compared.map(|node| Comparison::new(node, self.file)).collect();
-        Some((span_of(&when, Kind::Keyword, self.file)?, compared))
+        when(&self.node, self.file)
+    }
+
+    /// The place of `after`, and the time behind it.
+    pub fn after(&self) -> Option<(Span, Option<Formula>)> {
+        let after = child(&self.node, Kind::After)?;
+        Some((span_of(&after, Kind::Keyword, self.file)?, Formula::child_of(&after, self.file)))
     }
 
     /// The assignments in its body; `None` without braces.
@@ -164,6 +171,25 @@ impl Outcome {
         token(&self.node, Kind::OpenBrace, self.file)?;
         Some(self.node.children().filter_map(|node| bind(&node, self.file)).collect())
     }
+}
+
+impl Exclusive {
+    /// The events, two unless one is missing.
+    pub fn events(&self) -> Vec<Name> {
+        tokens(&self.node, Kind::Name, self.file)
+    }
+
+    /// The place of `when`, and the comparisons behind it.
+    pub fn when(&self) -> Option<(Span, Vec<Comparison>)> {
+        when(&self.node, self.file)
+    }
+}
+
+fn when(node: &crate::Node, file: u16) -> Option<(Span, Vec<Comparison>)> {
+    let when = child(node, Kind::When)?;
+    let compared = when.children().filter(|node| node.kind() == Kind::Comparison);
+    let compared = compared.map(|node| Comparison::new(node, file)).collect();
+    Some((span_of(&when, Kind::Keyword, file)?, compared))
 }
 
 impl Comparison {

@@ -156,7 +156,7 @@ codes! {
     E0516 Error "unknown device"
     E0517 Error "device of two toolboxes"
     E0518 Error "template of another robot"
-    E0519 Error "invalid body of a state"
+    E0519 Error "invalid declaration of a state or event"
     E0601 Error "line in the wrong place in a scenario"
     E0602 Error "unknown component in a scenario"
     E0603 Error "event that cannot happen in the plan"

@@ -194,8 +194,9 @@ impl Parser<'_, '_> {
     /// `12 in`: reports a unit that the language does not have, and reads past it.
     fn foreign_unit(&mut self) -> bool {
         let word = self.word(0);
+        let name = if self.word(1) == "live" && self.nth(2) == Kind::Name { 2 } else { 1 };
         let begins_item =
-            self.nth(1) == Kind::Name && matches!(self.nth(2), Kind::Colon | Kind::Equal);
+            self.nth(name) == Kind::Name && matches!(self.nth(name + 1), Kind::Colon | Kind::Equal);
         let number = self.before().filter(|_| self.on_same_line() && !begins_item);
         let better = number.and_then(|number| habits::converted(number.text, word));
         let (Some(number), Some(better)) = (number, better.filter(|_| !self.names_something(0)))

@@ -7,7 +7,7 @@ use crate::kind::Kind;
 use crate::message;
 use crate::units::Unit;
 
-const PART_HELP: &str = "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of' or 'event'";
+const PART_HELP: &str = "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of', 'event' or 'exclusive'";
 
 impl Parser<'_, '_> {
     pub(super) fn toolbox(&mut self) {
@@ -115,8 +115,18 @@ impl Parser<'_, '_> {
                 self.keyword();
                 if self.name("give it a name") && is_event {
                     self.eat_meant("once", |_| true);
+                    self.after();
                 }
-                self.case();
+                self.case(is_event);
+                self.close_item();
+            }
+            "exclusive" => {
+                self.open_item(Kind::Exclusive);
+                self.keyword();
+                let help = "name two events that cannot both hold";
+                if self.name(help) && self.second_name(help) && self.at_condition() {
+                    self.condition();
+                }
                 self.close_item();
             }
             _ => {
@@ -128,13 +138,35 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `["when" condition] ["{" {bind} "}"]` behind a state of a declared computation.
-    fn case(&mut self) {
-        let has_condition = self.at_word("when") && self.on_same_line();
+    /// `["after" formula]` behind an event.
+    fn after(&mut self) {
+        if self.at_word("after") && self.on_same_line() {
+            self.open(Kind::After);
+            self.keyword();
+            self.formula();
+            self.close();
+        }
+    }
+
+    fn second_name(&mut self, help: &'static str) -> bool {
+        if self.on_same_line() || !self.at_part() {
+            return self.name(help);
+        }
+        self.expected_name(help);
+        false
+    }
+
+    fn at_condition(&self) -> bool {
+        self.at_word("when") && self.on_same_line()
+    }
+
+    /// `["when" condition] ["{" {bind} "}"]` behind a state of a declared computation. An event has no body.
+    fn case(&mut self, is_event: bool) {
+        let has_condition = self.at_condition();
         if has_condition {
             self.condition();
         }
-        if !has_condition && !self.at(Kind::OpenBrace) {
+        if (is_event || !has_condition) && !self.at(Kind::OpenBrace) {
             return;
         }
         let help = "write what the state assigns in braces, '{}' if it assigns nothing";

@@ -119,10 +119,12 @@ fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String
     });
     let outputs =
         template.outputs.iter().map(|port| (written("out ", port.span), one_line(&port.doc)));
-    let word = if template.kind == TemplateKind::Supervisor { "event" } else { "state" };
     let outcomes = template.outcomes.iter().map(|outcome| {
-        let once = if outcome.once { " once" } else { "" };
-        (format!("{word} {}{once}", outcome.name), one_line(&outcome.doc))
+        let line = match template.kind {
+            TemplateKind::Supervisor => written("event ", outcome.span),
+            _ => format!("state {}", outcome.name),
+        };
+        (line, one_line(&outcome.doc))
     });
     let states = template.states_of.iter();
     let states = states.map(|states| (written("", states.span), one_line(&states.doc)));
@@ -174,8 +176,19 @@ fn declared(name: Span, sources: &Sources) -> String {
 }
 
 /// The words at the start of a template's parts; several parts may share a line.
-const PARTS: [&str; 11] = [
-    "budget", "deadline", "event", "every", "icon", "in", "out", "state", "states", "stop", "uses",
+const PARTS: [&str; 12] = [
+    "budget",
+    "deadline",
+    "event",
+    "every",
+    "exclusive",
+    "icon",
+    "in",
+    "out",
+    "state",
+    "states",
+    "stop",
+    "uses",
 ];
 
 #[cfg(test)]

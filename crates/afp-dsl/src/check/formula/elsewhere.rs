@@ -1,7 +1,7 @@
 //! Names in formulas that nothing is called, and what other languages mean by them.
 
 use super::Scope;
-use crate::check::names::offer;
+use crate::check::names::{offer, unknown};
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Sought, words};
 use afp_syntax::message;
@@ -31,6 +31,13 @@ pub(super) fn unknown_enum(
     name: &ast::Name,
     span: Span,
 ) -> Diagnostic {
+    let ports =
+        || scope.entries.iter().map(|entry| &*entry.name.text).filter(|it| it.contains('.'));
+    let qualified = format!("{}.{}", home.text, name.text);
+    if words::nearest(&qualified, ports()).is_some() {
+        let message = message!("there is no port '{}'", qualified);
+        return unknown(Code::E0209, span, message, &qualified, ports(), "");
+    }
     let known = scope.types.enums.iter().map(|(_, each)| each.name.as_str());
     let message = message!("there is no enum '{}'", home.text);
     let error = Diagnostic::new(Code::E0239, home.span, message);

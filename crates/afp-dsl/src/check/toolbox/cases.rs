@@ -1,26 +1,26 @@
-//! States of declared computations: conditions and assignments over the input ports.
+//! States of declared computations and facts of supervisors: conditions and assignments over the input ports.
 
 use std::collections::BTreeMap;
 
-use crate::check::convert::compared_as;
 use crate::check::formula::Scope;
 use crate::check::head::EntryDraft;
 use crate::check::names::{Indices, unknown};
+use crate::check::toolbox::condition::{condition, reads_no_text};
+use crate::check::toolbox::facts;
 use crate::check::toolbox::ports::{Site, misfit};
-use crate::graph::{EntryKind, Formula, Op};
-use crate::toolbox::{Case, Condition, OutPort, Template, TemplateKind};
+use crate::graph::{EntryKind, Formula};
+use crate::toolbox::{Case, OutPort, Template, TemplateKind};
+use crate::types::Type;
 use crate::types::text::a_type;
-use crate::types::{Conversion, Type};
 use afp_syntax::ast::{self, Bind, Name, Part};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
-use afp_types::Comparison;
 
 /// So many parts of formulas are computed in a microsecond, on the slowest target that plans are made for.
 const PARTS_PER_MICROSECOND: u64 = 16;
 
-/// Reads the bodies of the states, if there are any.
+/// Reads the bodies of the states, or the facts of the events, if there are any.
 pub(super) fn read(
     parts: &[Part],
     template: &mut Template,
@@ -32,18 +32,16 @@ pub(super) fn read(
         _ => None,
     });
     let states: Vec<_> = states.collect();
-    if !states.iter().any(|(node, _)| node.is_declared()) {
+    let is_fact = |part: &Part| matches!(part, Part::Exclusive(_));
+    if !states.iter().any(|(node, _)| node.is_declared()) && !parts.iter().any(is_fact) {
         return;
     }
-    if template.kind != TemplateKind::Computation {
-        let message = "only the states of a computation have conditions and bodies";
-        for (_, name) in states.iter().filter(|(node, _)| node.is_declared()) {
-            let error = Diagnostic::new(Code::E0519, name.span, message);
-            diags.push(error.help("remove them: Rust or Python implements the template"));
+    match template.kind {
+        TemplateKind::Computation => {
+            conditions_fit(&states, diags);
+            ports_fit(parts, template, diags);
         }
-    } else {
-        conditions_fit(&states, diags);
-        ports_fit(parts, template, diags);
+        kind => misplaced(&states, kind, diags),
     }
     let entries = template.inputs.iter();
     let entries = entries
@@ -63,6 +61,7 @@ pub(super) fn read(
     let bodies = Bodies { scope, outputs: &template.outputs };
     let cases: Vec<_> = states.iter().map(|(node, _)| bodies.case(node, diags)).collect();
     if template.kind != TemplateKind::Computation {
+        template.facts = facts::read(parts, &states, cases, (&bodies.scope, template), diags);
         return;
     }
     written(&cases, template, diags);
@@ -70,6 +69,23 @@ pub(super) fn read(
     let size = u64::try_from(size).unwrap_or(u64::MAX).max(1);
     template.budget = Some(size.div_ceil(PARTS_PER_MICROSECOND).saturating_mul(1000));
     template.cases = Some(cases.into());
+}
+
+/// Reports conditions and bodies that only the states of a computation have. An event may have a condition.
+fn misplaced(states: &[(&ast::Outcome, Name)], kind: TemplateKind, diags: &mut Diagnostics) {
+    let (is_wrong, message, help): (fn(&ast::Outcome) -> bool, _, _) = match kind {
+        TemplateKind::Supervisor => {
+            (|event| event.body().is_some(), "an event has no body", "remove the braces")
+        }
+        _ => (
+            ast::Outcome::is_declared,
+            "only the states of a computation have conditions and bodies",
+            "remove them: Rust or Python implements the template",
+        ),
+    };
+    for (_, name) in states.iter().filter(|(node, _)| is_wrong(node)) {
+        diags.push(Diagnostic::new(Code::E0519, name.span, message).help(help));
+    }
 }
 
 /// Every state has a body, and every state but the last has a condition.
@@ -152,7 +168,7 @@ struct Bodies<'a> {
 impl Bodies<'_> {
     fn case(&self, node: &ast::Outcome, diags: &mut Diagnostics) -> Case {
         let compared = node.when().map(|(_, compared)| compared).unwrap_or_default();
-        let when = compared.iter().filter_map(|one| self.condition(one, diags)).collect();
+        let when = compared.iter().filter_map(|one| condition(&self.scope, one, diags)).collect();
         let mut assigned: BTreeMap<u16, (Span, Option<Formula>)> = BTreeMap::new();
         for bind in node.body().unwrap_or_default() {
             let Some((output, port, formula)) = self.assignment(bind, diags) else { continue };
@@ -198,38 +214,4 @@ impl Bodies<'_> {
         let value = value.filter(|value| reads_no_text(value, diags));
         Some((u16::try_from(place).ok()?, port, value))
     }
-
-    fn condition(&self, node: &ast::Comparison, diags: &mut Diagnostics) -> Option<Condition> {
-        let Some((left, sign, right)) = node.parts() else {
-            node.operands().iter().for_each(|operand| self.scope.names_only(operand));
-            return None;
-        };
-        let comparison = Comparison::parse(&sign.text)?;
-        let (left, right) = (self.scope.infer(&left, diags), self.scope.infer(&right, diags));
-        let (left, right) = (left?, right?);
-        let ty = compared_as(&left.ty, &right.ty);
-        let mut operand = |formula| self.scope.finish(formula, Some(&ty), None, diags);
-        let (left, right) = (operand(left), operand(right));
-        let (left, right) = (left?.0, right?.0);
-        let error = |message| Diagnostic::new(Code::E0519, sign.span, message);
-        if matches!(ty, Type::Any | Type::Object(_)) {
-            let message = message!("{} cannot be compared", Words(a_type(&ty)));
-            diags.push(error(message).help("use the type 'number' or 'discrete'"));
-        } else if comparison.is_order() && !ty.is_numeric() {
-            let message = message!("{} has no order", Words(a_type(&ty)));
-            diags.push(error(message).help("write '==' or '!='"));
-        }
-        let is_sound = [&left, &right].into_iter().all(|formula| reads_no_text(formula, diags));
-        is_sound.then_some(Condition { left, comparison, right })
-    }
-}
-
-/// Whether a formula converts no string to another type; reports it otherwise.
-fn reads_no_text(formula: &Formula, diags: &mut Diagnostics) -> bool {
-    let is_read = |op: &Op<Conversion>| matches!(op, Op::Convert(Conversion::FromText(_)));
-    let Some(node) = formula.nodes().find(|node| is_read(&node.op)) else { return true };
-    let message = message!("a computation makes {} of no text", Words(a_type(&node.note.ty)));
-    let error = Diagnostic::new(Code::E0519, node.note.span, message);
-    diags.push(error.help("give the port that type: the plan converts what it binds"));
-    false
 }

@@ -47,7 +47,7 @@ pub(super) fn read(
                 template.outputs.extend(port);
             }
             Part::Timing(time) => set_time(time, &mut template, &mut seen, diags),
-            Part::Outcome(_) | Part::StatesOf(..) => {}
+            Part::Outcome(_) | Part::Exclusive(_) | Part::StatesOf(..) => {}
         }
     }
     for part in &parts {

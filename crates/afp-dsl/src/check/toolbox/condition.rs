@@ -1,0 +1,51 @@
+//! Comparisons in the conditions of states and events.
+
+use crate::check::convert::compared_as;
+use crate::check::formula::Scope;
+use crate::graph::{Formula, Op};
+use crate::toolbox::Condition;
+use crate::types::text::a_type;
+use crate::types::{Conversion, Type};
+use afp_syntax::ast;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
+use afp_types::Comparison;
+
+/// Reads a comparison of a condition.
+pub(super) fn condition(
+    scope: &Scope<'_>,
+    node: &ast::Comparison,
+    diags: &mut Diagnostics,
+) -> Option<Condition> {
+    let Some((left, sign, right)) = node.parts() else {
+        node.operands().iter().for_each(|operand| scope.names_only(operand));
+        return None;
+    };
+    let comparison = Comparison::parse(&sign.text)?;
+    let (left, right) = (scope.infer(&left, diags), scope.infer(&right, diags));
+    let (left, right) = (left?, right?);
+    let ty = compared_as(&left.ty, &right.ty);
+    let mut operand = |formula| scope.finish(formula, Some(&ty), None, diags);
+    let (left, right) = (operand(left), operand(right));
+    let (left, right) = (left?.0, right?.0);
+    let error = |message| Diagnostic::new(Code::E0519, sign.span, message);
+    if matches!(ty, Type::Any | Type::Object(_)) {
+        let message = message!("{} cannot be compared", Words(a_type(&ty)));
+        diags.push(error(message).help("use the type 'number' or 'discrete'"));
+    } else if comparison.is_order() && !ty.is_numeric() {
+        let message = message!("{} has no order", Words(a_type(&ty)));
+        diags.push(error(message).help("write '==' or '!='"));
+    }
+    let is_sound = [&left, &right].into_iter().all(|formula| reads_no_text(formula, diags));
+    is_sound.then_some(Condition { left, comparison, right })
+}
+
+/// Whether a formula converts no string to another type; reports it otherwise.
+pub(super) fn reads_no_text(formula: &Formula, diags: &mut Diagnostics) -> bool {
+    let is_read = |op: &Op<Conversion>| matches!(op, Op::Convert(Conversion::FromText(_)));
+    let Some(node) = formula.nodes().find(|node| is_read(&node.op)) else { return true };
+    let message = message!("a computation makes {} of no text", Words(a_type(&node.note.ty)));
+    let error = Diagnostic::new(Code::E0519, node.note.span, message);
+    diags.push(error.help("give the port that type: the plan converts what it binds"));
+    false
+}
