@@ -1,9 +1,9 @@
-// The grammar of docs/grammar.md for tree-sitter. Words of the grammar are words only where it expects them, which is what
-// tree-sitter does with the words of a grammar anyway; where a name may stand beside them, it is decided by the next sign.
+// The grammar of docs/grammar.md for tree-sitter. As in the language, keywords are reserved only
+// where the grammar expects them; if a name is possible too, the next sign decides.
 
 /// <reference types="tree-sitter-cli/dsl" />
 
-/** @type {(rule: RuleOrLiteral) => RepeatRule} Items, each with the comma that may stand behind it. */
+/** @type {(rule: RuleOrLiteral) => RepeatRule} Items, each with an optional comma. */
 const items = (rule) => repeat(seq(rule, optional(',')));
 /** @type {(rule: RuleOrLiteral) => SeqRule} */
 const list = (rule) => seq(rule, repeat(seq(',', rule)));
@@ -12,7 +12,7 @@ const braces = (rule) => seq('{', items(rule), '}');
 const range = ($) => seq('from', $._formula, 'to', $._formula);
 const value = ($) => seq('=', field('value', $._formula));
 const typed = ($) => seq(':', field('type', $.type));
-/** A word of the grammar that is a name here. */
+/** A keyword that is a name here. */
 const name = ($, ...words) => alias(words.length === 1 ? words[0] : choice(...words), $.name);
 
 module.exports = grammar({
@@ -22,7 +22,7 @@ module.exports = grammar({
 
   extras: ($) => [/\s/, $.comment, $.doc_comment],
 
-  // A unit is looked for behind numbers alone, and stands on their line.
+  // A unit follows a number on its line.
   externals: ($) => [$.unit, $._error_sentinel],
 
   supertypes: ($) => [$._formula],
@@ -57,7 +57,7 @@ module.exports = grammar({
     element: ($) =>
       seq(choice('actor', 'computation', 'subplan'), $._head, choice(braces(choice($.guard, $.reactions, $.edge)), alias($._only_edge, $.edge))),
 
-    // For the only state of an element without braces.
+    // Short form for the only state of an element.
     _only_edge: ($) => seq('->', $._edge_target),
 
     guard: ($) => seq('supervise', $._head, repeat($.timing), braces($.edge)),
@@ -191,7 +191,7 @@ module.exports = grammar({
         seq('commit', choice(seq('of', $.path, optional($._by)), $._by)),
       ),
 
-    // Before a point, an arrow or a comparison every word is a name.
+    // Before a point, an arrow or a comparison, every word is a name.
     _claimed_path: ($) =>
       choice(
         $.path,
@@ -249,7 +249,7 @@ module.exports = grammar({
 
     name: () => /[A-Za-z_][A-Za-z0-9_]*/,
 
-    // Four strokes and more are a comment again.
+    // Four or more slashes begin a plain comment.
     comment: () => token(choice(/\/\/([^\/\n][^\n]*)?/, /\/\/\/\/[^\n]*/)),
 
     doc_comment: () => /\/\/\/([^\/\n][^\n]*)?/,

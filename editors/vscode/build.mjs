@@ -1,4 +1,4 @@
-// Makes the extension (`dist/`) or, with `--tests`, its tests (`built/`) as well.
+// Makes the extension (`dist/`) or, with `--tests`, also its tests (`built/`).
 import { readdir, readFile, rm, writeFile } from "node:fs/promises";
 import * as esbuild from "esbuild";
 
@@ -13,13 +13,13 @@ if (process.argv.includes("--tests")) {
   const names = (await readdir("test")).filter((name) => name.endsWith(".test.ts"));
   await rm("built", { recursive: true, force: true });
   const entryPoints = names.map((name) => `test/${name}`);
-  // The editor is a stub of itself, and its client of the language server one that talks with the real one.
+  // The tests use a stub of the editor, and a client that talks with the real language server.
   const alias = { vscode: "./test/vscode.ts", "vscode-languageclient/node": "./test/client.ts" };
   const external = ["vscode-languageserver-protocol", "vscode-jsonrpc", "playwright-core", "@vscode/debugadapter-testsupport"];
   await esbuild.build({ ...shared, entryPoints, outdir: "built", platform: "node", format: "cjs", alias, external, sourcemap: "inline" });
 }
 
-/** What the packages inside ask those to keep who pass them on. */
+/** Collects the licences of the packages that are part of a bundle. */
 async function licences(files) {
   const folders = new Set(files.flatMap((file) => file.match(/^(?:.*\/)?node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []));
   const texts = [...folders].sort().map(async (folder) => {

@@ -1,4 +1,5 @@
-//! Messages to the debug adapter: each request is answered once, and none brings the adapter down.
+//! Messages to the debug adapter: each request is answered once, and no message makes the adapter
+//! fail.
 
 use std::sync::{Arc, LazyLock};
 use std::time::Duration as Wall;
@@ -39,7 +40,7 @@ static PROGRAM: LazyLock<Option<Arc<Program>>> = LazyLock::new(|| {
     Some(Arc::new(program))
 });
 
-/// A log of the plan: its elements take turns.
+/// A log of the plan, in which its elements alternate.
 struct Recorded;
 
 impl Host<'static> for Recorded {
@@ -67,11 +68,11 @@ impl Host<'static> for Recorded {
     }
 }
 
-/// Each line that is a request is one, of one client or, where it begins with a space, of another one; other lines are
-/// told that they are none. The bytes are taken for a stream, too.
+/// Each line that is a request is sent, by one client or, if it begins with a space, by another
+/// one; the adapter must reject other lines. The bytes are also read as a stream.
 ///
 /// # Panics
-/// When a request has no response or several.
+/// A request has no response or several.
 pub fn debugger(data: &[u8]) {
     let mut frames = Frames::default();
     for piece in data.chunks(7) {

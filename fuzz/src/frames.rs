@@ -3,12 +3,12 @@
 use afp_core::Instant;
 use afp_wire::{Received, Receiver, Sender};
 
-/// Commands of a robot, as far as the frames are concerned.
+/// The commands of a robot in frames.
 type Message = (f64, Option<bool>, u8);
 
 const LONGEST: usize = 64;
 
-/// Bytes on a line damage at most the frame that they touch, and a hello after them is heard.
+/// Damage on the line affects at most one frame, and a hello after it is received.
 pub fn frames(data: &[u8]) {
     let mut receiver = Receiver::<LONGEST>::new(1);
     for byte in data {

@@ -1,6 +1,6 @@
-//! What must hold for any text, one function for each thing that reads one.
+//! Properties of all texts, one function for each reader.
 //!
-//! Each takes whatever bytes a fuzzer finds and panics when a property does not hold. The same
+//! Each function takes any bytes of a fuzzer and panics if a property does not hold. The same
 //! functions run over the corpora in `cargo test`.
 
 mod debugger;
@@ -19,7 +19,7 @@ pub use text::{checker, formatter, layout, map, parser, scenario, settings, worl
 /// A property of bytes.
 pub type Target = fn(&[u8]);
 
-/// Every target by the name of its fuzzer and of the folder of its corpus.
+/// All targets, by the name of the fuzzer and of the folder of its corpus.
 pub const TARGETS: &[(&str, Target)] = &[
     ("parser", parser),
     ("checker", checker),

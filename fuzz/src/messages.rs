@@ -1,13 +1,14 @@
-//! Messages to the language server: each request is answered once, and none brings the server down.
+//! Messages to the language server: each request is answered once, and no message makes the server
+//! fail.
 
 use afp_lsp::{Message, NoFiles, Server};
 
 use crate::text::text;
 
-/// Each line that is a message is one; other lines are left out.
+/// Each line that is a message is sent; other lines are ignored.
 ///
 /// # Panics
-/// When a request has no response or several.
+/// A request has no response or several.
 pub fn messages(data: &[u8]) {
     let mut server = Server::new(Box::new(NoFiles));
     for line in text(data).lines() {

@@ -1,4 +1,4 @@
-//! Properties of the readers: nothing panics, nothing is lost, and every error has a place.
+//! Properties of the readers: no panics, no losses, and a place for each error.
 
 use std::borrow::Cow;
 
@@ -15,25 +15,26 @@ use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 use afp_syntax::{Node, kind::Kind, parse};
 
-/// Bytes as a reader of files gives them on.
+/// The bytes as read from a file.
 pub(crate) fn text(data: &[u8]) -> Cow<'_, str> {
     String::from_utf8_lossy(data)
 }
 
-/// The tree holds the text byte for byte.
+/// The tree contains the text byte for byte.
 ///
 /// # Panics
-/// When it does not.
+/// The property does not hold.
 pub fn parser(data: &[u8]) {
     let text = text(data);
     let mut diags = Diagnostics::default();
     assert_eq!(parse(&text, 0, &mut diags).text(), text);
 }
 
-/// A compilation, of several files where lines `// file: PATH` divide the text, ends with a graph or with errors, and everything it says can be shown.
+/// A compilation (of several files if lines `// file: PATH` divide the text) ends with a graph or
+/// with errors, and all its diagnostics can be shown.
 ///
 /// # Panics
-/// When it does not.
+/// The property does not hold.
 pub fn checker(data: &[u8]) {
     let (first, files) = Texts::in_one(&text(data));
     let compiled = compile(&Source::new("fuzzed.afp", first), &toolboxes(), &files);
@@ -41,10 +42,11 @@ pub fn checker(data: &[u8]) {
     assert_eq!(compiled.render(false).is_empty(), compiled.diags.is_empty());
 }
 
-/// The formatted text says the same with the same comments, and is its own formatted text.
+/// The formatted text has the same meaning and comments, and formatting it again does not change
+/// it.
 ///
 /// # Panics
-/// When it does not or is not.
+/// The property does not hold.
 pub fn formatter(data: &[u8]) {
     let text = text(data);
     let Ok(formatted) = format(&text) else { return };
@@ -52,7 +54,7 @@ pub fn formatter(data: &[u8]) {
     assert_eq!(format(&formatted).as_deref().ok(), Some(formatted.as_str()), "not canonical");
 }
 
-/// The tokens but for white space and commas, which only the formatter decides.
+/// The tokens without white space and commas, which the formatter may change.
 fn solid(text: &str) -> Vec<String> {
     let root: Node = parse(text, 0, &mut Diagnostics::default()).root();
     let tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
@@ -60,21 +62,21 @@ fn solid(text: &str) -> Vec<String> {
     kept.map(|token| token.text().trim_end().to_owned()).collect()
 }
 
-/// What is written is read back, and a plan can be drawn with its elements at the positions.
+/// A written layout can be read back, and a plan can be drawn with its elements at the positions.
 ///
 /// # Panics
-/// When it is not, or cannot.
+/// The property does not hold.
 pub fn layout(data: &[u8]) {
     let (layout, told) = Layout::read(&text(data));
     let written = layout.write();
     let (again, errors) = Layout::read(&written);
     assert_eq!(again, layout, "{written}");
-    // What is wrong is kept, and told each time.
+    // Errors are kept and reported each time.
     assert_eq!(errors.len(), told.len(), "{errors:?} in {written}");
     drawn(&layout);
 }
 
-/// Draws a plan whose elements have the positions of a layout one after the other.
+/// Draws a plan with one element for each position of a layout.
 fn drawn(layout: &Layout) {
     const PLAN: &str = include_str!("../../plans/wall_following.afp");
     let compiled = compile(&Source::new("drawn.afp", PLAN), &toolboxes(), &Texts::default());
@@ -90,10 +92,10 @@ fn drawn(layout: &Layout) {
     assert!(picture.ends_with("</svg>\n") && !picture.contains("NaN"), "{picture}");
 }
 
-/// A world is read or refused at a place within the text.
+/// A world is read, or rejected with a place within the text.
 ///
 /// # Panics
-/// When neither.
+/// The property does not hold.
 pub fn world(data: &[u8]) {
     let text = text(data);
     if let Err(error) = World::parse(&text) {
@@ -101,11 +103,11 @@ pub fn world(data: &[u8]) {
     }
 }
 
-/// A map of `map_server`, its `.yaml` text and after a NUL its picture, becomes the text of a world that can be
-/// simulated, or is refused at a place within the text.
+/// A map of `map_server` (its `.yaml` text, a NUL and its picture) becomes the text of a world that
+/// can be simulated, or is rejected with a place within the text.
 ///
 /// # Panics
-/// When neither.
+/// The property does not hold.
 pub fn map(data: &[u8]) {
     let end = data.iter().position(|byte| *byte == 0).unwrap_or(data.len());
     let (yaml, picture) = (text(&data[..end]), data.get(end + 1..).unwrap_or_default());
@@ -126,11 +128,11 @@ pub fn map(data: &[u8]) {
     }
 }
 
-/// Scenarios of the shipped plans are checked: they belong to their plan and their times are in order, or
-/// errors say what is wrong.
+/// Scenarios of the shipped plans are checked: they belong to their plan and their times are in
+/// order, or there are errors.
 ///
 /// # Panics
-/// When neither.
+/// The property does not hold.
 pub fn scenario(data: &[u8]) {
     let text = text(data);
     let source = Source::new("plans/tests/fuzzed.afp", text.as_ref());
@@ -142,7 +144,7 @@ pub fn scenario(data: &[u8]) {
     }
 }
 
-/// The texts of the plans that scenarios may be for.
+/// The text of a plan that scenarios may be for.
 fn plan_file(path: &str) -> Result<String, String> {
     const PLANS: &[(&str, &str)] = &[
         ("plans/avoid_obstacle.afp", include_str!("../../plans/avoid_obstacle.afp")),
@@ -160,7 +162,7 @@ fn plan_file(path: &str) -> Result<String, String> {
     plan.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "there is no such file".to_owned())
 }
 
-/// What holds for a scenario without errors.
+/// The properties of a scenario without errors.
 fn belongs(scenario: &Scenario, text: &str) {
     let inside = |start: u32, end: u32| text.get(start as usize..end as usize).is_some();
     assert!(inside(scenario.span.start, scenario.span.end), "{}", scenario.name);
@@ -171,7 +173,7 @@ fn belongs(scenario: &Scenario, text: &str) {
     }
     for expectation in &scenario.expectations {
         let Window { from, to } = expectation.window;
-        // What counts from a moment may be demanded for ever.
+        // An expectation that counts from a moment may have no end.
         let last = expectation.from.map_or(scenario.until, |_| u64::MAX);
         assert!(from <= to && to <= last, "{expectation:?}");
         assert!(inside(expectation.span.start, expectation.span.end), "{expectation:?}");
@@ -182,10 +184,10 @@ fn belongs(scenario: &Scenario, text: &str) {
     }
 }
 
-/// An `afp.toml` is read; what is wrong has a reason and a place.
+/// An `afp.toml` is read; each error has a reason and a place.
 ///
 /// # Panics
-/// When it finds something.
+/// The property does not hold.
 pub fn settings(data: &[u8]) {
     let text = text(data);
     for mistake in afp_project::read(&text).1 {

@@ -1,4 +1,4 @@
-//! Every file of the corpora, found cases among them, keeps its property.
+//! All files of the corpora, including the cases found so far, keep their property.
 
 use std::fs;
 use std::path::Path;
@@ -16,14 +16,14 @@ fn every_file_of_the_corpora_keeps_its_property() {
         files.sort();
         assert!(!files.is_empty(), "the corpus of '{name}' is empty");
         for file in files {
-            // Shown only when the target panics.
+            // Shown only after a panic of the target.
             println!("{}", file.display());
             target(&fs::read(&file).unwrap());
         }
     }
 }
 
-/// They are what the search for scenarios starts from.
+/// These scenarios are the seeds of the search.
 #[test]
 fn the_scenarios_that_are_shipped_keep_theirs() {
     let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plans/tests");

@@ -1,19 +1,22 @@
-// The drawing of a document: asks the language server for it, passes on what changes, and lets selection and cursor follow
-// each other. It knows neither the editor nor the page, so that it is tested against the real server alone.
+// The drawing of a document: requests it from the language server, passes on changes, and
+// synchronizes selection and cursor. It depends on neither the editor nor the page, so it is tested
+// with the real server alone.
 import type { Answer, Changed, Part } from "../../../studio/page/drawing/shapes";
 import type { Position, Range } from "../../../studio/page/documents/positions";
 
-/** The language server. */
 export interface Server {
   request<T>(method: string, params: object): Promise<T>;
 }
 
-/** What a run is at: the paths of what is active, in the plan with that name or in the first one of the file. */
+/**
+ * The state of a run: paths of active components, in the plan of that name or else in the first one
+ * of the file.
+ */
 export interface Run {
   plan: string | null;
   stack: readonly string[];
   held: boolean;
-  /** Whether it is of another text than the one that is drawn. */
+  /** Whether its text differs from the drawn one. */
   older: boolean;
 }
 
@@ -31,16 +34,16 @@ export type FromPage = { kind: "ready" } | { kind: "select"; part: Part } | { ki
 export interface Around {
   server: Server;
   post(message: ToPage): void;
-  /** Shows a place of the text; with `focus` the text has the keys then. */
+  /** Shows a place of the text; with `focus`, the text gets the keyboard focus. */
   reveal(range: Range, focus: boolean): void;
 }
 
 export class Drawing {
   private plan: string | null;
-  /** The plan that the page was told last. */
+  /** The plan that the page shows. */
   private told: string | null = null;
   private ready = false;
-  /** What was selected here: the cursor that goes there says nothing new. */
+  /** The last part selected here; the cursor's move to it is no news. */
   private own: string | null = null;
 
   constructor(
@@ -51,13 +54,13 @@ export class Drawing {
     this.plan = plan;
   }
 
-  /** Another plan of the same document. */
+  /** Shows another plan of the document. */
   async show(plan: string): Promise<void> {
     this.plan = plan;
     await this.ask();
   }
 
-  /** Asks for all of it: at first, and of a server that has been started again. */
+  /** Requests the whole drawing: at first, and after a restart of the server. */
   async ask(): Promise<void> {
     if (!this.ready) return;
     const { server, post } = this.around;
@@ -72,21 +75,21 @@ export class Drawing {
     post(message);
   }
 
-  /** `afp/drawingChanged`, of any document. */
+  /** Handles `afp/drawingChanged` of any document. */
   changed(change: Changed): void {
     if (change.textDocument.uri !== this.uri || !this.ready) return;
-    // The plan has another name, or is gone, and the first one is drawn.
+    // The plan was renamed or removed, and the first one is drawn.
     if (this.plan !== null && this.plan === this.told) this.plan = change.plan;
     this.told = change.plan;
     this.around.post({ kind: "changed", change });
   }
 
-  /** What a run of this document is at. */
+  /** Shows the state of a run of this document. */
   run(run: Run): void {
     this.around.post({ kind: "run", ...run });
   }
 
-  /** The cursor of the text was moved. */
+  /** Handles a move of the text cursor. */
   async cursor(position: Position): Promise<void> {
     const part = await this.around.server.request<Part | null>("afp/itemAt", { textDocument: { uri: this.uri }, position }).catch(() => null);
     const [key, before] = [JSON.stringify(part), this.own];
@@ -107,7 +110,7 @@ export class Drawing {
     this.around.reveal(range, message.kind === "open");
   }
 
-  /** Ends what the server tells of it. */
+  /** Ends the notifications of the server. */
   async end(): Promise<void> {
     await this.around.server.request("afp/drawing", { textDocument: { uri: this.uri }, subscribe: false }).catch(() => null);
   }

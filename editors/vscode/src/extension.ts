@@ -1,4 +1,4 @@
-// The thin layer between Visual Studio Code and the rest: everything that needs the editor, and nothing else.
+// The thin layer between Visual Studio Code and the rest: only code that needs the editor.
 import * as path from "node:path";
 import * as vscode from "vscode";
 import { LanguageClient, State } from "vscode-languageclient/node";
@@ -6,16 +6,18 @@ import type { Changed } from "../../../studio/page/drawing/shapes";
 import { adapterOf, argumentsOf, completed, launchOf, programOf, type Launch } from "./launch";
 import { Panels } from "./panels";
 
-/** What a lens says: the file, and the name of a plan or scenario. The palette says nothing. */
+/**
+ * The arguments of a lens: the file, and the name of a plan or scenario. The palette gives none.
+ */
 interface Lens {
   uri: string;
   name: string;
 }
 
-/** Lenses that the server shows, since there is a command for each. */
+/** Lenses that the server shows, because the editor has their commands. */
 const LENSES = ["afp.run", "afp.debug", "afp.drawing", "afp.test"];
 
-/** What a drawing can be saved as. */
+/** The formats of a saved drawing. */
 const FORMATS = { SVG: "svg", PNG: "png", GraphViz: "dot", JSON: "json", SCXML: "scxml" };
 
 let client: LanguageClient | undefined;
@@ -32,7 +34,7 @@ function made(): LanguageClient {
   });
 }
 
-/** The file that a command is about, on the disk; undefined after saying why there is none. */
+/** The file of a command, on disk; without one, shows an error and returns undefined. */
 function fileFor(lens: Lens | undefined): vscode.Uri | undefined {
   const uri = lens ? vscode.Uri.parse(lens.uri) : vscode.window.activeTextEditor?.document.uri;
   if (uri?.scheme === "file" && uri.path.endsWith(".afp")) return uri;
@@ -40,18 +42,18 @@ function fileFor(lens: Lens | undefined): vscode.Uri | undefined {
   return undefined;
 }
 
-/** As `fileFor`, where something of the folder will run. */
+/** As `fileFor`, for commands that run code of the folder. */
 function runnable(lens: Lens | undefined): vscode.Uri | undefined {
   if (vscode.workspace.isTrusted) return fileFor(lens);
   void vscode.window.showWarningMessage("This folder is not trusted, so nothing of it is run.");
   return undefined;
 }
 
-/** Runs `afpc VERB FILE` where the user sees it. */
+/** Runs `afpc VERB FILE` in a visible terminal. */
 function inTerminal(verb: "run" | "test", lens?: Lens): Thenable<unknown> | undefined {
   const uri = runnable(lens);
   if (!uri) return undefined;
-  // Without a shell, so that no character of a name means anything.
+  // Without a shell, so that no character of a name is special.
   const execution = new vscode.ProcessExecution(command(), argumentsOf(verb, uri.fsPath, lens?.name ?? null), { cwd: path.dirname(uri.fsPath) });
   const task = new vscode.Task({ type: "afp", verb }, vscode.TaskScope.Workspace, `${verb} ${path.basename(uri.fsPath)}`, "afp", execution);
   return vscode.tasks.executeTask(task);
@@ -75,7 +77,7 @@ async function graph(): Promise<void> {
   if (target) await vscode.workspace.fs.writeFile(target, base64 === undefined ? new TextEncoder().encode(text) : Buffer.from(base64, "base64"));
 }
 
-/** What is launched by F5, a lens or launch.json. */
+/** Launch configurations for F5, lenses and launch.json. */
 const configurations: vscode.DebugConfigurationProvider = {
   resolveDebugConfiguration(_folder, config) {
     const open = vscode.window.activeTextEditor?.document;
@@ -84,7 +86,7 @@ const configurations: vscode.DebugConfigurationProvider = {
     void vscode.window.showErrorMessage(full);
     return undefined;
   },
-  // Paths are known by now: with errors nothing runs, and the first of them is shown.
+  // Paths are resolved now. A plan with errors does not run; its first error is shown.
   async resolveDebugConfigurationWithSubstitutedVariables(_folder, config) {
     if (!config.program) return config;
     const uri = vscode.Uri.file(programOf(config.program as string).file);
@@ -98,7 +100,7 @@ const configurations: vscode.DebugConfigurationProvider = {
 
 const adapters: vscode.DebugAdapterDescriptorFactory = {
   createDebugAdapterDescriptor({ configuration }) {
-    // What runs elsewhere runs already.
+    // A remote run has its adapter already.
     if (configuration.request === "attach") return new vscode.DebugAdapterServer(configuration.port as number);
     if (!vscode.workspace.isTrusted) throw new Error("This folder is not trusted, so nothing of it is run.");
     const file = configuration.program ? programOf(configuration.program as string).file : (configuration.log as string);
@@ -106,7 +108,7 @@ const adapters: vscode.DebugAdapterDescriptorFactory = {
   },
 };
 
-/** What a run says of itself is shown in the drawings. */
+/** Shows the state of runs in the drawings. */
 function runs(): vscode.Disposable[] {
   return [
     vscode.debug.onDidStartDebugSession((session) => session.type === "afp" && void Promise.resolve(session.customRequest("afp/subscribe", { state: true })).catch(() => {})),

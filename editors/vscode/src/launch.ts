@@ -1,7 +1,7 @@
-// What a launch means: a configuration as people write it, completed, and the adapter that it needs. Nothing here is of an
-// editor, so that it is tested without one.
+// Completes launch configurations and chooses their adapter. It does not depend on the editor, so
+// it is tested without one.
 
-/** A configuration of launch.json, or none of it: F5 without a file gives an empty one. */
+/** A configuration of launch.json; F5 without a file gives an empty one. */
 export interface Launch {
   type?: string;
   request?: string;
@@ -14,16 +14,16 @@ export interface Launch {
   [more: string]: unknown;
 }
 
-/** The file of an editor that is open. */
+/** The file of an open editor. */
 export interface Open {
   path: string;
   language: string;
 }
 
-/** How fast time passes where nothing else is said: what drives is watched, not computed. */
+/** The default speed: people watch the robot drive. */
 const REAL_TIME = 1;
 
-/** What can be launched, or a sentence that says what is missing. */
+/** The complete configuration, or an error message. */
 export function completed(config: Launch, open: Open | null): Launch | string {
   const plan = open?.language === "afp" && open.path.endsWith(".afp") ? open.path : null;
   const isEmpty = !config.type && !config.request && !config.name;
@@ -34,12 +34,12 @@ export function completed(config: Launch, open: Open | null): Launch | string {
   if (full.program && full.log) return "The configuration has a 'program' and a 'log': it can be one of them.";
   Object.assign(full, { type: "afp", request: "launch" });
   if (full.speed === undefined) full.speed = REAL_TIME;
-  // Without it the run is as fast as it can be computed.
+  // Without a speed, the run is as fast as possible.
   if (full.speed === null) delete full.speed;
   return full;
 }
 
-/** What joins a run that 'afpc dap --port' serves, or a sentence that says what is missing. */
+/** The configuration to join a run of 'afpc dap --port', or an error message. */
 function joining(config: Launch): Launch | string {
   const both = Number.isInteger(config.port) && config.token;
   return both ? { ...config, type: "afp" } : "To join a run, the configuration needs the 'port' and the 'token' that 'afpc dap --port' said.";
@@ -54,14 +54,17 @@ export const launchOf = (path: string, plan: string | null): Launch => ({
   speed: REAL_TIME,
 });
 
-/** A program is a file, perhaps with the name of one of its plans behind it. */
+/** A program is a file, optionally followed by the name of one of its plans. */
 export function programOf(program: string): { file: string; plan: string | null } {
   const found = /^(.*\.afp):([A-Za-z_]\w*)$/.exec(program);
   return found ? { file: found[1]!, plan: found[2]! } : { file: program, plan: null };
 }
 
-/** How the adapter is started: with the plan, so that what its project needs is built before the editor waits. */
+/**
+ * The arguments of the adapter: with the plan, so that the build of its project begins before the
+ * editor waits.
+ */
 export const adapterOf = (launch: Launch): string[] => (launch.program ? ["dap", launch.program] : ["dap"]);
 
-/** How `afpc` runs a plan or tests a file. */
+/** The arguments of `afpc` to run a plan or test a file. */
 export const argumentsOf = (verb: "run" | "test", path: string, plan: string | null): string[] => [verb, verb === "run" && plan ? `${path}:${plan}` : path];

@@ -1,12 +1,12 @@
-// The page that shows the drawing. Nothing in it comes from elsewhere, and no script but ours runs: words and icons of
-// toolboxes are in the drawing, and whoever wrote them shall do nothing here.
+// The page of the drawing. It loads nothing from elsewhere and runs only our script: the drawing
+// contains texts and icons of toolboxes, whose authors must not run code here.
 
 export interface Sources {
-  /** Where the page's script is, as the editor serves it. */
+  /** The address of the page's script, served by the editor. */
   script: string;
-  /** Where the editor serves files from. */
+  /** The origin of the editor's files. */
   origin: string;
-  /** The colours of the engine, on light and on dark. */
+  /** The colours of the engine, for light and dark themes. */
   colours: { light: string; dark: string };
   nonce: string;
 }
@@ -32,10 +32,9 @@ body.dark { color: var(--vscode-editor-foreground, #e6ebf2); --paper: #12161d; -
 [hidden] { display: none !important; }
 `;
 
-/** The whole page. */
 export function page({ script, origin, colours, nonce }: Sources): string {
   const policy = `default-src 'none'; style-src 'nonce-${nonce}'; script-src 'nonce-${nonce}'; img-src ${origin} data:; base-uri 'none'; form-action 'none'`;
-  // A style sheet ends where it says so, whatever is in it.
+  // The first `</` would end a style sheet, even within its text.
   const sheet = (text: string): string => text.replaceAll("</", "<\\/");
   return `<!doctype html>
 <html lang="en">

@@ -1,4 +1,4 @@
-// The drawings that are open, each in a panel beside its text.
+// The open drawings, each in a panel beside its text.
 import * as vscode from "vscode";
 import { randomBytes } from "node:crypto";
 import type { Changed } from "../../../studio/page/drawing/shapes";
@@ -18,15 +18,15 @@ interface Open {
   uri: vscode.Uri;
 }
 
-/** What `afp/state` says, as far as it is shown here. */
+/** The used part of `afp/state`. */
 interface Running {
   stack: string[];
   held: boolean;
-  /** The hashes of the texts that run, by their paths. */
+  /** The hashes of the running texts, by path. */
   sources: Record<string, string>;
 }
 
-/** Milliseconds for which a cursor rests before the drawing follows it. */
+/** The delay between a move of the cursor and of the drawing, in milliseconds. */
 const RESTS = 80;
 
 export class Panels implements vscode.Disposable {
@@ -34,7 +34,7 @@ export class Panels implements vscode.Disposable {
   private readonly server: Server;
   private readonly ends: vscode.Disposable[];
   private resting: ReturnType<typeof setTimeout> | undefined;
-  /** What runs, by the program, as it was told last. */
+  /** The last state of each run, by program. */
   private readonly running = new Map<string, Running>();
 
   constructor(
@@ -78,7 +78,7 @@ export class Panels implements vscode.Disposable {
     webview.html = page({ script, origin: webview.cspSource, colours, nonce: randomBytes(16).toString("hex") });
   }
 
-  /** The engine's colours, on light and on dark. */
+  /** The engine's colours, for light and dark themes. */
   private async colours(uri: string): Promise<{ light: string; dark: string }> {
     const sheet = async (theme: string): Promise<string> =>
       (await this.server.request<{ text: string }>("afp/export", { textDocument: { uri }, format: "css", theme })).text;
@@ -105,12 +105,12 @@ export class Panels implements vscode.Disposable {
     for (const { drawing } of this.open_.values()) drawing.changed(change);
   }
 
-  /** Asks again for everything: the server is another one. */
+  /** Requests everything again, after a change of the server. */
   again(): void {
     for (const { drawing } of this.open_.values()) void drawing.ask();
   }
 
-  /** Shows what a run of a program is at; `null` at its end. */
+  /** Shows the state of a program's run; `null` at its end. */
   run(program: string | undefined, state: Running | null): void {
     if (!program) return;
     if (state) this.running.set(program, state);

@@ -1,4 +1,5 @@
-// The editor's client of the language server, for tests without the editor: it starts and talks with the real one.
+// A client of the language server for tests without the editor: it starts the real server and talks
+// with it.
 import { spawn, type ChildProcess } from "node:child_process";
 import { createMessageConnection, StreamMessageReader, StreamMessageWriter, type MessageConnection } from "vscode-jsonrpc/node";
 
@@ -8,7 +9,7 @@ export class LanguageClient {
   private child: ChildProcess | undefined;
   private connection: MessageConnection | undefined;
   private readonly waiting: [string, (params: any) => void][] = [];
-  /** What the server answered to the first request. */
+  /** The server's answer to the first request. */
   static offered: { codeLensProvider?: object } | undefined;
   static current: LanguageClient | undefined;
 

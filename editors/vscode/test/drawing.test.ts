@@ -1,4 +1,5 @@
-// The drawing against the real server: what it asks for, what reaches the page, what moves the cursor.
+// Tests the drawing with the real server: its requests, its messages to the page, its moves of the
+// cursor.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Range } from "../../../studio/page/documents/positions";
@@ -32,7 +33,7 @@ test("nothing is asked before the page is ready, then all of it, then what chang
     await seen.drawing.receive({ kind: "ready" });
     const [whole] = of(seen, "drawing");
     assert.deepEqual(whole?.answer.elements.map(({ item }) => item), ["Patrol.back", "Patrol.go", "Patrol.start"]);
-    // A plan without positions may be laid out anew by an edit; this one moves nothing.
+    // An edit of a plan without positions may change the layout; this one moves nothing.
     await talk.type(PLAN.replace("-30 cm", "-40 cm"));
     const { change } = await there(() => of(seen, "changed")[0], "change");
     assert.ok(change.elements.some(({ item }) => item === "Patrol.back"));

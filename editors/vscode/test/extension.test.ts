@@ -1,5 +1,5 @@
-// The thin layer, with a stub in place of the editor and the real server behind it. Visual Studio Code itself cannot be had
-// without its own download.
+// Tests the thin layer with a stub of the editor and the real server. Visual Studio Code itself is
+// not available without its own download.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,5 +1,5 @@
-// What a launch means, and that what the extension proposes can be launched: with the client that VS Code's adapters are
-// tested with, against the real adapter.
+// Tests launch configurations, and that the extension's proposals can be launched: with the test
+// client of VS Code's adapters and the real adapter.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -45,7 +45,7 @@ test("what can be configured is what docs/debug.md says", () => {
   const table = page.slice(page.indexOf("## Launch arguments"), page.indexOf("## Debug a log"));
   const rows = table.split("\n").filter((line) => line.startsWith("| `"));
   const named = rows.flatMap((row) => [...row.split("|")[1]!.matchAll(/`(\w+)`/g)].map(([, name]) => name!));
-  // The token is for clients that connect.
+  // The token is only for clients that connect.
   const documented = named.filter((name) => name !== "token").sort();
   assert.deepEqual(Object.keys(debuggers.configurationAttributes.launch.properties).sort(), documented);
 });
@@ -55,11 +55,11 @@ for (const [nth, config] of [...debuggers.initialConfigurations, ...debuggers.co
     serving(async ({ file }) => {
       const text = JSON.stringify(config).replaceAll('"^\\"\\\\${file}\\""', '"${file}"').replaceAll("${file}", file);
       const launch = completed(JSON.parse(text), null) as Launch;
-      // A test waits for nothing.
+      // At full speed, the test need not wait.
       delete launch.speed;
       const client = new DebugClient(AFPC, "", "afp");
       const adapter = spawn(AFPC, adapterOf(launch), { stdio: ["pipe", "pipe", "inherit"] });
-      // The client would start it with one argument at most.
+      // The client itself could start it with one argument at most.
       (client as unknown as { connect(from: object, to: object): void }).connect(adapter.stdout, adapter.stdin);
       await client.initializeRequest();
       const ready = client.waitForEvent("initialized");

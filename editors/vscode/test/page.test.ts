@@ -1,5 +1,5 @@
-// The page in a real browser, with the real server behind it: what is seen, what is pressed, and that no script of anybody
-// else runs in it.
+// Tests the page in a real browser with the real server: display, clicks, and that no foreign
+// script runs in it.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
@@ -21,11 +21,11 @@ interface Shown {
   page: Page;
   drawing: Drawing;
   revealed: Range[];
-  /** What the page has written to its console as an error. */
+  /** Errors that the page has written to its console. */
   wrong: string[];
 }
 
-/** The page, where the editor would show it. */
+/** Opens the page as the editor would. */
 async function shown(talk: Talk, run: (shown: Shown) => Promise<void>, theme = "vscode-light"): Promise<void> {
   browser ??= await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"] });
   const page = await browser.newPage({ viewport: { width: 900, height: 700 } });
@@ -62,7 +62,7 @@ async function shown(talk: Talk, run: (shown: Shown) => Promise<void>, theme = "
   }
 }
 
-/** Presses the name of an element. */
+/** Clicks the name of an element. */
 async function press(page: Page, item: string, twice = false): Promise<void> {
   const box = await page.locator(`[data-id="${item}"] text.name`).first().boundingBox();
   const at = [box!.x + box!.width / 2, box!.y + box!.height / 2] as const;
@@ -149,7 +149,7 @@ test("no script of anybody else runs in the page, and nothing is loaded from els
         return { ran: "ran" in window, violations: violations.sort() };
       });
       assert.deepEqual(ran, { ran: false, violations: ["connect-src", "img-src", "script-src-elem"] });
-      // A fragment that is not on the lists is left out whole.
+      // A fragment with content outside of the lists is omitted completely.
       const answer = await talk.request<{ elements: { item: string; svg: string }[] }>("afp/drawing", { textDocument: { uri: talk.uri } });
       answer.elements[0]!.svg = '<g onload="window.ran = true"><image href="https://elsewhere.test/b.png"/></g>';
       await page.evaluate((data) => window.postMessage(data, "*"), { kind: "drawing", uri: drawing.uri, answer } as object);

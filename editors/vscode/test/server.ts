@@ -1,4 +1,4 @@
-// The real language server over standard input and output, as the editor's client talks with it.
+// The real language server over standard input and output, as for the editor's client.
 import { spawn } from "node:child_process";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -8,7 +8,6 @@ import { createMessageConnection, StreamMessageReader, StreamMessageWriter } fro
 import type { Changed } from "../../../studio/page/drawing/shapes";
 import type { Server } from "../src/drawing";
 
-/** The program. */
 export const AFPC = process.env.AFPC ?? "";
 
 export const PLAN = `use carbot
@@ -26,12 +25,12 @@ plan Patrol {
 export interface Talk extends Server {
   uri: string;
   file: string;
-  /** Types a whole new text. */
+  /** Replaces the whole text. */
   type(text: string): Promise<void>;
   onChange(take: (change: Changed) => void): void;
 }
 
-/** A server with one document, in a folder of its own. */
+/** A server with one document in a separate folder. */
 export async function serving(run: (talk: Talk) => Promise<void>, text = PLAN): Promise<void> {
   if (!AFPC) throw new Error("AFPC does not say where afpc is");
   const folder = await mkdtemp(join(tmpdir(), "afp-vscode-"));
@@ -62,7 +61,7 @@ export async function serving(run: (talk: Talk) => Promise<void>, text = PLAN): 
   }
 }
 
-/** Waits until something is there. */
+/** Waits until `find` returns a result. */
 export async function there<T>(find: () => T | undefined | false | null, what: string): Promise<T> {
   const end = Date.now() + 10_000;
   for (;;) {

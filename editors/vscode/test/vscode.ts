@@ -1,4 +1,4 @@
-// The part of Visual Studio Code's interface that the extension uses, for tests without it: it keeps what it is told.
+// A stub of the part of Visual Studio Code's interface that the extension uses; it records calls.
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 export class Uri {
@@ -64,13 +64,13 @@ export const TaskScope = { Workspace: 2 };
 
 type Listener = (event: any) => unknown;
 
-/** An event and how a test fires it. */
+/** An event, and a function to fire it. */
 function event(): { on: (take: Listener) => { dispose(): void }; fire: (event: unknown) => unknown[] } {
   const all: Listener[] = [];
   return { on: (take) => (all.push(take), { dispose: () => void all.splice(all.indexOf(take), 1) }), fire: (event) => all.map((take) => take(event)) };
 }
 
-/** A panel as the extension made it. */
+/** A panel that the extension created. */
 export interface Panel {
   title: string;
   options: { enableScripts: boolean; localResourceRoots: Uri[] };
@@ -82,7 +82,7 @@ export interface Panel {
 
 const events = { selection: event(), text: event(), started: event(), custom: event(), ended: event() };
 
-/** What happened, and what a test decides. */
+/** Recorded events, and answers that a test sets. */
 export const seen = {
   commands: new Map<string, (...args: any[]) => any>(),
   providers: new Map<string, any>(),

@@ -1,5 +1,5 @@
-// What the page shows of a drawing: fragments of the engine in one SVG, with a ring round what is selected and one round
-// what runs. The studio's own modules parse, find and measure; here they are put together for watching alone.
+// The display of a drawing: fragments of the engine in one SVG, with a ring around the selected
+// part and one around each active part. It uses the studio's modules to parse, find and measure.
 import { at } from "../../../studio/page/debug/follow";
 import { all, nodes, svg } from "../../../studio/page/drawing/fragment";
 import { rectOf, type Drawing, type Part, type Point, type Rect } from "../../../studio/page/drawing/shapes";
@@ -11,7 +11,7 @@ export class Board {
   private readonly defs = svg("defs");
   private readonly world = svg("g");
   private readonly layers = [svg("g"), svg("g")] as const;
-  // A ring goes round a box, not over its exits; one of an exit or port lies on the box.
+  // The ring of a box is below its exits; that of an exit or port is above the box.
   private readonly below = svg("g", { class: "rings" });
   private readonly above = svg("g", { class: "rings" });
   drawing: Drawing | null = null;
@@ -30,7 +30,7 @@ export class Board {
     return { width: this.host.clientWidth, height: this.host.clientHeight };
   }
 
-  /** Shows a drawing in place of the one before; another plan is looked at from its beginning. */
+  /** Shows a drawing in place of the last one; another plan is shown from its start. */
   show(drawing: Drawing): void {
     const before = this.drawing;
     this.drawing = drawing;
@@ -63,13 +63,13 @@ export class Board {
     if (this.drawing) this.look(fitted(this.drawing.bounds, this.size));
   }
 
-  /** The point of the plan under a place of the page. */
+  /** The point of the plan at a position on the page. */
   at(event: MouseEvent): Point {
     const { left, top } = this.host.getBoundingClientRect();
     return toPlan(this.view, [event.clientX - left, event.clientY - top]);
   }
 
-  /** Marks a part, and brings it into sight. */
+  /** Marks a part and scrolls to it. */
   mark(part: Part | null): void {
     this.marked = part;
     const rect = part && this.drawing && rectOf(this.drawing, part);
@@ -77,7 +77,7 @@ export class Board {
     this.rings();
   }
 
-  /** Marks what runs of the outermost plan. */
+  /** Marks the active parts of the outermost plan. */
   runs(run: Run): void {
     this.run = run;
     this.rings();

@@ -1,4 +1,4 @@
-// The page with the drawing: what the editor says is shown, what is pressed is said to the editor.
+// The page of the drawing: shows messages of the editor, and sends clicks to it.
 import { changed, whole } from "../../../studio/page/drawing/differences";
 import { hit } from "../../../studio/page/drawing/hit";
 import { nameOf, type Drawing, type Part } from "../../../studio/page/drawing/shapes";
@@ -13,9 +13,9 @@ const element = <T extends HTMLElement>(id: string): T => document.getElementByI
 const [host, plans, said, why, older] = [element("board"), element<HTMLSelectElement>("plans"), element("said"), element("why"), element("older")];
 const board = new Board(host);
 
-/** So far a press may move and is none of a drag. */
+/** The greatest movement of a click; beyond it, it is a drag. */
 const STILL = 4;
-/** How far an arrow moves the drawing. */
+/** The movement of the drawing by an arrow key. */
 const STRIDE = 60;
 
 const take: { [Kind in ToPage["kind"]]: (message: Extract<ToPage, { kind: Kind }>) => void } = {
@@ -84,7 +84,7 @@ host.addEventListener("pointerup", (event) => {
 
 host.addEventListener("pointercancel", () => (down = null));
 
-// Into the plan of a sub-plan; of everything else to its text.
+// Opens the plan of a sub-plan, or the text of any other part.
 host.addEventListener("dblclick", (event) => {
   const found = board.drawing && hit(board.drawing, board.at(event), board.view.zoom);
   if (!found) return;
@@ -106,7 +106,7 @@ host.addEventListener(
 
 let chosen = -1;
 
-/** The next element, or the one before, in the order of their names. */
+/** The next or previous element, in the order of their names. */
 function step(by: 1 | -1): void {
   const items = [...(board.drawing?.elements.keys() ?? [])];
   if (items.length === 0) return;
@@ -142,7 +142,7 @@ host.addEventListener("keydown", (event) => {
 plans.addEventListener("change", () => enter(plans.value));
 element("fit").addEventListener("click", () => board.fit());
 
-/** The colours of the editor's theme. */
+/** Takes the colours of the editor's theme. */
 function themed(): void {
   const { classList } = document.body;
   const isDark = classList.contains("vscode-dark") || (classList.contains("vscode-high-contrast") && !classList.contains("vscode-high-contrast-light"));
