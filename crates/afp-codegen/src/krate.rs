@@ -127,7 +127,7 @@ fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
         let itself = options.hardware.as_ref().and_then(|itself| given(options, &itself.ty));
         all.extend(itself.cloned());
     }
-    for toolbox in graph.toolboxes.iter().filter(|toolbox| toolbox.is_file()) {
+    for toolbox in graph.toolboxes.iter().filter(|toolbox| toolbox.is_named()) {
         let built_in = || {
             let name = toolbox.rust_path.split("::").next().unwrap_or("");
             Dependency::ours(&name.replace('_', "-"), origin)

@@ -107,7 +107,7 @@ impl<'a> ScenarioTests<'a> {
                 })
             };
         };
-        let toolboxes = plan.toolboxes.iter().filter(|toolbox| toolbox.is_file());
+        let toolboxes = plan.toolboxes.iter().filter(|toolbox| toolbox.is_named());
         let toolboxes = toolboxes.map(|toolbox| {
             let path: TokenStream = toolbox.rust_path.parse().unwrap_or_default();
             match (self.is_built_in)(&toolbox.rust_path) {

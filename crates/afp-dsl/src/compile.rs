@@ -117,7 +117,7 @@ impl Compiled {
         &'a self,
         graph: &'a Graph,
     ) -> impl Iterator<Item = (&'a str, &'a str)> {
-        graph.toolboxes.iter().filter(|toolbox| toolbox.is_file()).filter_map(|toolbox| {
+        graph.toolboxes.iter().filter(|toolbox| toolbox.is_named()).filter_map(|toolbox| {
             let source = self.sources.get(toolbox.span.file)?;
             Some((toolbox.name.as_str(), source.text.as_str()))
         })

@@ -42,8 +42,8 @@ impl Toolbox {
         self.devices.iter().any(|device| device.kind == DeviceKind::Robot)
     }
 
-    /// Whether a toolbox file declares it. The computations of a plan file are a toolbox without a name.
-    pub fn is_file(&self) -> bool {
+    /// Whether it has a name. The computations of a plan file are a toolbox without one.
+    pub fn is_named(&self) -> bool {
         !self.name.is_empty()
     }
 

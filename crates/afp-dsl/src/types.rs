@@ -110,6 +110,11 @@ impl Type {
         matches!(self, Type::Bool | Type::Int | Type::Text | Type::Enum(_) | Type::Discrete)
     }
 
+    /// Whether it stands for another type in each use of a template.
+    pub(crate) fn is_generic(&self) -> bool {
+        matches!(self, Type::Any | Type::Number | Type::Discrete)
+    }
+
     /// The name of its declaration; `None` for a built-in one.
     pub fn declaration(&self) -> Option<Span> {
         match self {

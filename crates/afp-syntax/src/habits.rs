@@ -11,6 +11,10 @@
 //!
 //! In the sentences `{1}` is a capture, and a word in braces is something else that the parser knows (see its `elsewhere`).
 
+mod sensors;
+
+pub(crate) use sensors::Sensor;
+
 /// Where habits are looked for, one bit each.
 pub(crate) type Places = u8;
 
@@ -61,7 +65,7 @@ const fn habit(at: Places, pattern: &'static str, says: &'static str, write: Wri
 const TIME_LIMIT: &str = "a time limit is a supervisor of its element";
 const LIMIT: &str = "write in the element's braces: 'supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }'";
 const LATE: &str = "supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }";
-const GUARD: &str = "an edge has no condition: lead it to a computation that chooses";
+pub(crate) const GUARD: &str = "an edge has no condition: lead it to a computation that chooses";
 const CHOOSE: &str = "write '{1} -> choose', and in the plan: '{choose:2:3}'";
 const ACTION: &str = "an edge only leads on, it does nothing itself";
 const NO_IF: &str = "a plan has no '{word}': a computation chooses where to go on";

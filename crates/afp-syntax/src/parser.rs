@@ -12,6 +12,7 @@ mod elsewhere;
 mod file;
 mod formula;
 mod habits;
+mod known;
 mod marks;
 mod plan;
 mod reactions;
@@ -30,7 +31,8 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use crate::kind::{Afp, Kind};
 use crate::lexer::Token;
 use crate::source::Span;
-use marks::{Marks, globals};
+use known::Names;
+use marks::Marks;
 
 /// Greatest depth of brackets and signs in formulas and skipped text.
 const MAX_DEPTH: usize = 64;
@@ -75,10 +77,9 @@ struct Parser<'t, 'd> {
     commas_separate: bool,
     /// Whether the bounds of a range are read.
     in_range: bool,
-    /// The entries of the plan as far as it is read, each with the word that declares it.
-    entries: BTreeMap<&'t str, &'t str>,
-    /// The supervisors of the plans of the file.
-    globals: BTreeSet<&'t str>,
+    /// The names of the plan that is read, and those of plans that are still to be read.
+    known: Names<'t>,
+    plans: BTreeMap<usize, Names<'t>>,
     /// The names with '-' in them.
     hyphens: BTreeSet<String>,
     /// The last element, template and state or event that was read, for texts that help.
@@ -87,8 +88,9 @@ struct Parser<'t, 'd> {
     event: &'t str,
     /// The last entry that is an int.
     int: &'t str,
-    /// Whether the file uses `std`.
+    /// Whether the file uses `std`, and `carbot`.
     has_std: bool,
+    has_carbot: bool,
     /// Where the lexer has found signs of other languages, and the places of those which belong to a habit.
     foreign: BTreeSet<u32>,
     superseded: Vec<(u32, u32)>,
@@ -117,7 +119,8 @@ impl<'t, 'd> Parser<'t, 'd> {
         let (marks, builder) = (Marks::new(tokens, &solid), GreenNodeBuilder::new());
         Parser {
             tokens,
-            globals: globals(tokens, &solid),
+            plans: known::names(tokens, &solid),
+            known: Names::default(),
             solid,
             at: 0,
             built: 0,
@@ -130,13 +133,13 @@ impl<'t, 'd> Parser<'t, 'd> {
             in_scenario: false,
             commas_separate: false,
             in_range: false,
-            entries: BTreeMap::new(),
             hyphens: BTreeSet::new(),
             element: "terminate",
             template: "",
             event: "",
             int: "n",
-            has_std: uses_std(tokens),
+            has_std: uses(tokens, "std"),
+            has_carbot: uses(tokens, "carbot"),
             foreign: BTreeSet::new(),
             superseded: Vec::new(),
             marks,
@@ -435,12 +438,12 @@ fn found(token: Option<Token<'_>>) -> Message {
     token.map_or_else(|| "the end of the file".into(), |token| token.shown())
 }
 
-/// Whether a file names `std` behind 'use', or is a toolbox, which has no plans.
-fn uses_std(tokens: &[Token<'_>]) -> bool {
+/// Whether a file uses a toolbox.
+fn uses(tokens: &[Token<'_>], toolbox: &str) -> bool {
     let mut names = tokens.iter().filter(|token| !token.kind.is_trivia()).map(|token| token.text);
     let (mut before, mut uses) = ("", false);
     names.by_ref().take_while(|text| *text != "plan").for_each(|text| {
-        uses |= before == "use" && text == "std";
+        uses |= before == "use" && text == toolbox;
         before = text;
     });
     uses

@@ -31,7 +31,7 @@ pub fn computations_of(graph: &Graph) -> Vec<FileComputations> {
     for element in graph.plans.iter().flat_map(|plan| &plan.elements) {
         let Component::Computation(id) = element.component else { continue };
         let toolbox = &graph.toolboxes[id.toolbox.index()];
-        if toolbox.is_file() || found.iter().any(|known| known.toolbox == id.toolbox) {
+        if toolbox.is_named() || found.iter().any(|known| known.toolbox == id.toolbox) {
             continue;
         }
         let mut templates = toolbox.templates.clone();

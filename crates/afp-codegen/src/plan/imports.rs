@@ -134,7 +134,7 @@ pub fn imports(
 ) -> TokenStream {
     let (items, used) = (of_core(core, sections), used(sections));
     let toolboxes = graph.toolboxes.iter().zip(aliases);
-    let files = toolboxes.filter(|(toolbox, _)| toolbox.is_file());
+    let files = toolboxes.filter(|(toolbox, _)| toolbox.is_named());
     let toolboxes = files.filter_map(|(toolbox, alias)| {
         let module = path(&toolbox.rust_path);
         let item = quote!(use #module::templates as #alias;);

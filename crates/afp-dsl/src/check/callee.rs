@@ -21,8 +21,18 @@ struct Candidate<'a> {
     home: Option<&'a str>,
     /// Where it is declared.
     span: Span,
-    /// Whether it is in a toolbox that everybody has.
-    is_built_in: bool,
+    reach: Reach,
+}
+
+/// How far from the place of use a declaration is; the nearest one wins.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Reach {
+    /// A computation of the file.
+    File,
+    /// A plan, or a template of a toolbox of the project.
+    Project,
+    /// A template of a built-in toolbox.
+    BuiltIn,
 }
 
 /// What the keyword in front of a component asks for, and where it stands.
@@ -30,6 +40,12 @@ pub(crate) struct Wanted {
     pub keyword: &'static str,
     /// Its place; `None` for `supervise`, which cannot be exchanged for another keyword.
     pub span: Option<Span>,
+}
+
+impl Candidate<'_> {
+    fn is_template(&self) -> bool {
+        matches!(self.signature.kind, SignatureKind::Template(_))
+    }
 }
 
 impl Context<'_> {
@@ -52,12 +68,15 @@ impl Context<'_> {
         if found.iter().any(fits) {
             found.retain(fits);
         }
-        // A template that is added to a built-in toolbox changes no plan that has its own.
-        if let [own] = &*found.iter().filter(|each| !each.is_built_in).collect::<Vec<_>>()
-            && let (Some(home), Some(hidden)) = (own.home, found.iter().find(|it| it.is_built_in))
+        // A template that is added to another toolbox changes no plan that has its own.
+        let nearest = found.iter().map(|each| each.reach).min();
+        let (near, far): (Vec<_>, Vec<_>) =
+            found.iter().partition(|each| Some(each.reach) == nearest);
+        if let ([own], [hidden, ..]) = (&*near, &*far)
+            && own.is_template()
         {
-            diags.push(hides(&name, reference.span(), home, hidden));
-            found.retain(|each| !each.is_built_in);
+            diags.push(hides(&name, reference.span(), own, hidden));
+            found.retain(|each| Some(each.reach) == nearest);
         }
         if found.len() > 1 {
             record.several(name.span, found.iter().map(|each| each.span));
@@ -108,7 +127,7 @@ impl Context<'_> {
             let head = &self.program.plans[*index];
             let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
             let signature = self.program.signatures.plan(*index).clone();
-            found.push(Candidate { signature, home: None, span, is_built_in: false });
+            found.push(Candidate { signature, home: None, span, reach: Reach::Project });
         }
         let fits = |import: &&Import| home.is_none_or(|home| home.text == import.qualifier);
         for import in self.file.imports.iter().chain(&self.file.computations).filter(fits) {
@@ -119,8 +138,12 @@ impl Context<'_> {
             if let Some(signature) = self.program.signatures.template(import.id, index) {
                 let home = Some(import.qualifier.as_str()).filter(|home| !home.is_empty());
                 let span = templates[index].span;
-                let (signature, is_built_in) = (signature.clone(), import.toolbox.is_built_in());
-                found.push(Candidate { signature, home, span, is_built_in });
+                let reach = match home {
+                    None => Reach::File,
+                    Some(_) if import.toolbox.is_built_in() => Reach::BuiltIn,
+                    Some(_) => Reach::Project,
+                };
+                found.push(Candidate { signature: signature.clone(), home, span, reach });
             }
         }
         found
@@ -235,15 +258,30 @@ impl Context<'_> {
     }
 }
 
-/// What is told of a template of a toolbox of one's own that has the name of a built-in template.
-fn hides(name: &Name, span: Span, home: &str, hidden: &Candidate<'_>) -> Diagnostic {
+/// Reports a template that hides another one of the same name.
+fn hides(name: &Name, span: Span, own: &Candidate<'_>, hidden: &Candidate<'_>) -> Diagnostic {
     let other = hidden.home.unwrap_or_default();
-    let message =
-        message!("'{}' is the template of '{}', not that of '{}'", name.text, home, other);
-    let [own, other] = [home, other].map(|home| format!("{home}.{}", name.text));
-    Diagnostic::new(Code::E0254, span, message)
-        .note(hidden.span, "the built-in template")
-        .help(message!("write '{}' to be clear, or '{}' for the built-in one", own, other))
+    let of_other = format!("{other}.{}", name.text);
+    let (note, which) = match hidden.reach {
+        Reach::BuiltIn => ("the built-in template", "the built-in one"),
+        _ => ("the hidden template", "the hidden one"),
+    };
+    let (message, help) = match own.home {
+        Some(home) => (
+            message!("'{}' is the template of '{}', not that of '{}'", name.text, home, other),
+            message!(
+                "write '{}' to be clear, or '{}' for {}",
+                format!("{home}.{}", name.text),
+                of_other,
+                Words(which)
+            ),
+        ),
+        None => (
+            message!("'{}' is the computation of this file, not that of '{}'", name.text, other),
+            message!("write '{}' for {}, or rename the computation", of_other, Words(which)),
+        ),
+    };
+    Diagnostic::new(Code::E0254, span, message).note(hidden.span, note).help(help)
 }
 
 fn unfit(signature: &Signature, span: Span, wanted: &Wanted) -> Diagnostic {

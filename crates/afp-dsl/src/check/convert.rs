@@ -5,7 +5,7 @@ mod unit;
 pub(crate) use unit::{bare, likely, unit_missing};
 
 use crate::graph::{Formula, Op};
-use crate::types::text::{self, a_dimension, a_type};
+use crate::types::text::{self, a_dimension, a_type, a_value};
 use crate::types::{Conversion, Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::literal::Literal;
@@ -117,8 +117,16 @@ fn example(ty: &Type, range: Option<(f64, f64)>) -> String {
 fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &str) -> Diagnostic {
     let span = formula.span;
     let expected =
-        message!("expected {}, found {}", Words(a_type(want)), Words(a_type(&formula.ty)));
+        message!("expected {}, found {}", Words(a_value(want)), Words(a_value(&formula.ty)));
     match (&formula.ty, want) {
+        (found, want) if found.is_generic() || want.is_generic() => {
+            let help = match (found.is_generic(), want.is_generic()) {
+                (true, true) => message!("give both ports the type '{}'", want),
+                (true, _) => message!("give the port the type '{}'", want),
+                _ => message!("give the port the type '{}'", found),
+            };
+            Diagnostic::new(Code::E0206, span, expected).help(help)
+        }
         (Type::Int | Type::Quantity(Dimension::NONE), Type::Quantity(dimension)) => {
             unit_missing(formula, *dimension, Some(range), text)
         }

@@ -158,7 +158,7 @@ impl Dump<'_> {
         let toolbox = &self.graph.toolboxes[id.toolbox.index()];
         let template = self.graph.template(id);
         Named {
-            head: match toolbox.is_file() {
+            head: match toolbox.is_named() {
                 true => format!("{}.{}", toolbox.name, template.name),
                 false => template.name.clone(),
             },

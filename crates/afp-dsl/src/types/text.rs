@@ -75,6 +75,14 @@ pub(crate) fn a_type(ty: &Type) -> String {
     }
 }
 
+/// A value in a formula, such as `a length`; of a generic type `a value of type 'any'`.
+pub(crate) fn a_value(ty: &Type) -> String {
+    match ty.is_generic() {
+        true => format!("a value of type '{ty}'"),
+        false => a_type(ty),
+    }
+}
+
 /// A type as a plan writes it; of a generic one a type that fits.
 pub(crate) fn written(ty: &Type) -> String {
     match ty {

@@ -96,6 +96,8 @@ fn followed(part: &'static str, help: &str) -> BTreeMap<&'static str, String> {
             "supervise" if text.contains('{') => "body",
             "actor" | "computation" | "subplan" if text.contains('{') => "item",
             "var" | "in" | "const" if text.contains(' ') => "item",
+            // An edge of another component stays there.
+            _ if help.contains(&format!("'{text}' in the braces of")) => continue,
             _ if matches!(part, "event" | "state") && text.contains(" -> ") => part,
             _ => continue,
         };

@@ -116,7 +116,7 @@ codes! {
     E0251 Error "row that does not fit its table"
     E0252 Warning "table without rows"
     E0253 Error "unknown table"
-    E0254 Note "template that hides a built-in one"
+    E0254 Note "template that hides another one"
     E0255 Error "edge without a name that is not for one state"
     E0301 Warning "input read once from an entry that changes"
     E0302 Warning "element that can never be reached"

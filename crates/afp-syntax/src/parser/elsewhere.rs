@@ -1,6 +1,8 @@
 //! Looks for the habits of other languages, of which there is one table, and says what the plan text for them is.
 
+mod conditions;
 mod matcher;
+mod meant;
 mod words;
 
 use super::Parser;
@@ -13,7 +15,8 @@ use crate::lexer::Token;
 use crate::message;
 use crate::source::Span;
 use matcher::{Matcher, beginning, between, is_written};
-use words::{choose, comparison, time, type_of, undeclared, with_first};
+use meant::Reads;
+use words::{choose, comparison, time, type_of, with_first};
 
 /// So many tokens are looked at.
 const MOST_TOKENS: usize = 64;
@@ -56,26 +59,16 @@ impl<'t> Parser<'t, '_> {
         let behind = line.get(found.end).filter(|token| token.text == ";");
         let whole = behind.map_or(here, |sign| here.to(self.span_of(*sign)));
         let says = self.filled(found.habit.says, &found, place);
-        let error = Diagnostic::new(Code::E0102, here, message!("{}", Words(says)));
+        let error = |says| Diagnostic::new(Code::E0102, here, message!("{}", Words(says)));
         let error = match found.habit.write {
-            Write::Edit("") => error.help("remove it").fix(whole, ""),
-            Write::Edit(text) => error.write_at(whole, self.filled(text, &found, place)),
+            Write::Edit("") => error(says).help("remove it").fix(whole, ""),
+            Write::Edit(text) => error(says).write_at(whole, self.filled(text, &found, place)),
             Write::Say(text) => {
-                let mut help = self.filled(text, &found, place);
-                let written =
-                    found.captures.first().filter(|_| found.habit.pattern.starts_with("ENTRY"));
-                let declared =
-                    written.and_then(|name| Some((name, self.entries.get(name.as_str())?)));
-                if let Some((name, word @ (&"in" | &"const"))) = declared {
-                    help = format!("declare '{name}' with 'var', not '{word}', and {help}");
-                }
-                if let Some(entry) = undeclared(&help, |name| self.entries.contains_key(name)) {
-                    help = format!("declare '{entry}', and {help}");
-                }
-                if !self.has_std && OF_STD.iter().any(|template| help.contains(template)) {
-                    help += "; 'use std' at the top";
-                }
-                error.elsewhere(message!("{}", Words(help)))
+                let help = self.filled(text, &found, place);
+                let meant = self.no_entry((&says, &help), &found);
+                let (says, help) = meant.unwrap_or((says, help));
+                let help = self.with_declarations(help, &found);
+                error(says).elsewhere(message!("{}", Words(help)))
             }
         };
         self.supersede(here);
@@ -86,6 +79,26 @@ impl<'t> Parser<'t, '_> {
         }
         self.pass_to(|p| p.token(0).is_none_or(|token| token.start >= next));
         true
+    }
+
+    /// A help with the declarations that its plan text needs.
+    fn with_declarations(&self, mut help: String, found: &Found<'_>) -> String {
+        let entries = &self.known.entries;
+        let written = found.captures.first().filter(|_| found.habit.pattern.starts_with("ENTRY"));
+        let declared = written.and_then(|name| Some((name, entries.get(name.as_str())?)));
+        if let Some((name, word @ (&"in" | &"const"))) = declared {
+            help = format!("declare '{name}' with 'var', not '{word}', and {help}");
+        }
+        if let Some(Reads { name, value, .. }) = Reads::of(&help)
+            && !entries.contains_key(name)
+            && !name.contains('.')
+        {
+            help = format!("declare 'var {name} = {value}', and {help}");
+        }
+        if !self.has_std && OF_STD.iter().any(|template| help.contains(template)) {
+            help += "; 'use std' at the top";
+        }
+        help
     }
 
     /// The habit that is written here, unless something is said of this line already.
@@ -102,7 +115,7 @@ impl<'t> Parser<'t, '_> {
         let line = self.written_line(start, place);
         let is_formula = place & (VALUE | OPERATOR) != 0;
         fitting.into_iter().find_map(|habit| {
-            let entries = &self.entries;
+            let entries = &self.known.entries;
             let mut matcher =
                 Matcher { line: &line, entries, captures: Vec::new(), next: None, is_formula };
             let end = matcher.matches(habit.pattern, 0)?;

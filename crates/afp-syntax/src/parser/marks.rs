@@ -3,8 +3,6 @@
 //! A file may be one line, and wrong at every token; looking through the line each time would take as long as the line
 //! is for each of them.
 
-use std::collections::BTreeSet;
-
 use crate::kind::Kind;
 use crate::lexer::Token;
 
@@ -66,21 +64,4 @@ impl Marks {
     pub(super) fn is_closed(&self, index: usize) -> bool {
         u32::try_from(index).is_ok_and(|index| self.closed.binary_search(&index).is_ok())
     }
-}
-
-/// The names behind 'supervise' in the braces of plans, and in no others within them.
-pub(super) fn globals<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeSet<&'t str> {
-    let (mut depth, mut found) = (0_usize, BTreeSet::new());
-    let mut solid = solid.iter().filter_map(|index| tokens.get(*index as usize)).peekable();
-    while let Some(token) = solid.next() {
-        match token.kind {
-            Kind::OpenBrace => depth += 1,
-            Kind::CloseBrace => depth = depth.saturating_sub(1),
-            Kind::Name if token.text == "supervise" && depth == 1 => {
-                found.extend(solid.peek().filter(|it| it.kind == Kind::Name).map(|it| it.text));
-            }
-            _ => {}
-        }
-    }
-    found
 }

@@ -18,7 +18,7 @@ const ITEM_HELP: &str =
 impl Parser<'_, '_> {
     pub(super) fn plan(&mut self) {
         self.open_item(Kind::Plan);
-        self.entries.clear();
+        self.known = self.plans.remove(&self.at).unwrap_or_default();
         self.element = "terminate";
         self.keyword();
         self.name("give the plan a name");
@@ -137,7 +137,7 @@ impl Parser<'_, '_> {
         } else {
             self.live_elsewhere();
         }
-        let (word, name) = (self.word_before(), self.word(0));
+        let name = self.word(0);
         self.name("give the entry a name");
         let end = self.at;
         self.ty_of_entry();
@@ -149,7 +149,6 @@ impl Parser<'_, '_> {
         if !is_typed && self.at != end {
             self.type_behind_value(end);
         }
-        self.entries.entry(name).or_insert(word);
         self.close_item();
     }
 

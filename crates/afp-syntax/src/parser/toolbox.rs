@@ -156,20 +156,16 @@ impl Parser<'_, '_> {
         false
     }
 
-    fn at_condition(&self) -> bool {
-        self.at_word("when") && self.on_same_line()
-    }
-
     /// `["when" condition] ["{" {bind} "}"]` behind a state of a declared computation. An event has no body.
     fn case(&mut self, is_event: bool) {
-        let has_condition = self.at_condition();
-        if has_condition {
+        let behind_name = self.at;
+        if self.at_condition() {
             self.condition();
         }
-        if (is_event || !has_condition) && !self.at(Kind::OpenBrace) {
+        if (is_event || self.at == behind_name) && !self.at(Kind::OpenBrace) {
             return;
         }
-        let help = "write what the state assigns in braces, '{}' if it assigns nothing";
+        let help = "put what the state assigns in braces, or write '{}' for nothing";
         let Some(body) = self.open_body(help, |_| false) else { return };
         while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_part_behind_case() {
             self.repeat(|parser| match parser.at(Kind::Name) && parser.at_sign_of_bind() {

@@ -23,7 +23,7 @@ pub(super) enum Generic {
 }
 
 fn is_generic(ty: Option<&Type>) -> bool {
-    matches!(ty, Some(Type::Any | Type::Number | Type::Discrete))
+    ty.is_some_and(Type::is_generic)
 }
 
 /// Decides the type of the instance from its inputs, else from its outputs.

@@ -3,7 +3,7 @@
 use super::Scope;
 use crate::check::convert::{remark, unit_missing};
 use crate::graph::{Formula, Op, Operator};
-use crate::types::text::{a_dimension, a_type};
+use crate::types::text::{a_dimension, a_value};
 use crate::types::{Conversion, Dimension, Type};
 use afp_syntax::ast::Sign;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
@@ -88,11 +88,12 @@ pub(super) fn to_number(formula: Formula, diags: &mut Diagnostics) -> Option<For
             Some(convert(formula, Conversion::BoolToInt, Type::Int))
         }
         _ => {
-            let message = message!("{} cannot be computed with", Words(a_type(&formula.ty)));
-            diags.push(
-                Diagnostic::new(Code::E0242, formula.span, message)
-                    .help("use numbers or quantities; texts can be joined with '+'"),
-            );
+            let message = message!("{} cannot be computed with", Words(a_value(&formula.ty)));
+            let help = match formula.ty.is_generic() {
+                true => "give the port a type with values, such as 'int', 'float' or 'length'",
+                false => "use numbers or quantities; texts can be joined with '+'",
+            };
+            diags.push(Diagnostic::new(Code::E0242, formula.span, message).help(help));
             None
         }
     }
@@ -101,8 +102,8 @@ pub(super) fn to_number(formula: Formula, diags: &mut Diagnostics) -> Option<For
 fn to_text(formula: Formula, diags: &mut Diagnostics) -> Option<Formula> {
     match &formula.ty {
         Type::Text => Some(formula),
-        Type::Object(_) | Type::Any | Type::Number | Type::Discrete => {
-            let message = message!("{} has no text", Words(a_type(&formula.ty)));
+        ty if ty.is_generic() || matches!(ty, Type::Object(_)) => {
+            let message = message!("{} has no text", Words(a_value(&formula.ty)));
             diags.push(
                 Diagnostic::new(Code::E0242, formula.span, message)
                     .help("join texts, numbers, quantities, bools or values of enums"),

@@ -80,7 +80,7 @@ fn misplaced(states: &[(&ast::Outcome, Name)], kind: TemplateKind, diags: &mut D
         _ => (
             ast::Outcome::is_declared,
             "only the states of a computation have conditions and bodies",
-            "remove them: Rust or Python implements the template",
+            "remove them; Rust or Python implements this template",
         ),
     };
     for (_, name) in states.iter().filter(|(node, _)| is_wrong(node)) {
@@ -99,17 +99,21 @@ fn conditions_fit(states: &[(&ast::Outcome, Name)], diags: &mut Diagnostics) {
         let error = |span, message| Diagnostic::new(Code::E0519, span, message);
         if node.body().is_none() {
             let message = message!("'{}' has no body, but another state has one", name.text);
-            diags.push(error(name.span, message).help("write '{}' behind it"));
+            let compared = node.when().and_then(|(_, compared)| compared.last()?.operands().pop());
+            let end = compared.map_or(name.span, |operand| operand.span()).after();
+            let error = error(name.span, message).help("add '{}', which assigns nothing");
+            diags.push(error.fix(end, " {}"));
         }
         match node.when() {
             Some((when, _)) if place == last => {
                 let message = message!("the last state '{}' has a condition", name.text);
-                let help = "remove it, or add a state for the case that nothing holds";
+                let help = "remove the condition, or add a last state without one";
                 diags.push(error(when, message).help(help));
             }
             None if place < last => {
-                let message = message!("no state below '{}' is ever reached", name.text);
-                diags.push(error(name.span, message).help("add 'when' and a comparison"));
+                let message = message!("the states after '{}' are never reached", name.text);
+                let help = "add a condition, such as 'when a < b', or move the state to the end";
+                diags.push(error(name.span, message).help(help));
             }
             _ => {}
         }
@@ -123,15 +127,15 @@ fn ports_fit(parts: &[Part], template: &Template, diags: &mut Diagnostics) {
     for (ty, span) in ports.filter(|(ty, _)| matches!(ty, Type::Object(_))) {
         let message = message!("formulas cannot read {}", Words(a_type(ty)));
         let error = Diagnostic::new(Code::E0519, span, message);
-        diags.push(error.help("use the type 'any': an object is only copied"));
+        diags.push(error.help("write the type 'any': formulas can only copy an object"));
     }
     for part in parts {
         match part {
             Part::Out(port) => {
                 for name in port.on().into_iter().flatten().take(1) {
-                    let message = "the bodies of the states decide where an output is written";
+                    let message = "an output of a computation with bodies has no 'on'";
                     let error = Diagnostic::new(Code::E0519, name.span, message);
-                    diags.push(error.help("remove 'on' and the states behind it"));
+                    diags.push(error.help("remove 'on' and the names after it"));
                 }
             }
             Part::Timing(time) => {
@@ -203,7 +207,7 @@ impl Bodies<'_> {
             self.scope.record.unknown(port.span);
             formula.iter().for_each(|formula| self.scope.names_only(formula));
             let known = self.outputs.iter().map(|output| output.name.as_str());
-            let message = message!("the computation has no output '{}'", port.text);
+            let message = message!("the template has no output '{}'", port.text);
             let none = "declare it with 'out'";
             diags.push(unknown(Code::E0202, port.span, message, &port.text, known, none));
             return None;

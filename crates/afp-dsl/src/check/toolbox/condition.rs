@@ -4,7 +4,7 @@ use crate::check::convert::compared_as;
 use crate::check::formula::Scope;
 use crate::graph::{Formula, Op};
 use crate::toolbox::Condition;
-use crate::types::text::a_type;
+use crate::types::text::{a_type, a_value};
 use crate::types::{Conversion, Type};
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
@@ -30,10 +30,10 @@ pub(super) fn condition(
     let (left, right) = (left?.0, right?.0);
     let error = |message| Diagnostic::new(Code::E0519, sign.span, message);
     if matches!(ty, Type::Any | Type::Object(_)) {
-        let message = message!("{} cannot be compared", Words(a_type(&ty)));
-        diags.push(error(message).help("use the type 'number' or 'discrete'"));
+        let message = message!("{} cannot be compared", Words(a_value(&ty)));
+        diags.push(error(message).help("give the ports the type 'number' or 'discrete'"));
     } else if comparison.is_order() && !ty.is_numeric() {
-        let message = message!("{} has no order", Words(a_type(&ty)));
+        let message = message!("{} has no order", Words(a_value(&ty)));
         diags.push(error(message).help("write '==' or '!='"));
     }
     let is_sound = [&left, &right].into_iter().all(|formula| reads_no_text(formula, diags));
@@ -44,8 +44,9 @@ pub(super) fn condition(
 pub(super) fn reads_no_text(formula: &Formula, diags: &mut Diagnostics) -> bool {
     let is_read = |op: &Op<Conversion>| matches!(op, Op::Convert(Conversion::FromText(_)));
     let Some(node) = formula.nodes().find(|node| is_read(&node.op)) else { return true };
-    let message = message!("a computation makes {} of no text", Words(a_type(&node.note.ty)));
+    let ty = &node.note.ty;
+    let message = message!("a formula here cannot convert a text to {}", Words(a_type(ty)));
     let error = Diagnostic::new(Code::E0519, node.note.span, message);
-    diags.push(error.help("give the port that type: the plan converts what it binds"));
+    diags.push(error.help(message!("declare the input as '{}'; the plan converts the text", ty)));
     false
 }

@@ -184,7 +184,7 @@ impl Values<'_> {
         let span = formula.span();
         let refused = match self.ty {
             Type::Object(_) => Some("objects cannot be written down"),
-            Type::Any | Type::Number | Type::Discrete => Some("the type differs from use to use"),
+            ty if ty.is_generic() => Some("the type differs from use to use"),
             _ => None,
         };
         if let Some(why) = refused {

@@ -69,21 +69,6 @@ fn number_of(text: &str) -> &str {
     }
 }
 
-/// The entry that a computation of a help reads and that nothing declares, as a declaration.
-pub(super) fn undeclared(help: &str, is_entry: impl Fn(&str) -> bool) -> Option<String> {
-    let begin = ["choose: Is(value = ", "choose: Compare(left = "]
-        .into_iter()
-        .find_map(|begin| Some(help.find(begin)? + begin.len()))?;
-    let (name, rest) = help[begin..].split_once(", ")?;
-    let is_name = name.starts_with(|it: char| it.is_ascii_alphabetic())
-        && name.bytes().all(|it| it.is_ascii_alphanumeric() || it == b'_');
-    if !is_name || is_entry(name) || matches!(name, "true" | "false") {
-        return None;
-    }
-    let value = rest.split_once("= ")?.1.split_once(')')?.0;
-    Some(format!("var {name} = {value}"))
-}
-
 /// The computation that chooses by a condition: if it holds, an edge leads on to `then`.
 pub(super) fn choose(condition: &str, then: &str) -> String {
     let whole = |(left, _, right): &(&str, _, &str)| !left.is_empty() && !right.is_empty();

@@ -22,7 +22,11 @@ impl Parser<'_, '_> {
                 | "state"
                 | "edge"
         );
-        is_word && self.nth(1) == Kind::Name && !self.begins_line(1) && self.arrow_at(2).is_some()
+        is_word
+            && self.nth(1) == Kind::Name
+            && !self.begins_line(1)
+            && self.arrow_at(2).is_some()
+            && !self.is_read(self.word(1))
     }
 
     /// `{ distance = 30 cm`: reports ports that stand in the braces, and reads past them. Returns whether one stands here.

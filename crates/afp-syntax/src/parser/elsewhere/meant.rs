@@ -1,0 +1,117 @@
+//! Conditions with a name that is not an entry: a supervisor, an event, an element, a sensor or a misspelling.
+
+use super::Found;
+use super::words::{time, type_of};
+use crate::diagnostics::words;
+use crate::habits::{BEHIND, GUARD, Sensor};
+use crate::parser::Parser;
+
+/// The value that a computation of a help reads.
+pub(super) struct Reads<'h> {
+    pub name: &'h str,
+    /// What it is compared with.
+    pub value: &'h str,
+    /// The element that follows if the condition holds.
+    then: &'h str,
+}
+
+impl<'h> Reads<'h> {
+    /// The value that a help reads first, if that is a name.
+    pub fn of(help: &'h str) -> Option<Reads<'h>> {
+        let begins = ["choose: Is(value = ", "choose: Compare(left = ", "CheckValue(value = "];
+        let begin = begins.into_iter().find_map(|begin| Some(help.find(begin)? + begin.len()))?;
+        let (name, rest) = help[begin..].split_once(", ")?;
+        let is_name = name.starts_with(|it: char| it.is_ascii_alphabetic())
+            && name.bytes().all(|it| it.is_ascii_alphanumeric() || matches!(it, b'_' | b'.'));
+        let (value, edges) = rest.split_once("= ")?.1.split_once(')')?;
+        let targets = edges.split("-> ").skip(1).filter_map(|edge| edge.split([',', ' ']).next());
+        let then = targets.clone().find(|target| !matches!(*target, "terminate" | "ignore"));
+        let then = then.or_else(|| targets.clone().next()).unwrap_or("terminate");
+        let is_name = is_name && !matches!(name, "true" | "false");
+        is_name.then_some(Reads { name, value, then })
+    }
+}
+
+impl Parser<'_, '_> {
+    /// Whether a name is that of a value, a component or a sensor, so that it is not the name of a state or event.
+    pub(in crate::parser) fn is_read(&self, name: &str) -> bool {
+        let known = &self.known;
+        let is_small = name.starts_with(|first: char| first.is_ascii_lowercase());
+        known.entries.contains_key(name)
+            || known.supervisors.contains_key(name)
+            || is_small && Sensor::named(name).is_some()
+    }
+
+    /// What is wrong, and the help for it, if a condition reads something that is not an entry; `says` and `help` are
+    /// those for an entry.
+    pub(super) fn no_entry(
+        &self,
+        (says, help): (&str, &str),
+        found: &Found<'_>,
+    ) -> Option<(String, String)> {
+        let reads = Reads::of(help)?;
+        let (known, name, then) = (&self.known, reads.name, reads.then);
+        if known.entries.contains_key(name) {
+            return None;
+        }
+        // The edge stays, without its condition.
+        let edge = match found.habit.says {
+            GUARD if found.habit.at == BEHIND => format!("'{} -> {then}', and ", self.event),
+            GUARD => {
+                let name = found.captures.first().filter(|_| found.habit.pattern.starts_with("NAME"));
+                name.map_or_else(String::new, |name| format!("'{name} -> {then}', and "))
+            }
+            _ => String::new(),
+        };
+        let leads = |supervisor: &str, event: &str| {
+            let says = format!("'{supervisor}' is a supervisor: its event leads on");
+            Some((says, format!("write {edge}'{event} -> {then}' in the braces of '{supervisor}'")))
+        };
+        if let Some(watch) = known.supervisors.get(name) {
+            return leads(name, if watch.event.is_empty() { "Event" } else { watch.event });
+        }
+        if let Some(supervisor) = known.events.get(name) {
+            return leads(supervisor, name);
+        }
+        if let Some(state) = known.elements.get(name) {
+            let state = if state.is_empty() { "State" } else { state };
+            let says = format!("'{name}' is an element: its states lead on");
+            return Some((says, format!("write {edge}'{state} -> {then}' in the braces of '{name}'")));
+        }
+        if let Some(near) = words::nearest(name, known.entries.keys().copied()) {
+            let help = help.replace(&format!("= {name},"), &format!("= {near},"));
+            return Some((format!("{says}; there is no entry '{name}'"), help));
+        }
+        let sensor = Sensor::named(name)?;
+        let is_above = found.captures.iter().any(|capture| capture.contains('>'));
+        let supervisor = match is_above && !sensor.above.is_empty() {
+            true => sensor.above,
+            false => sensor.supervisor,
+        };
+        let template = supervisor.split([' ', '(']).nth(2).unwrap_or_default();
+        let mut watching = known.supervisors.iter().filter(|(_, it)| it.template == template);
+        if let Some((name, watch)) = watching.find(|(_, watch)| !watch.event.is_empty()) {
+            return leads(name, watch.event);
+        }
+        let limit = limit(reads.value, sensor.limit);
+        let supervisor = supervisor.replace("{limit}", &limit).replace("{then}", then);
+        let mut help = match help.contains("Idle {") {
+            true => format!("write 'actor wait: Idle {{ {supervisor} }}'"),
+            false => format!("write {edge}in the braces of an element: '{supervisor}'"),
+        };
+        if !self.has_carbot && template != "CheckTimeout" {
+            help += "; 'use carbot' at the top";
+        }
+        Some(("a plan has no conditions: a supervisor watches for an event".to_owned(), help))
+    }
+}
+
+/// The limit of a condition with the unit that it needs.
+fn limit(value: &str, (ty, unit, default): (&str, &str, &str)) -> String {
+    match type_of(value) {
+        written if written == ty => value.to_owned(),
+        number if number == "int" && unit == "s" => time(value, "s"),
+        number if number == "int" && value.parse::<f64>().is_ok() => format!("{value} {unit}"),
+        _ => default.to_owned(),
+    }
+}
