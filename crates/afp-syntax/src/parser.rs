@@ -31,7 +31,7 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use crate::kind::{Afp, Kind};
 use crate::lexer::Token;
 use crate::source::Span;
-use known::Names;
+use known::{Names, uses};
 use marks::Marks;
 
 /// Greatest depth of brackets and signs in formulas and skipped text.
@@ -88,7 +88,7 @@ struct Parser<'t, 'd> {
     event: &'t str,
     /// The last entry that is an int.
     int: &'t str,
-    /// Whether the file uses `std`, and `carbot`.
+    /// Whether the file uses `std`, and whether `carbot`.
     has_std: bool,
     has_carbot: bool,
     /// Where the lexer has found signs of other languages, and the places of those which belong to a habit.
@@ -436,15 +436,4 @@ fn own_trivia(trivia: &[Token<'_>]) -> usize {
 /// What is said of a token that is found in the place of something else.
 fn found(token: Option<Token<'_>>) -> Message {
     token.map_or_else(|| "the end of the file".into(), |token| token.shown())
-}
-
-/// Whether a file uses a toolbox.
-fn uses(tokens: &[Token<'_>], toolbox: &str) -> bool {
-    let mut names = tokens.iter().filter(|token| !token.kind.is_trivia()).map(|token| token.text);
-    let (mut before, mut uses) = ("", false);
-    names.by_ref().take_while(|text| *text != "plan").for_each(|text| {
-        uses |= before == "use" && text == toolbox;
-        before = text;
-    });
-    uses
 }

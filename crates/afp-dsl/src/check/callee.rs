@@ -42,12 +42,6 @@ pub(crate) struct Wanted {
     pub span: Option<Span>,
 }
 
-impl Candidate<'_> {
-    fn is_template(&self) -> bool {
-        matches!(self.signature.kind, SignatureKind::Template(_))
-    }
-}
-
 impl Context<'_> {
     /// What `reference` names; reports when there is nothing, too much, or the wrong thing.
     pub fn callee(
@@ -68,16 +62,7 @@ impl Context<'_> {
         if found.iter().any(fits) {
             found.retain(fits);
         }
-        // A template that is added to another toolbox changes no plan that has its own.
-        let nearest = found.iter().map(|each| each.reach).min();
-        let (near, far): (Vec<_>, Vec<_>) =
-            found.iter().partition(|each| Some(each.reach) == nearest);
-        if let ([own], [hidden, ..]) = (&*near, &*far)
-            && own.is_template()
-        {
-            diags.push(hides(&name, reference.span(), own, hidden));
-            found.retain(|each| Some(each.reach) == nearest);
-        }
+        nearest(&mut found, (&name, reference.span()), diags);
         if found.len() > 1 {
             record.several(name.span, found.iter().map(|each| each.span));
             let plans = found.iter().all(|each| each.home.is_none());
@@ -258,8 +243,21 @@ impl Context<'_> {
     }
 }
 
+/// Keeps the nearest template of a name, and reports what it hides: a template that is added to another toolbox changes
+/// no plan that has its own.
+fn nearest(found: &mut Vec<Candidate<'_>>, place: (&Name, Span), diags: &mut Diagnostics) {
+    let nearest = found.iter().map(|each| each.reach).min();
+    let (near, far): (Vec<_>, Vec<_>) = found.iter().partition(|each| Some(each.reach) == nearest);
+    if let ([own], [hidden, ..]) = (&*near, &*far)
+        && matches!(own.signature.kind, SignatureKind::Template(_))
+    {
+        diags.push(hides(place, own, hidden));
+        found.retain(|each| Some(each.reach) == nearest);
+    }
+}
+
 /// Reports a template that hides another one of the same name.
-fn hides(name: &Name, span: Span, own: &Candidate<'_>, hidden: &Candidate<'_>) -> Diagnostic {
+fn hides((name, span): (&Name, Span), own: &Candidate<'_>, hidden: &Candidate<'_>) -> Diagnostic {
     let other = hidden.home.unwrap_or_default();
     let of_other = format!("{other}.{}", name.text);
     let (note, which) = match hidden.reach {

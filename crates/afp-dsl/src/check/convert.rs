@@ -7,7 +7,7 @@ pub(crate) use unit::{bare, likely, unit_missing};
 use crate::graph::{Formula, Op};
 use crate::types::text::{self, a_dimension, a_type, a_value};
 use crate::types::{Conversion, Dimension, Type};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
 use afp_syntax::literal::Literal;
 use afp_syntax::message;
 use afp_syntax::source::Span;
@@ -120,12 +120,7 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
         message!("expected {}, found {}", Words(a_value(want)), Words(a_value(&formula.ty)));
     match (&formula.ty, want) {
         (found, want) if found.is_generic() || want.is_generic() => {
-            let help = match (found.is_generic(), want.is_generic()) {
-                (true, true) => message!("give both ports the type '{}'", want),
-                (true, _) => message!("give the port the type '{}'", want),
-                _ => message!("give the port the type '{}'", found),
-            };
-            Diagnostic::new(Code::E0206, span, expected).help(help)
+            Diagnostic::new(Code::E0206, span, expected).help(one_type(found, want))
         }
         (Type::Int | Type::Quantity(Dimension::NONE), Type::Quantity(dimension)) => {
             unit_missing(formula, *dimension, Some(range), text)
@@ -182,6 +177,15 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
             .help(message!("name an entry that holds a '{}'", home.name)),
         (_, want) => Diagnostic::new(Code::E0206, span, expected)
             .help(message!("use {}", Words(a_type(want)))),
+    }
+}
+
+/// What to do with a value or a target of a generic type.
+fn one_type(found: &Type, want: &Type) -> Message {
+    match (found.is_generic(), want.is_generic()) {
+        (true, true) => message!("give both ports the type '{}'", want),
+        (true, _) => message!("give the port the type '{}'", want),
+        _ => message!("give the port the type '{}'", found),
     }
 }
 

@@ -104,7 +104,7 @@ impl<'t> Parser<'t, '_> {
     /// The habit that is written here, unless something is said of this line already.
     fn find_habit(&self, place: Places) -> Option<Found<'t>> {
         let start = self.next_written()?;
-        if self.tokens.get(start)?.start < self.quiet {
+        if self.tokens.get(start)?.start < self.quiet || !self.explains() {
             return None;
         }
         let word = self.tokens.get(start)?.text;

@@ -105,3 +105,14 @@ impl<'t> Names<'t> {
         }
     }
 }
+
+/// Whether a file uses a toolbox.
+pub(super) fn uses(tokens: &[Token<'_>], toolbox: &str) -> bool {
+    let mut names = tokens.iter().filter(|token| !token.kind.is_trivia()).map(|token| token.text);
+    let (mut before, mut uses) = ("", false);
+    names.by_ref().take_while(|text| *text != "plan").for_each(|text| {
+        uses |= before == "use" && text == toolbox;
+        before = text;
+    });
+    uses
+}

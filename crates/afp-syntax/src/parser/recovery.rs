@@ -8,6 +8,9 @@ use crate::kind::Kind;
 use crate::message;
 use crate::source::Span;
 
+/// A text with so many errors is wrong throughout: the meaning of the rest is not searched.
+const MOST_EXPLAINED: usize = 500;
+
 /// Braces with something in them.
 pub(super) struct Body {
     /// Where the first one stands, if it does.
@@ -31,6 +34,11 @@ impl Parser<'_, '_> {
             true => self.pass(tokens),
             false => (0..tokens).for_each(|_| self.bump()),
         }
+    }
+
+    /// Whether the text has so few errors that the next one is worth a search for its meaning.
+    pub(super) fn explains(&self) -> bool {
+        self.diags.len() < MOST_EXPLAINED
     }
 
     /// Reports what is wrong, unless something before it on the same line is.

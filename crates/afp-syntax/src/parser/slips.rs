@@ -14,7 +14,7 @@ impl Parser<'_, '_> {
         let goes_on = matches!(self.nth(1), Name | Text | Int | Float | OpenBrace);
         let is_read = self.slip.is_some_and(|(at, _)| at == self.at);
         let is_word = self.at(Kind::Name) && goes_on && !self.begins_line(1) && !is_read;
-        keywords::meant(self.word(0), list).filter(|_| is_word)
+        (is_word && self.explains()).then(|| keywords::meant(self.word(0), list))?
     }
 
     /// Reads the next word as that of a list which it was meant for, after having said so. Returns whether it was.
@@ -39,6 +39,7 @@ impl Parser<'_, '_> {
         self.on_same_line()
             && written.len() > 2
             && !self.names_something(0)
+            && self.explains()
             && words::nearest(written, [word]).is_some()
     }
 

@@ -1,7 +1,7 @@
 //! Conditions with a name that is not an entry: a supervisor, an event, an element, a sensor or a misspelling.
 
-use super::Found;
 use super::words::{time, type_of};
+use super::{Found, OF_STD};
 use crate::diagnostics::words;
 use crate::habits::{BEHIND, GUARD, Sensor};
 use crate::parser::Parser;
@@ -18,7 +18,8 @@ pub(super) struct Reads<'h> {
 impl<'h> Reads<'h> {
     /// The value that a help reads first, if that is a name.
     pub fn of(help: &'h str) -> Option<Reads<'h>> {
-        let begins = ["choose: Is(value = ", "choose: Compare(left = ", "CheckValue(value = "];
+        let begins =
+            ["choose: Is(value = ", "choose: Compare(left = ", "value: CheckValue(value = "];
         let begin = begins.into_iter().find_map(|begin| Some(help.find(begin)? + begin.len()))?;
         let (name, rest) = help[begin..].split_once(", ")?;
         let is_name = name.starts_with(|it: char| it.is_ascii_alphabetic())
@@ -54,59 +55,79 @@ impl Parser<'_, '_> {
         if known.entries.contains_key(name) {
             return None;
         }
-        // The edge stays, without its condition.
-        let edge = match found.habit.says {
-            GUARD if found.habit.at == BEHIND => format!("'{} -> {then}', and ", self.event),
-            GUARD => {
-                let name = found.captures.first().filter(|_| found.habit.pattern.starts_with("NAME"));
-                name.map_or_else(String::new, |name| format!("'{name} -> {then}', and "))
-            }
-            _ => String::new(),
-        };
-        let leads = |supervisor: &str, event: &str| {
-            let says = format!("'{supervisor}' is a supervisor: its event leads on");
-            Some((says, format!("write {edge}'{event} -> {then}' in the braces of '{supervisor}'")))
-        };
+        let edge = self.edge_of(found);
+        let edge = edge.map_or_else(String::new, |name| format!("'{name} -> {then}', and "));
         if let Some(watch) = known.supervisors.get(name) {
-            return leads(name, if watch.event.is_empty() { "Event" } else { watch.event });
+            let event = if watch.event.is_empty() { "Event" } else { watch.event };
+            return Some(leads((name, event), then, &edge));
         }
         if let Some(supervisor) = known.events.get(name) {
-            return leads(supervisor, name);
+            return Some(leads((supervisor, name), then, &edge));
         }
         if let Some(state) = known.elements.get(name) {
             let state = if state.is_empty() { "State" } else { state };
             let says = format!("'{name}' is an element: its states lead on");
-            return Some((says, format!("write {edge}'{state} -> {then}' in the braces of '{name}'")));
+            return Some((
+                says,
+                format!("write {edge}'{state} -> {then}' in the braces of '{name}'"),
+            ));
         }
         if let Some(near) = words::nearest(name, known.entries.keys().copied()) {
             let help = help.replace(&format!("= {name},"), &format!("= {near},"));
             return Some((format!("{says}; there is no entry '{name}'"), help));
         }
-        let sensor = Sensor::named(name)?;
+        self.sensor((help, &edge), &reads, found)
+    }
+
+    /// The state or event of an edge with a condition; the edge stays without it.
+    fn edge_of<'f>(&'f self, found: &'f Found<'_>) -> Option<&'f str> {
+        let is_first = found.habit.pattern.starts_with("NAME");
+        match found.habit.says {
+            GUARD if found.habit.at == BEHIND => Some(self.event),
+            GUARD if is_first => found.captures.first().map(String::as_str),
+            _ => None,
+        }
+    }
+
+    /// The supervisor for a condition that reads a sensor.
+    fn sensor(
+        &self,
+        (help, edge): (&str, &str),
+        reads: &Reads<'_>,
+        found: &Found<'_>,
+    ) -> Option<(String, String)> {
+        let then = reads.then;
+        let sensor = Sensor::named(reads.name)?;
         let is_above = found.captures.iter().any(|capture| capture.contains('>'));
         let supervisor = match is_above && !sensor.above.is_empty() {
             true => sensor.above,
             false => sensor.supervisor,
         };
         let template = supervisor.split([' ', '(']).nth(2).unwrap_or_default();
-        let mut watching = known.supervisors.iter().filter(|(_, it)| it.template == template);
+        let mut watching = self.known.supervisors.iter().filter(|(_, it)| it.template == template);
         if let Some((name, watch)) = watching.find(|(_, watch)| !watch.event.is_empty()) {
-            return leads(name, watch.event);
+            return Some(leads((name, watch.event), then, edge));
         }
         let limit = limit(reads.value, sensor.limit);
         let supervisor = supervisor.replace("{limit}", &limit).replace("{then}", then);
-        let mut help = match help.contains("Idle {") {
+        let mut help = match help.contains("wait: Idle {") {
             true => format!("write 'actor wait: Idle {{ {supervisor} }}'"),
             false => format!("write {edge}in the braces of an element: '{supervisor}'"),
         };
-        if !self.has_carbot && template != "CheckTimeout" {
+        if !self.has_carbot && !OF_STD.contains(&template) {
             help += "; 'use carbot' at the top";
         }
         Some(("a plan has no conditions: a supervisor watches for an event".to_owned(), help))
     }
 }
 
-/// The limit of a condition with the unit that it needs.
+/// What is said of a condition that names a supervisor or one of its events.
+fn leads((supervisor, event): (&str, &str), then: &str, edge: &str) -> (String, String) {
+    let says = format!("'{supervisor}' is a supervisor: its event leads on");
+    (says, format!("write {edge}'{event} -> {then}' in the braces of '{supervisor}'"))
+}
+
+/// The limit of a condition, with the unit that it needs.
 fn limit(value: &str, (ty, unit, default): (&str, &str, &str)) -> String {
     match type_of(value) {
         written if written == ty => value.to_owned(),

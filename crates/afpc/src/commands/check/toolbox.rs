@@ -18,6 +18,10 @@ pub(super) struct ToolboxFile {
 impl ToolboxFile {
     /// Checks a file that declares a toolbox and has no plan; returns `None` for other files.
     pub fn of(PlanText { path, text, plan }: &PlanText<'_>) -> Option<ToolboxFile> {
+        // Most files are plans, which need not be read for this.
+        if !text.contains("toolbox") {
+            return None;
+        }
         let items = afp_syntax::parse(text, 0, &mut Diagnostics::default()).file().items();
         let declares = items.iter().any(|item| matches!(item, Item::Toolbox(_)));
         let plans = items.iter().any(|item| matches!(item, Item::Plan(_)));
