@@ -16,7 +16,7 @@ use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::{Source, Sources};
 use afp_syntax::{Parse, unquote};
 
-/// What became of a text.
+/// The result of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Compiled {
     /// The static graph; `None` exactly when there are errors.
@@ -36,7 +36,7 @@ pub struct Compiled {
     /// Which of [`Compiled::sources`] are plan files: the one that was compiled, then those that it
     /// uses, directly or through others.
     pub plan_files: Range<usize>,
-    /// What the parser has made of each plan file.
+    /// The tree of each plan file.
     trees: Vec<Parse>,
     /// For each plan file the other paths by which it is used.
     further: Vec<Vec<String>>,
@@ -213,12 +213,17 @@ fn sorted_out(
     diags: &Diagnostics,
 ) -> (Vec<Scenario>, Vec<InvalidScenario>) {
     let heads = outline.files.first().map_or(&[][..], |file| &file.scenarios);
-    let wrong = heads.iter().filter(|head| diags.error_within(head.span));
+    let wrong: Vec<_> = heads.iter().filter(|head| diags.error_within(head.span)).collect();
+    scenarios.retain(|scenario| {
+        let next = wrong.partition_point(|head| head.span.start <= scenario.span.start);
+        let head = next.checked_sub(1).and_then(|at| wrong.get(at));
+        head.is_none_or(|head| !head.span.contains(scenario.span))
+    });
     let mut invalid = Vec::new();
     for head in wrong {
-        scenarios.retain(|scenario| !head.span.contains(scenario.span));
-        let mut errors = diags.clone();
-        errors.retain(|each| each.severity == Severity::Error && head.span.contains(each.span));
+        let mut errors = Diagnostics::default();
+        let inside = diags.within(head.span).filter(|each| each.severity == Severity::Error);
+        inside.for_each(|each| errors.push(each.clone()));
         let name = head.name.as_ref();
         invalid.push(InvalidScenario {
             name: name.map_or(String::new(), |name| unquote(name, &mut Diagnostics::default())),

@@ -166,7 +166,12 @@ impl File {
 
 /// What belongs into a file and stands in the braces of a plan.
 fn inside_of_plan(plan: &Node) -> Vec<Node> {
-    if plan.kind() != Kind::Plan {
+    // The tree's own nodes are asked first: a plan may have an error on each line.
+    let is_error = |node: &GreenNodeData| Afp::kind_from_raw(node.kind()) == Kind::Error;
+    let has_nodes = |node: &GreenNodeData| node.children().any(|it| it.as_node().is_some());
+    let green = plan.green();
+    let mut nodes = green.children().filter_map(NodeOrToken::into_node);
+    if plan.kind() != Kind::Plan || !nodes.any(|node| is_error(node) && has_nodes(node)) {
         return Vec::new();
     }
     let errors = plan.children().filter(|node| node.kind() == Kind::Error);

@@ -236,13 +236,23 @@ pub struct Diagnostics {
     errors: BTreeSet<Span>,
     /// Where the text could not be read.
     unread: BTreeSet<Span>,
+    /// Errors that are counted and not kept.
+    counted: Vec<(Span, Code)>,
 }
+
+/// So many diagnostics are kept; of errors beyond them only the number and the places.
+const MOST_KEPT: usize = 10_000;
 
 impl Diagnostics {
     /// Appends one.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.note(&diagnostic);
-        self.list.push(diagnostic);
+        match diagnostic.severity {
+            Severity::Error if self.list.len() >= MOST_KEPT => {
+                self.counted.push((diagnostic.span, diagnostic.code));
+            }
+            _ => self.list.push(diagnostic),
+        }
     }
 
     /// Appends all of `other`.
@@ -250,12 +260,16 @@ impl Diagnostics {
         self.list.extend(other.list);
         self.errors.extend(other.errors);
         self.unread.extend(other.unread);
+        self.counted.extend(other.counted);
     }
 
     /// Drops those for which `keep` does not hold.
     pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
+        let before = self.list.len();
         self.list.retain(keep);
-        self.note_all();
+        if self.list.len() < before {
+            self.note_all();
+        }
     }
 
     pub fn change(&mut self, change: impl FnMut(&mut Diagnostic)) {
@@ -266,18 +280,19 @@ impl Diagnostics {
     fn note(&mut self, diagnostic: &Diagnostic) {
         if diagnostic.severity == Severity::Error {
             self.errors.insert(diagnostic.span);
-            if diagnostic.code < Code::E0201 {
+            if is_of_text(diagnostic.code) {
                 self.unread.insert(diagnostic.span);
             }
         }
     }
 
     fn note_all(&mut self) {
-        self.errors.clear();
-        self.unread.clear();
-        let list = std::mem::take(&mut self.list);
-        list.iter().for_each(|diagnostic| self.note(diagnostic));
-        self.list = list;
+        let errors = self.list.iter().filter(|each| each.severity == Severity::Error);
+        let errors = errors.map(|each| (each.span, each.code));
+        let errors: Vec<_> = errors.chain(self.counted.iter().copied()).collect();
+        let unread = errors.iter().filter(|(_, code)| is_of_text(*code));
+        self.unread = unread.map(|(span, _)| *span).collect();
+        self.errors = errors.into_iter().map(|(span, _)| span).collect();
     }
 
     /// Whether one of them is an error.
@@ -290,9 +305,9 @@ impl Diagnostics {
         self.list.is_empty()
     }
 
-    /// How many there are.
+    /// How many there are, with errors that are only counted.
     pub fn len(&self) -> usize {
-        self.list.len()
+        self.list.len() + self.counted.len()
     }
 
     /// One of them, by its place.
@@ -312,6 +327,13 @@ impl Diagnostics {
             .is_some_and(|each| each.span.file == span.file && each.span.start <= span.end)
     }
 
+    /// The diagnostics within `span`; the list must be sorted.
+    pub fn within(&self, span: Span) -> impl Iterator<Item = &Diagnostic> {
+        let first = self.list.partition_point(|each| each.span < span.before());
+        let inside = self.list.iter().skip(first).take_while(move |each| each.span <= span.after());
+        inside.filter(move |each| span.contains(each.span))
+    }
+
     /// Sorts by place (file, first byte, code) and drops exact repetitions.
     pub fn sort(&mut self) {
         self.list.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
@@ -327,6 +349,11 @@ impl Diagnostics {
     pub fn error_within(&self, span: Span) -> bool {
         within(&self.errors, span).next().is_some()
     }
+}
+
+/// Whether diagnostics of a code are about text that could not be read.
+fn is_of_text(code: Code) -> bool {
+    code < Code::E0201
 }
 
 /// The places that lie in `span`.

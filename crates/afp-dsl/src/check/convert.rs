@@ -180,7 +180,7 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
     }
 }
 
-/// What to do with a value or a target of a generic type.
+/// The help for a value or a target of a generic type.
 fn one_type(found: &Type, want: &Type) -> Message {
     match (found.is_generic(), want.is_generic()) {
         (true, true) => message!("give both ports the type '{}'", want),

@@ -1,10 +1,16 @@
 //! Cases as data: wrong texts with what is said about them, right ones with their graphs.
 
+use afp_counting::Counting;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting::SYSTEM;
+
 mod errors;
 mod explanations;
 mod graph;
 mod habits;
 mod index;
+mod junk;
 mod limits;
 mod mutations;
 mod outline;

@@ -24,16 +24,18 @@ impl Diagnostics {
         let mut first: HashMap<(Code, &str), usize> = HashMap::new();
         let mut others: HashMap<usize, Vec<Option<Edit>>> = HashMap::new();
         let mut kept: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
-        for each in std::mem::take(&mut self.list) {
-            let is_of_lexer = matches!(each.code, Code::E0101 | Code::E0113);
-            let span = each.span.start as usize..each.span.end as usize;
-            let cause = text.get(span).unwrap_or_default();
+        let cause = |code: Code, span: Span| {
+            let is_of_lexer = matches!(code, Code::E0101 | Code::E0113) && span.file == file;
+            let cause = text.get(span.start as usize..span.end as usize).unwrap_or_default();
             // Each place that hides something is a danger of its own.
-            let hides = cause.chars().all(|each| trick(each).is_some());
-            if !is_of_lexer || each.span.file != file || hides {
+            let hides = !is_of_lexer || cause.chars().all(|each| trick(each).is_some());
+            (!hides).then_some(cause)
+        };
+        for each in std::mem::take(&mut self.list) {
+            let Some(cause) = cause(each.code, each.span) else {
                 kept.push(each);
                 continue;
-            }
+            };
             match first.entry((each.code, cause)) {
                 Entry::Occupied(known) => others.entry(*known.get()).or_default().push(each.fix),
                 Entry::Vacant(new) => {
@@ -42,6 +44,10 @@ impl Diagnostics {
                 }
             }
         }
+        self.counted.retain(|(span, code)| {
+            let known = cause(*code, *span).and_then(|cause| first.get(&(*code, cause)));
+            known.inspect(|known| others.entry(**known).or_default().push(None)).is_none()
+        });
         for (at, fixes) in others {
             let Some(said) = kept.get_mut(at) else { continue };
             said.message = places(&said.message, fixes.len() + 1);

@@ -25,6 +25,7 @@ impl Diagnostics {
             *count <= most
         };
         let shown = self.iter().filter(is_shown).collect();
+        counts[0] += self.counted.len();
         let left = counts.into_iter().zip(["error", "warning"]).filter_map(|(count, what)| {
             let left = count.checked_sub(most).filter(|left| *left > 0)?;
             let plural = if left == 1 { "" } else { "s" };

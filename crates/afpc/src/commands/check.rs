@@ -65,8 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     Ok(code)
 }
 
-/// The diagnostics that were already printed: file, place, message. Several files can share an
-/// included file.
+/// The diagnostics that were already printed: file, place, message.
 type Told = HashSet<(PathBuf, Span, Code, Message)>;
 
 fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPlan> {
@@ -98,7 +97,10 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
         compiled.diags.sort();
     }
     let wrong = compiled.diags.has_errors();
-    leave_out_told(compiled, told);
+    // Several files can share an included file.
+    if arguments.files.len() > 1 {
+        leave_out_told(compiled, told);
+    }
     reader.tell(&compiled.diags, &compiled.sources)?;
     if arguments.timing {
         show_timing(&file, &targets, arguments.json)?;

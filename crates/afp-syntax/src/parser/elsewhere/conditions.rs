@@ -93,11 +93,11 @@ impl<'t> Parser<'t, '_> {
 const NO_WHEN: &str = "a condition begins with 'when'";
 const NO_SIGN: &str = "a condition compares two values";
 
-/// What is said of a condition.
+/// The error of a condition.
 struct Said {
-    /// What is wrong first, if something is.
+    /// The first fault, if there is one.
     fault: Option<&'static str>,
-    /// The condition as it is written here, or else what to do.
+    /// The condition in the words of the language, or the help if there is none.
     write: Result<String, &'static str>,
 }
 
@@ -107,7 +107,7 @@ impl Said {
         let mut faults = Vec::new();
         while tokens.last().is_some_and(|last| THEN.contains(&last.text)) {
             tokens.pop();
-            faults.push("nothing stands between a condition and its body");
+            faults.push("the body follows the condition directly");
         }
         let negates = |pair: &[Token<'_>]| {
             matches!(pair[0].text, "not" | "!") && pair[1].kind == Kind::OpenParen
@@ -117,7 +117,7 @@ impl Said {
             return Said { fault: Some("a condition has no 'not'"), write: Err(help) };
         }
         if without_brackets(&mut tokens) {
-            faults.push("comparisons stand without brackets around them");
+            faults.push("a comparison has no brackets around it");
         }
         if split(&tokens, OR).len() > 1 {
             let help = "write a state for each side, with the same body";
@@ -169,7 +169,7 @@ fn without_brackets(tokens: &mut Vec<Token<'_>>) -> bool {
     !around.is_empty()
 }
 
-/// One comparison as it is written here.
+/// One comparison in the words of the language.
 fn comparison(tokens: &[Token<'_>], faults: &mut Vec<&'static str>) -> String {
     let texts: Vec<_> = tokens.iter().map(|token| token.text).collect();
     let signs = (0..tokens.len()).filter(|at| tokens[*at].kind.is_comparison());

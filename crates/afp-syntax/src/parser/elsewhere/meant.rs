@@ -9,7 +9,7 @@ use crate::parser::Parser;
 /// The value that a computation of a help reads.
 pub(super) struct Reads<'h> {
     pub name: &'h str,
-    /// What it is compared with.
+    /// The other side of the comparison.
     pub value: &'h str,
     /// The element that follows if the condition holds.
     then: &'h str,
@@ -43,8 +43,8 @@ impl Parser<'_, '_> {
             || is_small && Sensor::named(name).is_some()
     }
 
-    /// What is wrong, and the help for it, if a condition reads something that is not an entry; `says` and `help` are
-    /// those for an entry.
+    /// The fault and its help, if a condition reads something that is not an entry; `says` and `help` are the texts for
+    /// an entry.
     pub(super) fn no_entry(
         &self,
         (says, help): (&str, &str),
@@ -121,7 +121,7 @@ impl Parser<'_, '_> {
     }
 }
 
-/// What is said of a condition that names a supervisor or one of its events.
+/// The fault of a condition that names a supervisor or one of its events, and its help.
 fn leads((supervisor, event): (&str, &str), then: &str, edge: &str) -> (String, String) {
     let says = format!("'{supervisor}' is a supervisor: its event leads on");
     (says, format!("write {edge}'{event} -> {then}' in the braces of '{supervisor}'"))
