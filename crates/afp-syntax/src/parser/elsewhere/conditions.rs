@@ -64,7 +64,8 @@ impl<'t> Parser<'t, '_> {
                 _ => {}
             }
             let is_name = line.get(at + 1).is_some_and(|next| next.kind == Kind::Name);
-            let is_part = matches!(token.text, "state" | "event" | "icon" | "uses") && is_name;
+            let is_part =
+                matches!(token.text, "state" | "event" | "exclusive" | "icon" | "uses") && is_name;
             depth == 0 && (token.kind == Kind::OpenBrace || is_part)
         });
         line.truncate(end.unwrap_or(line.len()));
