@@ -240,6 +240,9 @@ pub struct Diagnostics {
     counted: Vec<(Span, Code)>,
 }
 
+/// A text with so many errors is wrong throughout: the meaning of the rest is not searched.
+const MOST_EXPLAINED: usize = 500;
+
 /// So many diagnostics are kept; of errors beyond them only the number and the places.
 const MOST_KEPT: usize = 10_000;
 
@@ -308,6 +311,11 @@ impl Diagnostics {
     /// How many there are, with errors that are only counted.
     pub fn len(&self) -> usize {
         self.list.len() + self.counted.len()
+    }
+
+    /// Whether there are so few that the next one is worth a search for its meaning.
+    pub fn explains(&self) -> bool {
+        self.len() < MOST_EXPLAINED
     }
 
     /// One of them, by its place.

@@ -366,6 +366,10 @@ pub(crate) fn find(
             true => "add an element, and name that",
             false => "add an element of that name",
         };
+        if !diags.explains() {
+            diags.push(error.elsewhere(none));
+            return None;
+        }
         let meant = synonyms::target(&to.text, leads);
         diags.push(match meant.filter(|_| words::nearest(&to.text, elements.names()).is_none()) {
             Some(word) => error.write(word),

@@ -328,7 +328,10 @@ impl Typer<'_> {
     fn entry(&self, name: &ast::Name, diags: &mut Diagnostics) -> Option<Formula> {
         let scope = self.scope;
         let Some(index) = scope.entry(name) else {
-            diags.push(elsewhere::unknown_entry(self.scope, name));
+            diags.push(match diags.explains() {
+                true => elsewhere::unknown_entry(self.scope, name),
+                false => elsewhere::no_entry(name).elsewhere("declare it in the plan"),
+            });
             return None;
         };
         let entry = &scope.entries[index];

@@ -8,9 +8,6 @@ use crate::kind::Kind;
 use crate::message;
 use crate::source::Span;
 
-/// A text with so many errors is wrong throughout: the meaning of the rest is not searched.
-const MOST_EXPLAINED: usize = 500;
-
 /// Braces with something in them.
 pub(super) struct Body {
     /// Where the first one stands, if it does.
@@ -36,9 +33,9 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether the text has so few errors that the next one is worth a search for its meaning.
+    /// As [`Diagnostics::explains`](crate::diagnostics::Diagnostics::explains).
     pub(super) fn explains(&self) -> bool {
-        self.diags.len() < MOST_EXPLAINED
+        self.diags.explains()
     }
 
     /// Reports what is wrong, unless something before it on the same line is.

@@ -56,6 +56,12 @@ pub(super) fn unknown_enum(
     offer(error, &home.text, known, none)
 }
 
+/// The error of a name that no entry has, without its help.
+pub(super) fn no_entry(name: &ast::Name) -> Diagnostic {
+    let message = message!("there is no entry '{}'", name.text);
+    Diagnostic::new(Code::E0209, name.span, message).unknown(Sought::Entry, &name.text)
+}
+
 /// Reports a name that no entry has.
 pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
     if let Some(table) = scope.table(name) {
@@ -64,9 +70,7 @@ pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
             .note(table.span, "declared here")
             .elsewhere("read its rows with 'Row' of 'std', and use what comes out");
     }
-    let message = message!("there is no entry '{}'", name.text);
-    let error = Diagnostic::new(Code::E0209, name.span, message);
-    let error = error.unknown(Sought::Entry, &name.text);
+    let error = no_entry(name);
     let home = scope.types.enums.iter().find(|(_, home)| home.variants.contains(&name.text));
     if let Some((_, home)) = home {
         let better = format!("{}.{}", home.name, name.text);
