@@ -1,35 +1,82 @@
-//! The monotonic clock of a real robot.
+//! The clock of a robot that exists.
 
 use std::thread;
+use std::time::Duration as Span;
+#[cfg(not(target_os = "linux"))]
 use std::time::Instant as Wall;
 
 use afp_core::{Clock, Duration, Instant};
 
-/// Monotonic time since its creation, independent of changes to the system's clock.
+/// Time that passes by itself, from the moment at which it was made. It never goes back, whatever is done to the clock
+/// on the wall. On Linux it continues while the computer is suspended, so that a run notices that.
 #[derive(Clone, Copy, Debug)]
 pub struct RealTime {
+    /// Since the computer started.
+    #[cfg(target_os = "linux")]
+    began: Span,
+    #[cfg(not(target_os = "linux"))]
     began: Wall,
 }
 
+#[cfg(target_os = "linux")]
 impl RealTime {
-    /// Starts at zero.
+    /// Begins to count, from zero.
+    pub fn start() -> Self {
+        RealTime { began: boot_time() }
+    }
+
+    /// How much has passed.
+    pub fn now(&self) -> Instant {
+        Instant::ZERO + boot_time().saturating_sub(self.began).into()
+    }
+
+    /// Sleeps up to an instant; returns at once if it has passed. The deadline is absolute, so that a delay before the
+    /// sleep does not make it longer.
+    fn sleep(&self, to: Instant) {
+        use rustix::io::Errno;
+        use rustix::thread::{ClockId, clock_nanosleep_absolute};
+
+        let until = self.began.saturating_add(to.since(Instant::ZERO).into());
+        let slept =
+            until.try_into().map(|until| clock_nanosleep_absolute(ClockId::Boottime, &until));
+        // After a signal, the caller looks at the time.
+        if !matches!(slept, Ok(Ok(()) | Err(Errno::INTR))) {
+            thread::sleep(to.since(self.now()).into());
+        }
+    }
+}
+
+/// The time since the computer started, with the time in which it was suspended.
+#[cfg(target_os = "linux")]
+fn boot_time() -> Span {
+    use rustix::time::{ClockId, clock_gettime};
+
+    let time = clock_gettime(ClockId::Boottime);
+    time.try_into().unwrap_or_default()
+}
+
+#[cfg(not(target_os = "linux"))]
+impl RealTime {
+    /// Begins to count, from zero.
     pub fn start() -> Self {
         RealTime { began: Wall::now() }
     }
 
-    /// The time since the start.
+    /// How much has passed.
     pub fn now(&self) -> Instant {
         Instant::ZERO + self.began.elapsed().into()
     }
 
-    /// Sleeps until an instant; returns at once if it has passed. It may wake late, never early.
+    fn sleep(&self, to: Instant) {
+        thread::sleep(to.since(self.now()).into());
+    }
+}
+
+impl RealTime {
+    /// Sleeps up to an instant; not at all where it has passed. It wakes late, by what the system needs, never early.
     pub fn sleep_until(&self, to: Instant) {
-        loop {
-            let left = to.since(self.now());
-            if left == Duration::ZERO {
-                return;
-            }
-            thread::sleep(left.into());
+        while to.since(self.now()) > Duration::ZERO {
+            self.sleep(to);
         }
     }
 }
@@ -54,5 +101,16 @@ mod tests {
         }
         let future = time.now() + Duration::from_secs(5);
         assert_eq!(Clock::now(&time, future), future, "a step is never before its clock");
+    }
+
+    #[test]
+    fn it_runs_as_fast_as_the_clock_of_the_standard_library() {
+        let before = std::time::Instant::now();
+        let time = RealTime::start();
+        let after = std::time::Instant::now();
+        thread::sleep(Span::from_millis(20));
+        let at_least = after.elapsed();
+        let passed: Span = time.now().since(Instant::ZERO).into();
+        assert!((at_least..=before.elapsed()).contains(&passed), "{passed:?}, {at_least:?}");
     }
 }

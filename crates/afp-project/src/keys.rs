@@ -86,8 +86,11 @@ pub(crate) const HARDWARE: &[Key] = &[
 ];
 
 /// `realtime` of `[robot]`
-pub(crate) const REALTIME: &[Key] =
-    &[key("stall", "The run ends if the control loop is later than this.", "stall = \"100 ms\"")];
+pub(crate) const REALTIME: &[Key] = &[
+    key("stall", "The run ends if the control loop is later than this.", "stall = \"100 ms\""),
+    key("priority", "The FIFO priority of the control thread, from 1 to 98.", "priority = 50"),
+    key("cpu", "The processor on which the control thread runs.", "cpu = 3"),
+];
 
 /// The keys of a crate in addition to its origin.
 pub(crate) const CRATE: &[Key] = &[

@@ -1,7 +1,60 @@
 //! The Escape key of the terminal, which presses the control that stops what runs.
 
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
 #[cfg(unix)]
 pub(crate) use terminal::{Keys, give_back, without_terminal};
+
+/// The watching thread looks at the keys this often.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// The Escape key, watched by a thread, because the control thread of a real robot must not wait for a terminal.
+pub(crate) struct KeyWatch {
+    pressed: Arc<AtomicBool>,
+    done: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl KeyWatch {
+    /// Takes over standard input; `None` if it is not a terminal. The process is not suspended by a key.
+    ///
+    /// # Errors
+    /// There is no thread for it.
+    pub(crate) fn start() -> io::Result<Option<KeyWatch>> {
+        let Some(keys) = Keys::take(false) else { return Ok(None) };
+        let (pressed, done): (Arc<AtomicBool>, Arc<AtomicBool>) = Default::default();
+        let (is_pressed, is_done) = (pressed.clone(), done.clone());
+        let watch = move || {
+            while !is_done.load(Ordering::Relaxed) {
+                is_pressed.fetch_or(keys.escape_pressed(), Ordering::Relaxed);
+                thread::park_timeout(LOOK);
+            }
+        };
+        let thread = Some(thread::Builder::new().name("afp-keys".into()).spawn(watch)?);
+        Ok(Some(KeyWatch { pressed, done, thread }))
+    }
+
+    /// Whether Escape was pressed since the last time.
+    pub(crate) fn escape_pressed(&self) -> bool {
+        self.pressed.swap(false, Ordering::Relaxed)
+    }
+}
+
+impl Drop for KeyWatch {
+    /// Waits for the thread, which gives the terminal back.
+    fn drop(&mut self) {
+        self.done.store(true, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            thread.thread().unpark();
+            // It does not panic.
+            let _ = thread.join();
+        }
+    }
+}
 
 #[cfg(unix)]
 mod terminal {

@@ -1,12 +1,13 @@
 //! Holds simulated time back to a multiple of real time, and looks at keys and signals for whoever keeps it by itself.
 
 use std::cell::Cell;
+use std::io;
 use std::thread;
 use std::time::{Duration as Span, Instant as Wall};
 
 use afp_core::Instant;
 
-use crate::keys::Keys;
+use crate::keys::{KeyWatch, Keys};
 use crate::options::TimeKeeper;
 use crate::stop::StopFlag;
 
@@ -33,18 +34,26 @@ pub(crate) struct Pace {
     /// For how long simulated time has stood.
     stood: Cell<Span>,
     keeper: TimeKeeper,
-    keys: Option<Keys>,
+    /// Says whether Escape was pressed; none without a terminal.
+    escape: Option<Box<dyn Fn() -> bool>>,
 }
 
 impl Pace {
-    pub(crate) fn new(keeper: TimeKeeper) -> Self {
-        let keys = match keeper {
+    /// # Errors
+    /// There is no thread for the keys of a real robot.
+    pub(crate) fn new(keeper: TimeKeeper) -> io::Result<Self> {
+        let escape: Option<Box<dyn Fn() -> bool>> = match keeper {
             TimeKeeper::Nobody => None,
-            TimeKeeper::Gate(_) => Keys::take(true),
-            // A process that sleeps stops no robot.
-            TimeKeeper::Robot => Keys::take(false),
+            TimeKeeper::Gate(_) => match Keys::take(true) {
+                Some(keys) => Some(Box::new(move || keys.escape_pressed())),
+                None => None,
+            },
+            TimeKeeper::Robot => match KeyWatch::start()? {
+                Some(keys) => Some(Box::new(move || keys.escape_pressed())),
+                None => None,
+            },
         };
-        Pace { begun: Wall::now(), stood: Cell::default(), keeper, keys }
+        Ok(Pace { begun: Wall::now(), stood: Cell::default(), keeper, escape })
     }
 
     /// Whether the robot itself keeps the time.
@@ -77,7 +86,7 @@ impl Pace {
             if asked() {
                 return Waited::Asked;
             }
-            if self.keys.as_ref().is_some_and(Keys::escape_pressed) {
+            if self.escape.as_ref().is_some_and(|pressed| pressed()) {
                 return Waited::Escape;
             }
             let TimeKeeper::Gate(times) = self.keeper else { return Waited::Due };
@@ -102,7 +111,7 @@ mod tests {
 
     #[test]
     fn what_was_slept_through_is_not_caught_up() {
-        let pace = Pace::new(TimeKeeper::Gate(1.0));
+        let pace = Pace::new(TimeKeeper::Gate(1.0)).unwrap();
         let pace = Pace { begun: Wall::now() - Span::from_secs(5), ..pace };
         let (stop, at) =
             (StopFlag::default(), |millis: u64| Instant::from_nanos(millis * 1_000_000));

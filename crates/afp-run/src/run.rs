@@ -4,6 +4,7 @@ mod driver;
 mod gate;
 mod hardware;
 mod paths;
+pub(crate) mod realtime;
 
 use std::io;
 use std::path::Path;
@@ -13,7 +14,7 @@ use afp_core::trace::Names;
 use afp_core::{Duration, Ending, Instant};
 use afp_log::svg::{self, Picture};
 use afp_log::{About, LogError, Recorder, SessionLog, WhenFull, Written};
-use afp_project::ProjectFile;
+use afp_project::{ProjectFile, Realtime};
 use afp_session::{
     AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Recipe, Requested,
     SessionError, TextFile, Track, Watch,
@@ -181,12 +182,13 @@ fn log_of(
     Ok(SessionLog::new(recorder, devices, scene, options.camera))
 }
 
-/// Guards that stop a real robot if its session cannot.
+/// How the control loop of a real robot is scheduled, and what stops the robot if its session cannot.
 #[derive(Default)]
 struct Guards {
     last_resort: Option<LastResort>,
     /// The watch of the session, and how late the session may be.
     watch: Option<(Watch, Duration)>,
+    realtime: Realtime,
 }
 
 /// Drives a session to its end and says what it came to.
@@ -218,7 +220,8 @@ fn drive(
         let (devices, scene) = (session.devices(), world.world.scene());
         sent = Some(SessionLog::new(recorder, devices, scene, options.camera));
     }
-    let mut gate = RunGate::new(&report, Pace::new(keeper), stop.clone(), live.as_deref());
+    let pace = Pace::new(keeper).map_err(RunError::file("cannot watch", "the keys".as_ref()))?;
+    let mut gate = RunGate::new(&report, pace, stop.clone(), live.as_deref());
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
     let mut observers: Vec<&mut AnyObserver<'_>> =
@@ -226,11 +229,13 @@ fn drive(
     let logs = log.iter_mut().chain(&mut sent);
     observers.extend(logs.map(|log| log as &mut AnyObserver<'_>));
     let names = session.owned_names();
-    let watchdog =
-        guards.watch.map(|(watch, stall)| Watchdog::start(watch, stall, stop.clone(), names));
+    let Guards { watch, realtime, .. } = guards;
+    let start =
+        |(watch, stall)| Watchdog::start(watch, stall, realtime.priority, stop.clone(), names);
+    let watchdog = watch.map(start);
     let watchdog =
         watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
-    let driver = Driver { watchdog, keeper, end, live: live.as_deref() };
+    let driver = Driver { watchdog, realtime, keeper, end, live: live.as_deref() };
     // The robot stands afterwards, before anything is written that may take its time.
     let driven = driver.drive(session, &mut gate, &mut observers);
     stop.set_last_resort(None);

@@ -9,6 +9,7 @@ use afp_core::Duration;
 use afp_core::trace::Names;
 use afp_session::Watch;
 
+use crate::run::realtime;
 use crate::stderr::say;
 use crate::stop::StopFlag;
 
@@ -19,13 +20,14 @@ pub(crate) struct Watchdog {
 }
 
 impl Watchdog {
-    /// Watches a control loop, which may be late by less than `stall`.
+    /// Watches a control loop, which may be late by less than `stall`, from a thread above the control loop's priority.
     ///
     /// # Errors
     /// There is no thread for it.
     pub(crate) fn start(
         watch: Watch,
         stall: Duration,
+        priority: Option<u8>,
         stop: StopFlag,
         names: Box<dyn Names + Send>,
     ) -> io::Result<Self> {
@@ -35,6 +37,8 @@ impl Watchdog {
         let limit = Duration::from_nanos(stall.as_nanos() / 10 * 9);
         watch.begin();
         let watches = move || {
+            // The control loop warns of a system that refuses priorities.
+            let _ = priority.map(|priority| realtime::raise(priority.saturating_add(1)));
             while !is_done.load(Ordering::Relaxed) {
                 match watch.late() {
                     late if late < limit => thread::park_timeout((limit - late).into()),

@@ -8,6 +8,8 @@ mod program;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
+#[cfg(target_os = "linux")]
+use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
@@ -24,6 +26,9 @@ const OPTIONS: &str = "AFP_TEST_OPTIONS";
 
 /// Names the file that the program writes its output to, if there is one.
 const OUT: &str = "AFP_TEST_OUT";
+
+/// Is set if the system is to trap the control thread.
+const TRAP: &str = "AFP_TEST_TRAP";
 
 /// The limit for a stop.
 const LIMIT: Duration = Duration::from_secs(2);
@@ -196,6 +201,66 @@ fn a_run_that_was_suspended_does_not_drive_on() {
     assert_eq!(status.code(), Some(3), "{said}");
     let rest = robot.rest();
     assert!(!rest.contains(&"drive".to_owned()), "it drives on: {rest:?}");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn the_control_loop_makes_no_system_call_but_clock_sleep_device_and_wake() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("a.mcap");
+    let mut robot = Robot::new();
+    // The terminal is read on another thread.
+    let (_keyboard, path) = terminal();
+    let keys = File::options().read(true).open(&path).unwrap();
+    let mut program = start(&robot, "laps", &["--log", log.to_str().unwrap()]);
+    let mut child = program.stdin(keys).env(TRAP, "on").spawn().unwrap();
+    robot.waits_for("trapped", PATIENCE);
+    // Each lap is a dozen records; the trap kills at the first other call.
+    for _ in 0..300 {
+        robot.waits_for("drive", PATIENCE);
+    }
+    child.kill().unwrap();
+    let (status, said) = ended(child);
+    assert_eq!(status.signal(), Some(9), "{status}: {said}");
+    robot.rest();
+}
+
+/// The FIFO priorities of a program's threads by their names, as the system has them.
+#[cfg(target_os = "linux")]
+fn priorities(child: &Child) -> Vec<(String, u32)> {
+    let tasks = std::fs::read_dir(format!("/proc/{}/task", child.id())).unwrap();
+    let of = |task: std::fs::DirEntry| {
+        let name = std::fs::read_to_string(task.path().join("comm")).ok()?;
+        let stat = std::fs::read_to_string(task.path().join("stat")).ok()?;
+        // After the name: the 38th field is the priority, the 39th the policy.
+        let fields: Vec<_> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+        let (priority, is_fifo) = (fields[37].parse().ok()?, fields[38] == "1");
+        is_fifo.then(|| (name.trim().to_owned(), priority))
+    };
+    tasks.filter_map(|task| of(task.unwrap())).collect()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn the_control_loop_has_the_priority_of_its_setting_or_a_warning_says_why_not() {
+    let set = ["--set", "robot.realtime.priority=20", "--set", "robot.realtime.cpu=1023"];
+    let mut robot = Robot::new();
+    let child = start(&robot, "drives", &set).spawn().unwrap();
+    robot.waits_for("drive", PATIENCE);
+    let mut fifo = priorities(&child);
+    fifo.sort_by_key(|(_, priority)| *priority);
+    send(&child, Signal::TERM);
+    robot.waits_for("stop", LIMIT);
+    let (_, said) = ended(child);
+    // Other threads, such as the observers and the log, have none.
+    let found: Vec<_> = fifo.iter().map(|(name, priority)| (&**name, *priority)).collect();
+    match &found[..] {
+        [(_, 20), ("afp-watchdog", 21)] => assert!(!said.contains("FIFO"), "{said}"),
+        [] => assert!(said.contains("the control loop has no FIFO priority 20: "), "{said}"),
+        other => panic!("{other:?}: {said}"),
+    }
+    assert!(said.contains("the control loop cannot run on processor 1023: "), "{said}");
+    assert!(robot.rest().iter().all(|word| word == "stop"));
 }
 
 #[test]

@@ -4,9 +4,11 @@ use std::panic::resume_unwind;
 use std::thread;
 
 use afp_core::{Duration, Instant, StartError};
+use afp_project::Realtime;
 use afp_session::{AnySession, Figures, Go, Observer, QueueReader, queue};
 
 use super::gate::{Halt, RunGate};
+use super::realtime;
 use crate::error::RunError;
 use crate::inputs;
 use crate::live::Live;
@@ -27,6 +29,7 @@ pub(super) type AnyObserver<'a> = dyn Observer + Send + 'a;
 /// How a session is driven.
 pub(super) struct Driver<'a> {
     pub watchdog: Option<Watchdog>,
+    pub realtime: Realtime,
     pub keeper: TimeKeeper,
     /// When the plan is stopped at the latest.
     pub end: Instant,
@@ -89,6 +92,7 @@ impl Driver<'_> {
                 observing.map_err(RunError::file("cannot watch", "the run".as_ref()))?;
             let thread = observing.thread().clone();
             writer.set_wake(Box::new(move || thread.unpark()));
+            realtime::apply(self.realtime);
             let stop = Stop(session);
             let went = self.run_to_end(&mut *stop.0, gate, &mut [&mut writer]);
             drop(self.watchdog.take());

@@ -40,7 +40,8 @@ pub fn run_on_hardware(
     let Opened { mut session, last_resort, watch } = open(&settings)?;
     let stall = realtime.stall.unwrap_or(STALL);
     session.set_stall(stall);
-    let guards = Guards { last_resort, watch: watch.map(|watch| (watch, stall)) };
+    let watch = watch.map(|watch| (watch, stall));
+    let guards = Guards { last_resort, watch, realtime };
     inputs::set_all(&mut *session, &of_plan)?;
     let recipe = Recipe {
         robot: HARDWARE.to_owned(),

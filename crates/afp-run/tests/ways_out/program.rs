@@ -29,9 +29,46 @@ pub struct Rover {
     time: RealTime,
     port: File,
     moves: bool,
+    /// How often time has passed while it moves.
+    advances: u32,
 }
 
+/// From here on the program under test has all that it needs.
+const SETTLED: u32 = 50;
+
 impl Rover {
+    /// From the call that says so, the system kills the program for any system call of the control thread that is not on
+    /// the list of the design.
+    #[cfg(target_os = "linux")]
+    fn trap(&mut self) {
+        use seccompiler::{
+            BpfProgram, SeccompAction, SeccompCmpArgLen, SeccompCmpOp, SeccompCondition,
+            SeccompFilter, SeccompRule, apply_filter,
+        };
+
+        self.advances += 1;
+        if self.advances != SETTLED || std::env::var(super::TRAP).is_err() {
+            return;
+        }
+        // Operations on a futex without their flags; the wake-up of another thread.
+        let (operation, wake) = (SeccompCmpOp::MaskedEq(0x7f), libc::FUTEX_WAKE as u64);
+        let wakes = SeccompCondition::new(1, SeccompCmpArgLen::Dword, operation, wake).unwrap();
+        let wakes = SeccompRule::new(vec![wakes]).unwrap();
+        // Reading and writing are the device's here. The clock is no system call on most machines.
+        let all =
+            [libc::SYS_clock_gettime, libc::SYS_clock_nanosleep, libc::SYS_read, libc::SYS_write];
+        let rules = all.map(|call| (call, Vec::new())).into_iter();
+        let rules = rules.chain([(libc::SYS_futex, vec![wakes])]).collect();
+        let arch = std::env::consts::ARCH.try_into().unwrap();
+        let (others, these) = (SeccompAction::KillProcess, SeccompAction::Allow);
+        let filter = SeccompFilter::new(rules, others, these, arch).unwrap();
+        apply_filter(&BpfProgram::try_from(filter).unwrap()).unwrap();
+        self.say("trapped");
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn trap(&mut self) {}
+
     fn say(&mut self, word: &str) {
         // A line that is full loses it.
         let _ = writeln!(self.port, "{word}");
@@ -48,7 +85,7 @@ impl Hardware for Rover {
         let mut modes = tcgetattr(&port)?;
         modes.make_raw();
         tcsetattr(&port, OptionalActions::Now, &modes)?;
-        Ok(Rover { time: RealTime::start(), port, moves: false })
+        Ok(Rover { time: RealTime::start(), port, moves: false, advances: 0 })
     }
 
     fn last_resort(&self) -> Option<LastResort> {
@@ -82,6 +119,7 @@ impl Platform for Rover {
     fn advance(&mut self, to: Instant) {
         if self.moves {
             self.say("drive");
+            self.trap();
         }
         self.time.sleep_until(to);
     }
