@@ -6,19 +6,21 @@
 //! and `ignore` end in tags on the card, and edges to `resume` are hollow arrows back to it. Only
 //! flow between elements is routed.
 
+mod conditions;
 mod folded;
 mod parts;
 mod start;
 mod supervisors;
 
-use super::layout;
 use super::metrics::width;
 use super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};
 use super::usage::{Class, Use, times};
 use super::view::{Input, View, name};
+use super::{formula, layout};
 use afp_dsl::outline::{Component, ComponentKind, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
+use conditions::Conditions;
 use parts::{ROW, exit_below, exit_width, inflow, outflow, part, pill_width};
 
 pub(super) use start::start;
@@ -79,9 +81,15 @@ pub(super) fn element<'a>(
     let states = view.exits(element);
     let exits = states.iter().map(|exit| exit_width(exit) + EXIT_GAP).sum::<f64>() + 16.0;
     let rows = (inputs.len() + outputs.len()) as f64;
-    let own = HEAD + rows * ROW + 16.0;
+    let conditions = Conditions::new(view, element);
+    let own = HEAD + rows * ROW + conditions.height() + 16.0;
     let hung = Hung::new(view, &element.item, element.inner());
-    let rect = Rect { x: left, y: 0.0, width: head.max(exits), height: own.max(hung.first()) };
+    let rect = Rect {
+        x: left,
+        y: 0.0,
+        width: head.max(exits).max(conditions.width()),
+        height: own.max(hung.first()),
+    };
     let (shape, class) = look(view, element);
     card.sketch.frames.push(Frame { rect, shape, class, title: title(element, template) });
     heading(view, &mut card, element, template, rect);
@@ -94,6 +102,7 @@ pub(super) fn element<'a>(
         outflow(&mut card.sketch, element, (left, y), output, Anchor::Start);
         y += ROW;
     }
+    conditions.write(&mut card.sketch, (left, y - ROW / 2.0));
     let mut x = left + (rect.width - (exits - 16.0 - EXIT_GAP)) / 2.0;
     card.height = rect.bottom();
     let mut middles = vec![0.0; states.len()];
@@ -208,8 +217,14 @@ fn template(view: &View, element: &Component) -> String {
 }
 
 fn title(element: &Component, template: &str) -> String {
-    let head = format!("{}: {template}", name(element));
-    if element.doc.is_empty() { head } else { format!("{head}\n{}", element.doc) }
+    let mut title = format!("{}: {template}", name(element));
+    let states = element.template().into_iter().flat_map(formula::states).map(|(_, text)| text);
+    let doc = Some(element.doc.clone()).filter(|doc| !doc.is_empty());
+    for line in states.chain(doc) {
+        title.push('\n');
+        title += &line;
+    }
+    title
 }
 
 fn heading<'a>(

@@ -9,7 +9,7 @@ use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
 /// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed edges for
-/// events, with their exits' names. A resuming exit has a hollow arrow back to its own element.
+/// events, with their exits' names. A state of a declared computation also has its condition. A resuming exit has a hollow arrow back to its own element.
 /// Ignored events and unconnected exits are left out.
 pub fn dot(outline: &Outline, options: &Options) -> String {
     let views = View::all(outline, options);
@@ -61,8 +61,13 @@ impl<'a> Cluster<'a, '_> {
         self.events(text, &start, &plan.supervisors);
         for element in &plan.elements {
             let from = self.element_name(element);
+            let conditions = view.conditions(element);
             for exit in view.exits(element) {
-                self.edge(text, &from, &exit, exit.name);
+                let condition = conditions.iter().find(|(state, _)| *state == exit.name);
+                let label = condition.map_or(exit.name.to_owned(), |(state, condition)| {
+                    format!("{state}\n{condition}")
+                });
+                self.edge(text, &from, &exit, &label);
             }
             self.events(text, &from, &element.supervisors);
             self.events(text, &from, &element.reactions);

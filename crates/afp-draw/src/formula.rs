@@ -1,7 +1,7 @@
 //! Formulas as text: from the source if it is available, or else printed from the graph.
 
-use afp_dsl::graph::{Formula, Op, Operator, Part, Plan};
-use afp_dsl::toolbox::Constant;
+use afp_dsl::graph::{EntryId, Formula, Op, Operator, Part, Plan};
+use afp_dsl::toolbox::{Case, Condition, Constant, Template};
 use afp_dsl::types::text::{number, quantity};
 use afp_dsl::types::{Conversion, Type};
 use afp_syntax::source::Sources;
@@ -15,11 +15,45 @@ use afp_syntax::source::Sources;
 pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String {
     let written = sources.map_or("", |sources| sources.text(formula.span)).trim();
     if written.is_empty() || written.contains("//") || written.contains('\n') {
-        printed(formula.part(), plan)
+        printed(formula.part(), &|entry| &plan.entries[entry.index()].name)
     } else {
         written.to_owned()
     }
 }
+
+/// The condition of a state of a declared computation; empty for the last state.
+pub fn condition(case: &Case, template: &Template) -> String {
+    let names = ports(template);
+    let compared = case.when.iter().map(|Condition { left, comparison, right }| {
+        let (left, right) = (printed(left.part(), &names), printed(right.part(), &names));
+        format!("{left} {} {right}", comparison.sign())
+    });
+    compared.collect::<Vec<_>>().join(" and ")
+}
+
+/// The states of a declared computation by name, as in its declaration: `Done { next = 0 }`.
+pub fn states(template: &Template) -> impl Iterator<Item = (&str, String)> {
+    let cases = template.cases.as_deref().unwrap_or_default();
+    template.outcomes.iter().zip(cases).map(|(state, case)| {
+        let condition = condition(case, template);
+        let when = if condition.is_empty() { "" } else { " when " };
+        let written = case.writes.iter().filter_map(|(port, formula)| {
+            let port = &template.outputs.get(usize::from(*port))?.name;
+            Some(format!(" {port} = {}", printed(formula.part(), &ports(template))))
+        });
+        let written = written.collect::<Vec<_>>().join(",");
+        let end = if written.is_empty() { "" } else { " " };
+        (&*state.name, format!("{}{when}{condition} {{{written}{end}}}", state.name))
+    })
+}
+
+/// The input ports that the formulas of a declared computation read.
+fn ports<'t>(template: &'t Template) -> impl Fn(EntryId) -> &'t str {
+    move |port| template.inputs.get(port.index()).map_or("", |port| &port.name)
+}
+
+/// The names of the entries that a formula reads.
+type Names<'f, 'n> = &'f dyn Fn(EntryId) -> &'n str;
 
 /// A value as text, with a readable unit.
 pub fn constant(value: &Constant, ty: Option<&Type>) -> String {
@@ -31,7 +65,7 @@ pub fn constant(value: &Constant, ty: Option<&Type>) -> String {
     }
 }
 
-fn printed(formula: Part<'_>, plan: &Plan) -> String {
+fn printed(formula: Part<'_>, names: Names) -> String {
     let operands: Vec<_> = formula.operands().collect();
     match (formula.op(), &operands[..]) {
         (Op::Bool(value), _) => value.to_string(),
@@ -42,20 +76,20 @@ fn printed(formula: Part<'_>, plan: &Plan) -> String {
         },
         (Op::Text(value), _) => format!("{value:?}"),
         (Op::Choice(place), _) => choice(*place, &formula.ty),
-        (Op::Entry(entry), _) => plan.entries[entry.index()].name.clone(),
-        (Op::Neg, &[inner]) => format!("-{}", operand(inner, plan, NEGATION)),
+        (Op::Entry(entry), _) => names(*entry).to_owned(),
+        (Op::Neg, &[inner]) => format!("-{}", operand(inner, names, NEGATION)),
         (Op::Binary(operator), &[left, right]) => {
             let level = level(*operator);
             // The right operand of the same level needs parentheses: `a - (b - c)`.
-            let (left, right) = (operand(left, plan, level), operand(right, plan, level + 1));
+            let (left, right) = (operand(left, names, level), operand(right, names, level + 1));
             format!("{left} {} {right}", operator.sign())
         }
         (Op::Convert(conversion), &[inner]) => match (conversion, inner.op()) {
             (Conversion::IntToFloat, Op::Int(value)) => number(*value as f64),
-            _ => printed(inner, plan),
+            _ => printed(inner, names),
         },
         (Op::Call(function), operands) => {
-            let operands: Vec<_> = operands.iter().map(|each| printed(*each, plan)).collect();
+            let operands: Vec<_> = operands.iter().map(|each| printed(*each, names)).collect();
             format!("{}({})", function.name(), operands.join(", "))
         }
         // Every other node has exactly these operands.
@@ -66,8 +100,8 @@ fn printed(formula: Part<'_>, plan: &Plan) -> String {
 /// Precedence of a sign, above `*` and `/`.
 const NEGATION: u8 = 3;
 
-fn operand(formula: Part<'_>, plan: &Plan, least: u8) -> String {
-    let text = printed(formula, plan);
+fn operand(formula: Part<'_>, names: Names, least: u8) -> String {
+    let text = printed(formula, names);
     if strength(formula) < least { format!("({text})") } else { text }
 }
 

@@ -18,8 +18,8 @@ use afp_syntax::item::Item;
 /// An element has the keys `name`, `kind`, `template`, `inputs` (the texts of the bound inputs in
 /// the order of the template's ports), `outputs` (entries in the same order), `states` (targets by
 /// state, including `Error`), `supervisors`, `position` (its given place in pixels), `rect` (its
-/// box: left, top, width, height), and `ports` (texts by input port, entries by output port). Empty
-/// values are left out.
+/// box: left, top, width, height), `ports` (texts by input port, entries by output port), and
+/// `conditions` (of a declared computation, by state). Empty values are left out.
 ///
 /// Supervisors have `name`, `template`, `inputs`, `outputs`, `events`; their periods and deadlines
 /// are in `timing`, in nanoseconds. An edge has `from` (the path of its start), `exit`, `to` and
@@ -70,6 +70,9 @@ fn element_object<'a>(drawn: &DrawnPlan<'a>, element: &'a Component) -> Value {
         .map(|table| json!({ "to": name(table), "events": targets(view, &view.exits(table)) }));
     put(&mut object, "reactions", reactions.collect());
     put(&mut object, "ports", ports(&inputs, &outputs));
+    let conditions = view.conditions(element).into_iter();
+    let conditions = conditions.map(|(state, condition)| (state.to_owned(), json!(condition)));
+    put(&mut object, "conditions", Value::Object(conditions.collect()));
     Value::Object(object)
 }
 

@@ -188,6 +188,17 @@ impl<'a> View<'a> {
         outputs.collect()
     }
 
+    /// The states of a declared computation that have a condition, in order, with the condition.
+    pub(super) fn conditions(&self, component: &'a Component) -> Vec<(&'a str, String)> {
+        let Some(template) = component.template() else { return Vec::new() };
+        let cases = self.shown_of(&component.item, template.cases.as_deref().unwrap_or_default());
+        let conditional =
+            template.outcomes.iter().zip(cases).filter(|(_, case)| !case.when.is_empty());
+        let conditions =
+            conditional.map(|(state, case)| (&*state.name, formula::condition(case, template)));
+        conditions.collect()
+    }
+
     /// The data, or nothing if the options leave it out.
     fn shown_of<'d, T>(&self, item: &Item, data: &'d [T]) -> &'d [T] {
         if self.options.data && !self.is_folded(item) { data } else { &[] }

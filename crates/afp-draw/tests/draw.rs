@@ -74,6 +74,7 @@ fn json_has_entries_timing_ports_and_sub_plans() {
     assert_eq!(found["actors"][0]["supervisors"][0]["events"]["DeadlineMissed"], "turn");
     assert_eq!(found["actors"][0]["ports"]["in"]["speed"], "20 cm/s", "a default");
     assert_eq!(found["actors"][2]["kind"], "computation");
+    assert_eq!(found["actors"][2]["conditions"], serde_json::json!({"Again": "value < limit"}));
     let avoid = &found["actors"][3];
     assert_eq!((&avoid["kind"], &avoid["template"]), (&"subplan".into(), &"Avoid".into()));
     assert_eq!(avoid["inputs"], serde_json::json!(["-side / 4"]), "unbound inputs are left out");
@@ -113,7 +114,7 @@ fn dot_has_arrows_back_for_resuming_exits() {
         }
         computation count: Count(value = n, limit = 3, next => n) { Again -> resume Done -> terminate } }";
     let text = dot(&compiled(plan).outline, &Options::default());
-    let back = r#""P:count" -> "P:count" [label="Again\nresume", style=solid, arrowhead=empty];"#;
+    let back = r#""P:count" -> "P:count" [label="Again\nvalue < limit\nresume", style=solid, arrowhead=empty];"#;
     assert!(text.contains(back), "{text}");
     assert!(!text.contains("!resume"), "{text}");
 }
@@ -140,4 +141,34 @@ fn an_endless_plan_is_marked_in_every_drawing() {
     let shown = |outline| svg(outline, &Options::default()).contains(">forever<");
     assert!(shown(&outline));
     assert!(!shown(&compiled(EVERY_PART).outline));
+}
+
+#[test]
+fn declared_computations_show_their_conditions() {
+    let plan = "use std
+        enum Side { left right }
+        computation Steer {
+            in  error: length
+            in  side:  Side = Side.left
+            out turn:  angle
+            state Far when error >= 3 cm and -error - 1 cm != 2 * (error + 1 cm) and side == Side.left {
+                turn = 10 deg
+            }
+            state Near {}
+        }
+        plan P { in error: length = 1 m var turn: angle start steer
+            computation steer: Steer(error, turn => turn) { Far -> steer, Near -> terminate } }";
+    let outline = compiled(plan).outline;
+    let condition = "error >= 3 cm and -error - 1 cm != 2 * (error + 1 cm) and side == Side.left";
+    assert_eq!(json_of(plan)["actors"][0]["conditions"]["Far"], condition);
+    let text = dot(&outline, &Options::default());
+    assert!(text.contains(&format!("[label=\"Far\\n{condition}\", style=solid]")), "{text}");
+    assert!(text.contains("[label=\"Near\", style=solid]"), "{text}");
+    let drawing = svg(&outline, &Options::default());
+    assert!(drawing.contains(">error &gt;= 3 cm and -error - 1 cm != …<"), "{drawing}");
+    let whole = condition.replace('>', "&gt;");
+    let tooltip = format!("Steer\nFar when {whole} {{ turn = 10 deg }}\nNear {{}}</title>");
+    assert!(drawing.contains(&tooltip), "{drawing}");
+    let plain = svg(&outline, &Options { data: false, ..Options::default() });
+    assert!(!plain.contains(">error &gt;"), "{plain}");
 }

@@ -134,11 +134,24 @@ fn components_are_written_with_their_inputs_and_outputs() {
 }
 
 #[test]
+fn states_of_declared_computations_have_their_conditions_in_comments() {
+    let full = chart(EVERY_PART, true);
+    let state = "<!-- Again when value < limit { next = value + 1 } -->\n      \
+                 <transition event=\"loop.Again\" target=\"Square.drive\"/>\n      \
+                 <!-- Done { next = 0 } -->\n      <transition event=\"loop.Done\"";
+    assert!(full.contains(state), "{full}");
+    assert!(!chart(EVERY_PART, false).contains("Again when"));
+}
+
+#[test]
 fn the_head_lists_the_omitted_parts() {
     let text = chart(WALL_FOLLOWING, true);
-    for words in
-        ["order in which supervisors are asked", "periods, deadlines", "entries and values"]
-    {
+    for words in [
+        "order in which supervisors are asked",
+        "periods, deadlines",
+        "entries and values",
+        "declared computation",
+    ] {
         assert!(text.split("-->").next().unwrap().contains(words), "no '{words}'");
     }
 }

@@ -14,7 +14,9 @@ const HEAD: &str = "\
     deadline, then global before local, then as written);
   - periods, deadlines and the look before a start;
   - entries and values: formulas stand in comments only, and results of a sub-plan that do not
-    convert, which its caller takes for an 'Error', are not seen.
+    convert, which its caller takes for an 'Error', are not seen. A declared computation has its
+    conditions and assignments in comments, too, because most of the values that it compares come
+    from sensors and from outside: its state is an event, like that of every element.
   Events: 'element.State' when an actor or a computation reaches a state, 'element-supervisor.Event'
   when a supervisor of that element interrupts it, 'supervisor.Event' when a global one does,
   '.DeadlineMissed' and '.Error' likewise; an element's own reactions to a global supervisor are
@@ -115,7 +117,11 @@ impl Chart {
     /// The states of an actor or of a computation.
     fn states(&mut self, view: &View, scope: &Scope, element: &Element) {
         let path = scope.path(&element.name);
+        let declared = view.declared(element);
         for exit in view.states(element).iter().filter(|exit| exit.kind == ExitKind::State) {
+            if let Some((_, text)) = declared.iter().find(|(name, _)| *name == exit.name) {
+                self.comment(text);
+            }
             self.transition(&event(&path, exit), taken(view, scope, exit).as_deref());
         }
     }

@@ -153,6 +153,16 @@ impl<'a> View<'a> {
         states.chain(error).collect()
     }
 
+    /// The states of a declared computation by name, as declared; empty without data.
+    pub(super) fn declared(&self, element: &Element) -> Vec<(&'a str, String)> {
+        match element.component {
+            Component::Computation(id) if self.data => {
+                formula::states(self.graph.template(id)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// The events, with a connected `DeadlineMissed` last.
     pub(super) fn events(&self, supervisor: &Supervisor) -> Vec<Exit<'a>> {
         let names = outcome_names(self.graph.template(supervisor.template)).into_iter();
