@@ -98,10 +98,73 @@ fn mutants_of_going_to_a_place_are_noticed() {
     is_noticed("parts/go_to", &["go_to", "navigate_room"]);
 }
 
+/// Steers to a side by an error, and counts.
+const DECLARED: &str = "use std
+enum Side { ahead left right }
+computation Steer {
+    in  error: float
+    in  count: int
+    out side:  Side
+    out next:  int
+    state Far when error < 3 and count < 2 { side = Side.left, next = count + 1 }
+    state Near { side = Side.right, next = 0 }
+}
+plan P {
+    in error: float = 2
+    var n: int = 0
+    out side: Side = Side.ahead
+    out seen: int = 0
+    start steer
+    computation steer: Steer(error, count = n, next => n, side => side) { Far -> note, Near -> terminate }
+    computation note: Assign(value = n, result => seen) { Done -> pause }
+    actor pause: Wait(duration = 1 s) { Elapsed -> steer }
+}
+";
+
 #[test]
-fn a_declared_computation_has_mutants() {
-    let text = "computation Low { in a: int state Yes when a < 3 {} state No {} }";
-    let found = mutants(text, 0).into_iter().map(|it| format!("{} for {}", it.is, it.was));
-    let found: Vec<_> = found.collect();
-    assert_eq!(found, [">= for <", "4 for 3", "-3 for 3"]);
+fn conditions_and_values_of_declared_computations_have_mutants() {
+    let found = mutants(DECLARED, 0).into_iter().filter(|it| it.line == 8);
+    let found: Vec<_> = found.map(|it| format!("{}: {} for {}", it.kind, it.is, it.was)).collect();
+    assert_eq!(
+        found,
+        [
+            "sign: -error for error",
+            "sign: >= for <",
+            "constant: 4 for 3",
+            "sign: -3 for 3",
+            "sign: -count for count",
+            "sign: >= for <",
+            "constant: 3 for 2",
+            "sign: -2 for 2",
+            "constant: Side.ahead for Side.left",
+            "sign: -count for count",
+            "sign: - for +",
+            "constant: 2 for 1",
+            "sign: -1 for 1",
+        ]
+    );
+}
+
+#[test]
+fn scenarios_notice_mutants_of_declared_computations() {
+    let text = format!(
+        "{DECLARED}
+        scenario \"two are far\" for P {{
+            expect steer.Far 2 times, expect seen == 2, expect side == Side.left
+        }}
+        scenario \"none is far\" for P {{
+            set error = 3.0, never steer.Far, expect side == Side.right, never n == 1
+        }}"
+    );
+    let robot = afp_sim::carbot(|_| {});
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let suite = Suite { file: PathBuf::from("plan.afp"), source: Source::new("plan.afp", &*text) };
+    let bench = Bench::new("plan.afp", vec![suite], (&toolboxes, &read), &robot, &mut || true);
+    let bench = bench.unwrap().unwrap();
+    assert_eq!(bench.failing, [""; 0]);
+    let ours = mutants(&text, 0).into_iter().filter(|it| (8..10).contains(&it.line));
+    let judged: Vec<_> = ours.map(|it| bench.judge(it, &mut || true).unwrap()).collect();
+    let missed = judged.iter().filter(|it| !matches!(it.status, MutantStatus::Noticed(_)));
+    let missed: Vec<_> = missed.map(|it| (&it.mutant.is, it.mutant.column, &it.status)).collect();
+    assert!(missed.is_empty(), "{missed:?}");
 }

@@ -38,6 +38,7 @@ impl Finder<'_> {
                 Kind::Negation => self.positive(&node),
                 Kind::Sum => self.sum(&node),
                 Kind::Comparison => self.comparison(&node),
+                Kind::Ref if token(&node, Kind::Dot).is_some() => self.choice(&node),
                 Kind::Ref if is_operand(&node) => self.negative(&node),
                 _ => {}
             }
@@ -119,6 +120,21 @@ impl Finder<'_> {
         }
     }
 
+    /// A value of an enum of the file becomes another value.
+    fn choice(&mut self, node: &Node) {
+        let whole = place(node);
+        let shown = self.at(&whole).to_owned();
+        let Some((home, value)) = shown.split_once('.') else { return };
+        let Some(file) = node.ancestors().last() else { return };
+        let mut enums = file.children().filter(|node| node.kind() == Kind::Enum);
+        let Some(home) = enums.find(|it| self.name(it).as_deref() == Some(home)) else { return };
+        let values: Vec<_> = home.children().filter_map(|node| self.name(&node)).collect();
+        if let Some(other) = self.other(&values, value) {
+            let is = format!("{}{other}", &shown[..shown.len() - value.len()]);
+            self.add(MutantKind::Constant, whole, is, str::to_owned);
+        }
+    }
+
     /// `-way` becomes `way`.
     fn positive(&mut self, node: &Node) {
         let whole = place(node);
@@ -178,9 +194,9 @@ impl Finder<'_> {
     }
 }
 
-/// Whether a reference is in a component's input formula, without a sign.
+/// Whether a reference is in a component's input formula or a comparison, without a sign.
 fn is_operand(node: &Node) -> bool {
-    let formula = [Kind::BindIn, Kind::Sum, Kind::Product, Kind::Brackets];
+    let formula = [Kind::BindIn, Kind::Sum, Kind::Product, Kind::Brackets, Kind::Comparison];
     node.parent().is_some_and(|parent| formula.contains(&parent.kind()))
 }
 

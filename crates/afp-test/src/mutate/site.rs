@@ -10,7 +10,7 @@ pub enum MutantKind {
     Sign,
     /// A different target of an edge or the start.
     Target,
-    /// A different number or boolean.
+    /// A different number, boolean or value of an enum.
     Constant,
     /// Two edges of a component with swapped targets.
     Swap,
