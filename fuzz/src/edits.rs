@@ -75,7 +75,7 @@ fn errors(text: &str) -> usize {
 }
 
 fn change(bytes: &mut Unstructured<'_>, names: &Names) -> Result<Change> {
-    let which = bytes.int_in_range(0..=21)?;
+    let which = bytes.int_in_range(0..=23)?;
     let item = item(bytes, names)?;
     let name = names.choose(bytes)?;
     let fragment = (*bytes.choose(FRAGMENTS)?).to_owned();
@@ -112,6 +112,8 @@ fn change(bytes: &mut Unstructured<'_>, names: &Names) -> Result<Change> {
             Change::Extract { plan, elements, new_plan: "Fresh".into(), element: "fresh".into() }
         }
         20 => Change::SetNote { item, text: fragment },
+        21 => Change::SetCondition { computation: plan, state: name, condition: maybe },
+        22 => Change::Assign { computation: plan, state: name, output: fragment, formula: maybe },
         _ => Change::Inline { plan, element: name },
     })
 }

@@ -312,7 +312,8 @@ impl Index {
             }
         }
         let is_outer = |kind| {
-            matches!(kind, DefinitionKind::Plan | DefinitionKind::Enum | DefinitionKind::Table)
+            use DefinitionKind::{Enum, Plan, Table, Template};
+            matches!(kind, Plan | Enum | Table | Template(_))
         };
         for (id, known) in files.iter().flat_map(|seen| self.definitions_in(*seen)) {
             if known.owner.is_none() && is_outer(known.kind) {

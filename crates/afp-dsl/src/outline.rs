@@ -15,7 +15,10 @@ mod findings;
 mod identity;
 mod look_up;
 
+use std::sync::Arc;
+
 use crate::graph::EntryKind;
+use crate::toolbox::Toolbox;
 use crate::types::Type;
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::Severity;
@@ -77,6 +80,9 @@ pub struct File {
     pub uses: Vec<Use>,
     pub enums: Vec<Enum>,
     pub tables: Vec<Table>,
+    /// The valid computations that it and the files that it uses declare: a toolbox without a name
+    /// for each of these files, its own first.
+    pub computations: Vec<Arc<Toolbox>>,
     pub plans: Vec<PlanId>,
     pub scenarios: Vec<Scenario>,
     /// What there is to say about nothing smaller.

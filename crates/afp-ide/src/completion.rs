@@ -93,6 +93,8 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
         Place::Set { later } => scenarios::entries(&mut list, *later, offset),
         Place::PlanName => plans::plan_names(&mut list),
         Place::Toolbox(kind) => toolboxes::parts(&mut list, *kind),
+        Place::Case => list.keyword("when", bodies::with_holes("when ‹value < 1› {‹›}"), 0),
+        Place::Assigned(state) => toolboxes::assigned(&mut list, state),
     }
     let mut all = list.all;
     all.sort_by(|a, b| (a.rank, &a.label).cmp(&(b.rank, &b.label)));

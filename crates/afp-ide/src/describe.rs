@@ -34,6 +34,8 @@ pub(crate) fn declaration(view: &View, id: DefinitionId) -> String {
             format!("use {made} as {name}")
         }
         DefinitionKind::Table => table(view, definition, name),
+        // A state of a declared computation has a body.
+        DefinitionKind::State => one_line(view.text_of(definition.span)),
         DefinitionKind::Column => {
             one_line(view.text_of(definition.span)).trim_end_matches(',').to_owned()
         }

@@ -8,6 +8,7 @@
 mod add;
 mod braces;
 mod buffer;
+mod case;
 mod connect;
 mod doc;
 mod entry;
@@ -73,11 +74,9 @@ pub enum Change {
         toolbox: String,
         alias: Option<String>,
     },
-    /// Adds plans, given as text, after the last plan.
-    AddPlan {
-        /// The text of one or more plans.
-        text: String,
-    },
+    /// Adds plans and computations, given as text, after the last plan; only computations, before
+    /// the first plan.
+    AddPlan { text: String },
     /// Adds entries, elements or supervisors, given as text.
     Add {
         /// The new plan of the items.
@@ -173,6 +172,15 @@ pub enum Change {
         entry: Item,
         value: Option<String>,
     },
+    /// Sets or removes the condition of a state of a declared computation.
+    SetCondition {
+        computation: String,
+        state: String,
+        /// Comparisons with `and` between them.
+        condition: Option<String>,
+    },
+    /// Sets or removes the formula that a state of a declared computation assigns to an output.
+    Assign { computation: String, state: String, output: String, formula: Option<String> },
     /// Sets or removes the help text above an item.
     SetDoc {
         #[serde(with = "wire")]
@@ -317,6 +325,18 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
         Change::Inline { plan, element } => {
             return in_form(workspace, |workspace| inline::run(workspace, plan, element));
         }
+        Change::SetCondition { computation, state, condition } => {
+            return in_form(workspace, |workspace| {
+                let state = (computation.as_str(), state.as_str());
+                case::set_condition(workspace.buffer(), state, condition.as_deref())
+            });
+        }
+        Change::Assign { computation, state, output, formula } => {
+            return in_form(workspace, |workspace| {
+                let state = (computation.as_str(), state.as_str());
+                case::assign(workspace.buffer(), state, output, formula.as_deref())
+            });
+        }
         Change::Remove { item: item @ Item::Plan { .. } } => workspace.check_inside(item)?,
         Change::Remove { item } | Change::Move { item, .. } => workspace.check_unused(item)?,
         Change::Extract { plan, elements, new_plan, element } => {
@@ -369,6 +389,8 @@ fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
         | Change::Extract { .. }
         | Change::RenameColumn { .. }
         | Change::RenameValue { .. }
+        | Change::SetCondition { .. }
+        | Change::Assign { .. }
         | Change::Inline { .. } => Ok(()),
     }
 }

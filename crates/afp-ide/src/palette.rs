@@ -12,7 +12,7 @@ use afp_dsl::outline::ComponentKind;
 pub struct Offer {
     pub name: String,
     pub kind: ComponentKind,
-    /// Its toolbox; `None` for a plan.
+    /// Its toolbox; `None` for a plan and for a computation of a plan file.
     pub toolbox: Option<String>,
     pub icon: Option<String>,
     pub help: String,
@@ -63,7 +63,7 @@ fn of_template(view: &View, id: DefinitionId, seen: bool) -> Option<Offer> {
     Some(Offer {
         name: template.name.clone(),
         kind,
-        toolbox: Some(toolbox.name.clone()),
+        toolbox: toolbox.is_named().then(|| toolbox.name.clone()),
         icon: template.icon.clone(),
         help: template.doc.clone(),
         ports: ports(view, id),

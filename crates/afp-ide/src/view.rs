@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use afp_dsl::Compiled;
 use afp_dsl::Toolboxes;
-use afp_dsl::index::{Definition, DefinitionId, Index, Name};
+use afp_dsl::index::{Definition, DefinitionId, DefinitionKind, Index, Name};
 use afp_dsl::outline::{Component, Outline, Plan};
 use afp_dsl::toolbox::{Template, Toolbox};
 use afp_syntax::diagnostics::Diagnostics;
@@ -110,14 +110,32 @@ impl<'a> View<'a> {
         self.plans().find(|plan| plan.span == span)
     }
 
+    /// All toolboxes, and the computations that plan files declare for the file.
+    pub(crate) fn all_toolboxes(&self) -> impl Iterator<Item = &'a Arc<Toolbox>> {
+        let file = self.outline().files.iter().find(|file| file.file == self.file);
+        self.toolboxes.iter().chain(file.into_iter().flat_map(|file| &file.computations))
+    }
+
     pub(crate) fn template(
         &self,
         definition: &Definition,
     ) -> Option<(&'a Arc<Toolbox>, &'a Template)> {
-        self.toolboxes.iter().find_map(|toolbox| {
+        self.all_toolboxes().find_map(|toolbox| {
             let found = toolbox.templates.iter().find(|known| known.span == definition.name)?;
             Some((toolbox, found))
         })
+    }
+
+    /// The ports of a kind that a template declares.
+    pub(crate) fn ports(
+        &self,
+        template: &Node,
+        kind: DefinitionKind,
+    ) -> impl Iterator<Item = (DefinitionId, &'a Definition)> {
+        let name = token(template, Kind::Name).map(|name| self.token_span(&name));
+        let id = name.and_then(|span| self.index().declared_at(span));
+        let members = id.into_iter().flat_map(|id| self.index().members(id));
+        members.filter(move |(_, member)| member.kind == kind)
     }
 
     /// The last solid token that ends at or before a byte.

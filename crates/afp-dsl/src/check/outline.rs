@@ -56,6 +56,8 @@ fn file(
 ) -> File {
     let mut read = File { file: file.index, path: file.path.clone(), ..File::default() };
     let heads = material.program.plans.iter().enumerate();
+    let computations = material.program.files.get(at).into_iter().flat_map(|it| &it.computations);
+    read.computations = computations.map(|import| import.toolbox.clone()).collect();
     read.plans = heads.filter(|(_, h)| h.file == at).map(|(at, _)| PlanId::new(at)).collect();
     let (mut enums, mut tables) = (Vec::new(), Vec::new());
     for item in file.tree.items() {

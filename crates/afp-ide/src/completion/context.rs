@@ -71,6 +71,10 @@ pub(super) enum Place {
     PlanName,
     /// Parts of a template or device of a toolbox.
     Toolbox(Kind),
+    /// After the name of a computation's state.
+    Case,
+    /// Outputs in the body of a computation's state.
+    Assigned(Node),
 }
 
 #[derive(Debug)]
@@ -195,6 +199,9 @@ fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32
         Kind::Name if same_line && before.text() == "on" && within(&[Kind::Edge]).is_some() => {
             within(&[Kind::Element]).map_or(Place::Nothing, Place::Watchers)
         }
+        Kind::Name if same_line && parent.as_ref().is_some_and(is_state_of_computation) => {
+            Place::Case
+        }
         // An item with only a name so far.
         Kind::Name if same_line && parent.as_ref().is_some_and(names_item) => Place::Nothing,
         _ if same_line && is_head(before) => Place::Times,
@@ -217,6 +224,7 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
         ("at", Kind::Stimulus) | ("until", _) | ("within" | "before" | "after", Kind::Bound) => {
             Place::Value(Wanted::Time)
         }
+        ("when" | "and", Kind::When) => Place::Value(Wanted::Unknown),
         ("for", Kind::Scenario) => Place::PlanName,
         ("for", _) => Place::Value(Wanted::Time),
         ("set", kind) => Place::Set { later: kind == Kind::Action },
@@ -339,6 +347,17 @@ fn names_item(node: &Node) -> bool {
     )
 }
 
+/// Whether a node is a state of a template for computations.
+fn is_state_of_computation(node: &Node) -> bool {
+    let word = |node: &Node, word| {
+        token(node, Kind::Keyword).is_some_and(|keyword| keyword.text() == word)
+    };
+    let template = node.parent().filter(|parent| parent.kind() == Kind::Template);
+    node.kind() == Kind::Outcome
+        && word(node, "state")
+        && template.is_some_and(|it| word(&it, "computation"))
+}
+
 /// Whether a token ends the head of a supervisor without a body.
 fn is_head(token: &Token) -> bool {
     let Some(guard) = ancestor(token, &[Kind::Guard]) else { return false };
@@ -365,6 +384,7 @@ fn container(before: &Token, at: u32) -> Place {
             Kind::Scenario => Place::Scenario,
             Kind::Moment => Place::Moment,
             Kind::Template | Kind::Device => Place::Toolbox(node.kind()),
+            Kind::Outcome => Place::Assigned(node),
             Kind::Args => ports(before),
             Kind::Enum | Kind::Table => Place::Nothing,
             _ => continue,

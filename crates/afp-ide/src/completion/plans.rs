@@ -17,6 +17,10 @@ pub(super) fn of_file(list: &mut List) {
     list.keyword("use", plain("use "), 0);
     list.keyword("plan", with_holes("plan ‹Name› {\n    start ‹›\n}"), 0);
     list.keyword("enum", with_holes("enum ‹Name› { ‹first second› }"), 1);
+    let (head, first, last) =
+        ("in ‹value: float›", "state ‹Low› when ‹value < 1› {}", "state ‹High› {}");
+    let computation = format!("computation ‹Name› {{\n    {head}\n    {first}\n    {last}\n}}");
+    list.keyword("computation", with_holes(&computation), 1);
     let table = "table ‹name›(‹x: length, y: length›) {\n    (‹1 m, 2 m›)\n}";
     list.keyword("table", with_holes(table), 1);
     let (head, body) =
@@ -104,8 +108,8 @@ fn all_made(list: &List, offset: u32) -> Vec<Made> {
 }
 
 fn templates_of<'l>(list: &'l List) -> impl Iterator<Item = (&'l Toolbox, &'l Template)> {
-    let toolboxes = list.view.toolboxes.iter();
-    toolboxes
+    list.view
+        .all_toolboxes()
         .flat_map(|toolbox| toolbox.templates.iter().map(move |template| (&**toolbox, template)))
 }
 

@@ -12,6 +12,7 @@ use afp_dsl::outline::{Binding, Component, Entry, MadeFrom};
 use afp_dsl::toolbox::Constant;
 use afp_dsl::types::{Dimension, Type};
 use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
@@ -143,6 +144,20 @@ pub(super) fn formulas(list: &mut List, wanted: &Wanted, offset: u32) {
     }
     if let Some(expected) = expected {
         literals(list, expected);
+    }
+    inputs_of_computation(list, offset);
+}
+
+/// The inputs that a state of a declared computation reads.
+fn inputs_of_computation(list: &mut List, offset: u32) {
+    let view = list.view;
+    let place = rowan::TextSize::from(offset);
+    let is_around = |node: &Node| node.text_range().contains_inclusive(place);
+    let templates = view.root().children().filter(|node| node.kind() == Kind::Template);
+    let Some(template) = templates.into_iter().find(is_around) else { return };
+    let mut states = template.children().filter(|node| node.kind() == Kind::Outcome);
+    if states.any(|state| is_around(&state)) {
+        list.definitions(view.ports(&template, DefinitionKind::Input).map(|(id, _)| id), 0);
     }
 }
 

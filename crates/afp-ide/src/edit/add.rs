@@ -74,11 +74,20 @@ pub(super) fn splice_of_line(page: &Page<'_>, line: &str) -> Result<Option<Splic
     page.insert_lines(root, place, line, apart).map(Some)
 }
 
+/// Adds plans after the last one; only computations, before the first plan.
 pub(super) fn plans(buffer: &mut TextBuffer, text: &str) -> Result<(), Refused> {
     let (lines, nodes) = fragment::plans(text)?;
     let root = buffer.root();
     let scope = Scope::File(root.clone());
     new_names(&nodes, &scope)?;
+    if let Some(first) = children(&root, Kind::Plan).next()
+        && nodes.iter().all(|node| node.kind() == Kind::Template)
+    {
+        let page = Page { text: buffer.text(), root: root.clone() };
+        let splice = page.insert_lines(&root, Place::Before(first), &lines, true)?;
+        buffer.splice(vec![splice]);
+        return Ok(());
+    }
     let last = children(&root, Kind::Plan).last();
     below_plan(buffer, last.or_else(|| root.children().last()), &lines)
 }

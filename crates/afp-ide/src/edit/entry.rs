@@ -70,7 +70,7 @@ pub(super) fn set_value(
 }
 
 /// Replaces, adds or removes the part after a sign.
-fn set_part(
+pub(super) fn set_part(
     buffer: &mut TextBuffer,
     old: Option<Node>,
     behind: usize,

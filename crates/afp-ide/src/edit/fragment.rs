@@ -3,7 +3,7 @@
 
 use super::Refused;
 use super::list::dedented;
-use super::tree::{children, is_comment, solid_range};
+use super::tree::{below, children, is_comment, keyword, solid_range};
 use afp_format::format;
 use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Severity};
 use afp_syntax::kind::Kind;
@@ -32,6 +32,21 @@ pub(super) fn reference(text: &str) -> Result<(), Refused> {
     read("plan P { actor x: ", text, " {} }", "the name of a template", |item| {
         children(item, Kind::Ref).next()
     })
+}
+
+/// Checks the condition of a state: comparisons with `and` between them.
+pub(super) fn condition(text: &str) -> Result<(), Refused> {
+    let before = "computation C { state S when ";
+    let refused = || Refused::new(format!("'{text}' is not a condition"));
+    let root = without_errors(&format!("{before}{text} {{}} }}")).map_err(|_| refused())?;
+    let mut conditions = below(&root, Kind::When);
+    let end = conditions.next().and_then(|when| solid_range(&when)).map(|range| range.end);
+    let mut tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
+    let plain = !text.contains('\n') && !tokens.any(|token| is_comment(&token));
+    match plain && end == Some(before.len() + text.trim_end().len()) {
+        true => Ok(()),
+        false => Err(refused()),
+    }
 }
 
 /// Parses a fragment between two texts; it must be exactly the result of `find`.
@@ -95,13 +110,17 @@ pub(super) fn items(text: &str, in_element: bool) -> Result<(String, Vec<Node>),
     Ok((lines.collect::<Vec<_>>().join("\n"), nodes))
 }
 
-/// Plans in canonical form, with their nodes.
+/// Plans and computations in canonical form, with their nodes.
 pub(super) fn plans(text: &str) -> Result<(String, Vec<Node>), Refused> {
     let formatted = canonical(text)?;
     let root = without_errors(&formatted)?;
     let nodes: Vec<_> = root.children().collect();
-    if nodes.is_empty() || nodes.iter().any(|node| node.kind() != Kind::Plan) {
-        return Err(Refused::new("the text holds something else than plans"));
+    let fits = |node: &Node| match node.kind() {
+        Kind::Template => keyword(node).is_some_and(|word| word.text() == "computation"),
+        kind => kind == Kind::Plan,
+    };
+    if nodes.is_empty() || !nodes.iter().all(fits) {
+        return Err(Refused::new("the text holds something else than plans and computations"));
     }
     Ok((dedented(formatted.trim_end(), ""), nodes))
 }

@@ -2,6 +2,7 @@
 
 mod alone;
 mod data;
+mod declared;
 mod files;
 mod flow;
 mod items;

@@ -8,11 +8,11 @@ use afp_syntax::{Node, Token};
 
 /// A scope of distinct names.
 pub(super) enum Scope {
-    /// The plans of a file, which also differ from its tables.
+    /// The plans and computations of a file, which also differ from its tables.
     File(Node),
     /// The enums of a file, which also differ from its tables.
     Enums(Node),
-    /// The tables of a file, which also differ from its plans and enums.
+    /// The tables of a file, which also differ from its plans, computations and enums.
     Tables(Node),
     /// Entries, elements and global supervisors of a plan.
     Plan(Node),
@@ -28,9 +28,9 @@ impl Scope {
             Scope::Inside(node, kind) => {
                 return below(node, *kind).filter_map(|part| name_of(&part)).collect();
             }
-            Scope::File(node) => (node, &[Kind::Plan, Kind::Table]),
+            Scope::File(node) => (node, &[Kind::Plan, Kind::Template, Kind::Table]),
             Scope::Enums(node) => (node, &[Kind::Enum, Kind::Table]),
-            Scope::Tables(node) => (node, &[Kind::Table, Kind::Plan, Kind::Enum]),
+            Scope::Tables(node) => (node, &[Kind::Table, Kind::Plan, Kind::Template, Kind::Enum]),
             Scope::Plan(node) => (node, &[Kind::Entry, Kind::Element, Kind::Guard]),
             Scope::Element(node) => (node, &[Kind::Guard]),
         };

@@ -49,6 +49,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         }
         "uses" => "What it commands; one element at a time may.",
         "state" => "A way in which it ends.",
+        "and" if within == Kind::When => "Both comparisons must hold.",
         "event" => "What it may report.",
         "exclusive" => "Two events that never hold at the same time.",
         "when" => "It holds, or is reached, only if all comparisons hold.",

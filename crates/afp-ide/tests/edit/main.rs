@@ -31,6 +31,7 @@ const PLANS: &[&str] = &[
     include_str!("../../../../plans/wall_following.afp"),
     include_str!("../../../afp-dsl/tests/graph/sub_plans.afp"),
     include_str!("../../../afp-dsl/tests/graph/conversions.afp"),
+    include_str!("../../../afp-dsl/tests/graph/declared.afp"),
     "plan P { in a: int, out b: int start x supervise g: G { E -> y } \
      actor x: X(p = a, q => b) { supervise l: L every 1 ms { E -> x, F -> ignore } S -> y T -> z } \
      actor y: Y { S -> z } computation z: Z(p = b) { S -> terminate U -> x } }",
@@ -180,7 +181,7 @@ fn any_change(which: u8, words: [&str; 4]) -> Change {
         _ => Item::local("P", "x", &one),
     };
     let plan = "P".to_owned();
-    match which % 22 {
+    match which % 24 {
         0 => Change::AddUse { toolbox: one, alias: some(two) },
         1 => Change::AddPlan { text: format!("plan {one} {{ {two} }}") },
         2 => Change::Add { plan, owner: None, text: format!("var {one}: int"), before: some(two) },
@@ -205,6 +206,8 @@ fn any_change(which: u8, words: [&str; 4]) -> Change {
         18 => Change::SetDoc { item, text: two },
         19 => Change::Move { item, plan: two, owner: some(three) },
         20 => Change::SetNote { item, text: two },
+        21 => Change::SetCondition { computation: one, state: two, condition: some(three) },
+        22 => Change::Assign { computation: one, state: two, output: three, formula: some(four) },
         _ => Change::Extract { plan, elements: vec![one, two], new_plan: three, element: four },
     }
 }

@@ -114,6 +114,8 @@ fn label(changes: &[Change]) -> String {
         Change::Reorder { item, .. } | Change::Move { item, .. } => {
             format!("move '{}'", item.name())
         }
+        Change::SetCondition { state, .. } => format!("change '{state}'"),
+        Change::Assign { output, .. } => format!("set '{output}'"),
         Change::Bind { port, .. } => format!("set '{port}'"),
         Change::Unbind { port, .. } => format!("unset '{port}'"),
         Change::SetTemplate { component: item, .. }

@@ -95,7 +95,10 @@ impl Given {
             }
             C::Remove { item } => C::Remove { item: self.item(item) },
             C::Rename { item, to } => C::Rename { item: self.item(item), to },
-            C::RenameColumn { .. } | C::RenameValue { .. } => change,
+            C::RenameColumn { .. }
+            | C::RenameValue { .. }
+            | C::SetCondition { .. }
+            | C::Assign { .. } => change,
             C::Connect { from, outcome, to } => {
                 let to = self.target(from.plan_name(), to);
                 C::Connect { from: self.item(from), outcome, to }
