@@ -23,7 +23,7 @@ pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnos
     };
     match error.code {
         Code::E0209 => unit(text, &error)
-            .or_else(|| unit_alone(name, &error))
+            .or_else(|| unit_alone(text, name, &error))
             .or_else(|| entry(head?, name, &error)),
         Code::E0239 => head.and_then(|head| path(program, head, (text, name), &error)),
         Code::E0210 => event(program, text, name, &error),
@@ -65,8 +65,9 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
 }
 
 /// `d / cm`: a unit without its number.
-fn unit_alone(name: &str, error: &Diagnostic) -> Option<Diagnostic> {
-    let unit = Unit::parse(name).filter(|_| name.len() > 1)?;
+fn unit_alone(text: &str, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
+    let is_factor = text[..error.span.start as usize].trim_end().ends_with(['/', '*']);
+    let unit = Unit::parse(name).filter(|_| name.len() > 1 || is_factor)?;
     let better = format!("1 {name}");
     let help = message!("a unit needs a number: write '{}'", better);
     (!unit.celsius).then(|| error.bare().help(help).replace(better))

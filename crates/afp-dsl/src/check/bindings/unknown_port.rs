@@ -6,8 +6,22 @@ use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::EntryKind;
 use crate::toolbox::TemplateKind;
 use afp_syntax::ast::Bind;
-use afp_syntax::diagnostics::{Code, Diagnostic, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Message, words};
 use afp_syntax::message;
+
+/// Ports for a time limit in other languages.
+const LIMITS: &[&str] =
+    &["timeout", "time", "time_limit", "timelimit", "max_time", "limit", "duration", "deadline"];
+
+/// The supervisor for a time limit.
+fn time_limit(value: &str) -> Message {
+    let unit = if value.parse::<f64>().is_ok() { " s" } else { "" };
+    let duration = format!("{value}{unit}");
+    message!(
+        "remove it, and write in the braces: 'supervise late: CheckTimeout(duration = {}) {{ TimedOut -> terminate }}'",
+        duration
+    )
+}
 
 /// What is said of a binding, one of several, whose name is no port.
 pub(super) fn report(
@@ -36,6 +50,12 @@ pub(super) fn report(
         if let Some(better) = assignment(scope, signature, binds, bind, value) {
             let place = port.span.to(formula.span());
             return error.write_at(place, better);
+        }
+        if LIMITS.contains(&&*port.text)
+            && signature.kind == SignatureKind::Template(TemplateKind::Actor)
+            && !known.iter().any(|known| LIMITS.contains(known))
+        {
+            return error.elsewhere(time_limit(value));
         }
         let is_time = matches!(port.text.as_str(), "every" | "deadline");
         let watches = signature.kind == SignatureKind::Template(TemplateKind::Supervisor);

@@ -56,6 +56,11 @@ pub(super) fn unknown_enum(
     offer(error, &home.text, known, none)
 }
 
+/// Says where random numbers come from.
+pub(super) fn random(error: Diagnostic) -> Diagnostic {
+    error.elsewhere("draw the number with the computation 'Random' of 'std'")
+}
+
 /// The error of a name that no entry has, without its help.
 pub(super) fn no_entry(name: &ast::Name) -> Diagnostic {
     let message = message!("there is no entry '{}'", name.text);

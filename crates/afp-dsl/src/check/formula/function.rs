@@ -5,6 +5,7 @@ use afp_types::{Function, Signature};
 use super::Scope;
 use super::operation::{different, dimension, to_float, to_number};
 use crate::check::convert::coerce;
+use crate::check::formula::elsewhere::random;
 use crate::check::meant::decimal_comma;
 use crate::check::names::unknown;
 use crate::graph::{Formula, Op};
@@ -35,7 +36,10 @@ pub(super) fn named(
                 diags.push(error.write_at(span, better));
                 return None;
             }
-            diags.push(unknown(Code::E0243, name.span, message, &name.text, known, ""));
+            diags.push(match name.text.starts_with("rand") {
+                true => random(Diagnostic::new(Code::E0243, name.span, message)),
+                false => unknown(Code::E0243, name.span, message, &name.text, known, ""),
+            });
         }
     }
     function
