@@ -76,7 +76,7 @@ class Plan(_afp.Plan):
         self._change("use", {"toolbox": toolbox, "alias": alias})
 
     def add_plan(self, text: str) -> None:
-        """Add plans, given as text, after the last one."""
+        """Add plans and computations, given as text."""
         self._change("add_plan", {"text": text})
 
     def add(self, text: str, *, plan: str | None = None, owner: str | None = None, before: str | None = None) -> None:
@@ -159,6 +159,20 @@ class Plan(_afp.Plan):
         """
         parts = {"item": entry, "value": None if value is None else spelled(value)}
         self._change("entry_value", parts, not isinstance(value, (str, type(None))))
+
+    def set_condition(self, computation: str, state: str, condition: str | None) -> None:
+        """Set the condition of a state of a declared computation, such as `"error > 2 cm"`; `None`
+        removes it.
+        """
+        self._change("condition", {"computation": computation, "state": state, "condition": condition})
+
+    def assign(self, computation: str, state: str, output: str, formula: str | float | None) -> None:
+        """Set the formula that a state of a declared computation assigns to an output: a formula or a
+        value such as `afp.deg(10)`; `None` removes the assignment.
+        """
+        parts = {"computation": computation, "state": state, "output": output}
+        written = None if formula is None else spelled(formula)
+        self._change("assign", {**parts, "formula": written}, not isinstance(formula, (str, type(None))))
 
     def set_doc(self, item: str, text: str) -> None:
         """Set the help text of an item; an empty one removes it."""

@@ -135,6 +135,17 @@ pub fn read(kind: &str, parts: &Bound<'_, PyDict>, text: &str) -> PyResult<Chang
         "entry_value" => {
             Change::SetEntryValue { entry: of.item("item")?, value: of.maybe("value")? }
         }
+        "condition" => Change::SetCondition {
+            computation: of.part("computation")?,
+            state: of.part("state")?,
+            condition: of.maybe("condition")?,
+        },
+        "assign" => Change::Assign {
+            computation: of.part("computation")?,
+            state: of.part("state")?,
+            output: of.part("output")?,
+            formula: of.maybe("formula")?,
+        },
         "doc" => Change::SetDoc { item: of.item("item")?, text: of.part("text")? },
         "move" => Change::Move {
             item: of.item("item")?,
