@@ -56,6 +56,10 @@ pub enum Subject {
     },
     /// A path of a scenario.
     Path(String),
+    /// A word before an edge, whose name may be an event.
+    Event,
+    /// A value without the port that it is for.
+    Value,
 }
 
 /// What the help of a diagnostic asks for.

@@ -1,9 +1,10 @@
 //! Habits of other languages: what is written, what is wrong with it, and the plan text that says the same.
 //!
-//! The only table of them. A pattern is a list of tokens with blanks between them; the parser looks for it where something does
-//! not fit its grammar, on one line:
+//! The only table of them; single words are in `words`. A pattern is a list of tokens with blanks between them. The parser
+//! looks for it if something does not fit its grammar, on one line:
 //!
-//! - `NAME` is a name, `ENTRY` one of an entry, `SAME` the first name again, `NUM` a number with its unit, `..` anything up to the next token of the pattern, brackets and braces as a
+//! - `NAME` is a name, `STATE` one with a capital letter, `ENTRY` one of an entry, `SAME` the first name again, `NUM` a number
+//!   with its unit, `TEXT` a text without its quotes, `..` anything up to the next token of the pattern, brackets and braces as a
 //!   whole. Each of these is captured. A `..` at the end is the rest of the line.
 //! - `a|b` is one of several, which is not captured; an alternative that is empty, as in `|:`, makes it optional.
 //! - Any other word or sign is itself, `PIPE` and `POWER` are '|' and '^'. A ';' is passed over unless the pattern has one.
@@ -12,11 +13,14 @@
 //! In the sentences `{1}` is a capture, and a word in braces is something else that the parser knows (see its `elsewhere`).
 
 mod sensors;
+mod words;
 
 pub(crate) use sensors::Sensor;
+pub use words::{ENDS, REACTIONS, STATES, TYPES, ours};
+pub(crate) use words::{WORDS, converted};
 
 /// Where habits are looked for, one bit each.
-pub(crate) type Places = u8;
+pub(crate) type Places = u16;
 
 /// Where an item of a file begins.
 pub(crate) const FILE: Places = 1;
@@ -34,6 +38,8 @@ pub(crate) const BEHIND: Places = 1 << 5;
 pub(crate) const VALUE: Places = 1 << 6;
 /// Behind an operand.
 pub(crate) const OPERATOR: Places = 1 << 7;
+/// Behind a template and its ports, before the braces.
+pub(crate) const HEAD: Places = 1 << 8;
 const EDGES: Places = BODY | EVENTS;
 const ITEMS: Places = FILE | PLAN;
 const INSIDE: Places = PLAN | BODY;
@@ -45,8 +51,10 @@ pub(crate) enum Write {
     Edit(&'static str),
     /// Says this.
     Say(&'static str),
+    /// Removes what is written, and says this of it.
+    Drop(&'static str),
 }
-use Write::{Edit, Say};
+use Write::{Drop, Edit, Say};
 
 /// A habit.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +73,7 @@ const fn habit(at: Places, pattern: &'static str, says: &'static str, write: Wri
 const TIME_LIMIT: &str = "a time limit is a supervisor of its element";
 const LIMIT: &str = "write in the element's braces: 'supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }'";
 const LATE: &str = "supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }";
+const NO_COMMA: &str = "between the names of states stands a ','";
 pub(crate) const GUARD: &str = "an edge has no condition: lead it to a computation that chooses";
 const CHOOSE: &str = "write '{1} -> choose', and in the plan: '{choose:2:3}'";
 const ACTION: &str = "an edge only leads on, it does nothing itself";
@@ -76,14 +85,15 @@ const CHOSEN: &str = "branch with a computation: '{chosen}'";
 const LOOP: &str = "a plan has no '{word}': an edge leads back to an element";
 const COUNTED: &str = "declare 'var rounds: int = 0', and write 'computation again: Count(value = rounds, \
                        limit = {number:1}, next => rounds) { Again -> {here}, Done -> terminate }'";
-const BACK: &str = "lead the last edge back to the first element: '-> {here}'";
+const BACK: &str = "remove it, and lead the last edge back to the first element: '-> {here}'";
 const FUNCTION: &str = "there is no '{word}': a program is a plan, and plans use plans";
-const PLAN_OF_ITS_OWN: &str = "write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file; \
-                               'subplan' uses it";
+const PLAN_OF_ITS_OWN: &str = "write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file, outside of \
+                               other plans; 'subplan' uses it";
 const PARALLEL: &str = "one element is active at a time; what runs beside it is a supervisor";
 const BESIDE: &str = "put what watches into the braces of an element: 'supervise late: CheckTimeout { TimedOut -> {here} }'";
 const NO_HOOK: &str = "an element does one thing and has no '{word}' action";
-const NEXT_ELEMENT: &str = "lead its edge to an element that does it: 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }'";
+const NEXT_ELEMENT: &str = "remove it, write 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }' in the plan, and lead an edge to that";
+const SET_BEFORE: &str = "remove it, write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }' in the plan, and lead an edge to that";
 const NO_SENSOR: &str = "formulas read no sensor: a supervisor watches it";
 const WATCH: &str = "watch it in an element's braces: 'supervise touch: CheckTouchSensor { TouchSensorPressed -> {here} }'";
 const NO_CLOCK: &str = "formulas have no clock: a supervisor measures time";
@@ -111,6 +121,9 @@ pub(crate) const BRANCH: &str =
 #[rustfmt::skip]
 pub(crate) const HABITS: &[Habit] = &[
     // Times.
+    habit(INSIDE, "delay ( NUM )", WAITS, Say("write 'actor wait: Wait(duration = {ms:1}) { Elapsed -> {here} }' in the plan")),
+    habit(BODY, "after|at|tm|timeout ( NUM , s|sec|second|seconds ) ->|=>|: NAME", TIME_LIMIT, Edit("supervise late: CheckTimeout(duration = {s:1}) { TimedOut -> {2} }")),
+    habit(BODY, "after|at|tm|timeout ( NUM , ms|msec ) ->|=>|: NAME", TIME_LIMIT, Edit(LATE)),
     habit(BODY, "after|at|tm|timeout |: |( NUM |) ->|=>|: NAME", TIME_LIMIT, Edit(LATE)),
     habit(BODY, "after |: |{ NUM : NAME |}", TIME_LIMIT, Edit(LATE)),
     habit(BODY, "after NUM / .. ->|=> NAME", TIME_LIMIT, Edit("supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {3} }")),
@@ -121,7 +134,19 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "timer|every NAME : NUM ..", "a plan has no '{word}': a supervisor reports again and again", Say("write 'supervise {1}: Every(period = {2}) { Due -> {here} }'")),
     habit(PLAN, "rate NUM ..", "a plan has no '{word}': a supervisor reports again and again", Say("write 'supervise tick: Every(period = 1 / {1}) { Due -> {here} }'")),
 
+    habit(HEAD, "timeout|within|for|max |:|=|( NUM |)", TIME_LIMIT, Drop("remove it, and write in the braces: 'supervise late: CheckTimeout(duration = {s:1}) { TimedOut -> terminate }'")),
+    habit(PLAN, "timeout ( NUM ) ^ actor|subplan NAME", TIME_LIMIT, Drop("remove it, and write in the braces of '{2}': 'supervise late: CheckTimeout(duration = {s:1}) { TimedOut -> terminate }'")),
+
     // Conditions.
+    habit(PLAN, "when|on|if started|start|begin|run ->|:|then NAME", "a plan begins with 'start'", Edit("start {1}")),
+    habit(PLAN, "match|switch |( NAME |) { NAME -> .. }", NO_IF, Edit("computation choose: Switch(value = {1}) { {2} -> {3} }")),
+    habit(EDGES, "NAME PIPE PIPE NAME ->|=> NAME", NO_COMMA, Edit("{1}, {2} -> {3}")),
+    habit(EDGES, "NAME && NAME ->|=> NAME", NO_COMMA, Edit("{1}, {2} -> {3}")),
+    habit(EDGES, "NAME PIPE PIPE NAME PIPE PIPE NAME ->|=> NAME", NO_COMMA, Edit("{1}, {2}, {3} -> {4}")),
+    habit(BODY, "[ .. ] ->|=> NAME", GUARD, Say("lead the edges that lead here to 'choose', and write in the plan: '{choose:1:2}'")),
+    habit(EDGES, "-|*|+ NAME -> NAME", "an edge begins with its state or event", Edit("{1} -> {2}")),
+    habit(EDGES, "NAME [ .. ] { .. } ->|=> NAME", GUARD, Say("write '{1} -> choose', and in the plan: '{choose:2:4}'")),
+    habit(PLAN | EDGES, "if|when |( .. ) { start|goto|go|run|-> NAME }", NO_IF, Say("write '{choose:1:2}'")),
     habit(EDGES, "NAME when|if|unless|where|while .. ->|=> NAME", GUARD, Say(CHOOSE)),
     habit(EDGES, "always [ .. ] ->|=>|: NAME", GUARD, Say("lead the edges that lead here to 'choose', and write in the plan: '{choose:1:2}'")),
     habit(EDGES, "NAME [ .. ] ->|=> NAME", GUARD, Say(CHOOSE)),
@@ -132,11 +157,11 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(BEHIND, "when|if|unless|where ..", GUARD, Say("write '{event} -> choose', and in the plan: '{choose:1:target}'")),
     habit(EDGES, "NAME ( NAME => NAME ) -> NAME", "outputs follow the template, not its events", Say("write '{template}({2} => {3})' and '{1} -> {4}'")),
     habit(EDGES, "NAME ( .. ) ->|=> NAME", GUARD, Say(CHOOSE)),
+    habit(EDGES, "guard|cond|condition : .. , NAME -> NAME", GUARD, Say("write '{2} -> choose', and in the plan: '{choose:1:3}'")),
     habit(EDGES, "guard|cond|condition : ..", GUARD, Say("write a computation in the plan: '{choose:1:here}'")),
     habit(PLAN, "guard NAME |: .. ", GUARD, Say("write a computation in the plan: '{choose:2:here}'")),
     habit(PLAN | EDGES, "if|when|unless .. then|->|=> NAME ..", NO_IF, Say("write '{choose:1:2}'")),
     habit(PLAN | EDGES, "if|when|unless .. then|->|=> NAME", NO_IF, Say("write '{choose:1:2}'")),
-    habit(PLAN, "condition|trigger NAME : NAME { .. }", "a condition that is watched is a supervisor", Edit("supervise {1}: {2} {{3}}")),
     habit(PLAN, "if|elif|switch|case|match|when|else|choice|condition|decision|unless true|True|false|False|{ ..", NO_IF, Say(CHOICE)),
     habit(PLAN, "switch|case|match ( .. ) ..", NO_IF, Say("write 'computation choose: Compare(left = {1}, right = 3) { Less -> {here}, Equal, Greater -> terminate }', or 'Switch' for an enum")),
     habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless ( .. ) ..", NO_IF, Say("write '{choose:1:here}'")),
@@ -144,7 +169,6 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless .. :", NO_IF, Say("write '{choose:1:here}'")),
     habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless ..", NO_IF, Say("write '{choose:1:here}'")),
     habit(PLAN, "else|choice|decision|junction ..", NO_IF, Say(CHOICE)),
-    habit(EDGES, "else|otherwise|default ->|=>|: NAME", "edges have no '{word}': each state and event has an edge of its own", Say("write the names with commas before one arrow: 'Less, Equal -> {1}'")),
     habit(EDGES, "if|elif|else|switch|case|match|when|unless (|{|NAME ..", NO_IF, Say(CHOICE)),
     habit(EDGES, "NAME => { NAME }", "an edge has '->' and its target without braces", Edit("{1} -> {2}")),
     habit(VALUE, "if .. then|: .. else ..", NO_FORMULA_IF, Say("branch before it: '{choose:1:here}'")),
@@ -153,11 +177,13 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(OPERATOR, "if .. else ..", NO_FORMULA_IF, Say("branch before it: '{choose:1:here}'")),
     habit(OPERATOR, "&&|&|or|and|xor|is|if|?|PIPE ..", NO_FORMULA_IF, Say(CHOSEN)),
     habit(OPERATOR, "~ = ..", NO_FORMULA_IF, Say(CHOICE)),
-    habit(OPERATOR, "==|!=|<|>|<=|>= ..", NO_FORMULA_IF, Say(CHOSEN)),
+    habit(OPERATOR, "==|!=|~=|<|>|<=|>= ..", NO_FORMULA_IF, Say(CHOSEN)),
     habit(VALUE, "not|! NAME", NO_FORMULA_IF, Say("branch with 'computation choose: Is(value = {1}, equals = true) { Yes -> {here}, No -> terminate }'")),
     habit(VALUE, "not|! (", NO_FORMULA_IF, Say(CHOICE)),
 
     // Actions of states.
+    habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during |: { NAME = .. }", NO_HOOK, Say(SET_BEFORE)),
+    habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during :|/ NAME = ..", NO_HOOK, Say(SET_BEFORE)),
     habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during :|/|(|{|->|=>|NAME ..", NO_HOOK, Say(NEXT_ELEMENT)),
     habit(EDGES, "pass|nop|noop|skip", "nothing is written where nothing happens", Edit("")),
     habit(BODY, "tags|tag|meta|description|id|label|type : ..", "an element has no '{word}'", Edit("")),
@@ -167,6 +193,10 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(EDGES, "NAME < - NAME", "an edge leads from a state to its target", Edit("{2} -> {1}")),
 
     // Loops.
+    habit(PLAN, "retry|repeat|loop |( NUM |) ^ actor|subplan NAME", LOOP, Drop("remove it; to come back, declare 'var rounds: int = 0', and write 'computation again: Count(value = rounds, limit = {number:1}, next => rounds) { Again -> {2}, Done -> terminate }'")),
+    habit(HEAD, "retry|repeat|times|loop |:|=|( NUM |)", LOOP, Drop("remove it; to come back, declare 'var rounds: int = 0', and write 'computation again: Count(value = rounds, limit = {number:1}, next => rounds) { Again -> {here}, Done -> terminate }'")),
+    habit(INSIDE, "repeat|loop|retry|for |( NUM |) |times { NAME }", LOOP, Say("declare 'var rounds: int = 0', and write 'computation again: Count(value = rounds, limit = {number:1}, next => rounds) { Again -> {2}, Done -> terminate }'")),
+    habit(INSIDE, "repeat|loop|retry|for |( NUM |) |times { NAME , ..", LOOP, Say("declare 'var rounds: int = 0', and write 'computation again: Count(value = rounds, limit = {number:1}, next => rounds) { Again -> {2}, Done -> terminate }'")),
     habit(INSIDE, "repeat until .. { ..", LOOP, Say("write '{choose:1:here}'")),
     habit(INSIDE, "repeat|loop|times|retry|for |( NUM ..", LOOP, Say(COUNTED)),
     habit(INSIDE, "for NAME =|in NUM : NUM ..", LOOP, Say("declare 'var {1}: int = 0', and write 'computation again: Count(value = {1}, limit = {3}, next => {1}) { Again -> {here}, Done -> terminate }'")),
@@ -182,22 +212,22 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(FILE, "forever ^ plan NAME {", "'forever' follows the name of the plan", Edit("plan {1} forever {")),
 
     // Waiting and showing.
+    habit(INSIDE, "rate|loop_rate|r . sleep ( )", "a plan has no rate: 'every' of a supervisor is the period of its polls", Edit("")),
     habit(PLAN, "wait until .. ", WAITS, Say("write 'actor wait: Idle { supervise value: CheckValue(value = {left:1}, limit = {right:1}) { Above -> {here}, Below -> ignore } }'")),
-    habit(INSIDE, "delay ( NUM )", WAITS, Say("write 'actor wait: Wait(duration = {ms:1}) { Elapsed -> {here} }' in the plan")),
     habit(INSIDE, "sleep|pause|wait ( NUM )", WAITS, Say("write 'actor wait: Wait(duration = {s:1}) { Elapsed -> {here} }' in the plan")),
     habit(INSIDE, "time . sleep ( NUM )", WAITS, Say("write 'actor wait: Wait(duration = {s:1}) { Elapsed -> {here} }' in the plan")),
     habit(INSIDE, "delay|sleep|pause|wait NUM", WAITS, Say("write 'actor wait: Wait(duration = {s:1}) { Elapsed -> {here} }' in the plan")),
-    habit(INSIDE, "print|println|printf|disp|display|log|echo|puts ( .. )", SHOW, Say(LOG)),
+    habit(INSIDE, "print|println|printf|fprintf|disp|display|log|echo|puts|ROS_INFO|ROS_WARN|RCLCPP_INFO|loginfo|log_info ( .. )", SHOW, Say(LOG)),
     habit(INSIDE, "Serial|console . NAME ( .. )", SHOW, Say("write 'computation show: Log(value = {2}) { Done -> {here} }'")),
     habit(INSIDE, "tic|toc|millis|clock |( ..", NO_CLOCK, Say(TIMED)),
     habit(INSIDE, "digitalWrite|analogWrite|pinMode|tone ( ..", "a plan has no '{word}': actors of a toolbox drive its devices", Say("write an actor, such as 'actor show: Signal { Signalled -> {here} }'")),
     habit(INSIDE, "move|drive|turn|go|forward|backward|left|right |( NUM ..", "a plan has no '{word}': actors of a toolbox drive the robot", Say("write an actor, such as 'actor drive: Forward(distance = 10 cm) { ForwardSuccessful -> {here} }'")),
 
     habit(PLAN, "go|glide|goto |( to ..", "a plan has no '{word}': actors of a toolbox drive the robot", Say("write an actor, such as 'actor there: DriveTo(x = 1 m, y = 1 m, heading = 0 deg) { Arrived, PathLost -> {here} }'")),
-    habit(PLAN, "say|think|speak .. for ..", SHOW, Say(LOG)),
-    habit(PLAN, "say|think|speak ..", SHOW, Say(LOG)),
-    habit(PLAN, "set|let|change ENTRY to .. ", WRITES, Say("write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
-    habit(PLAN, "change|increase|increment ENTRY by .. ", WRITES, Say("write 'computation set: Assign(value = {1} + {2}, result => {1}) { Done -> {here} }'")),
+    habit(INSIDE, "say|think|speak .. for ..", SHOW, Say(LOG)),
+    habit(INSIDE, "say|think|speak ..", SHOW, Say(LOG)),
+    habit(INSIDE, "set|let|change ENTRY to .. ", WRITES, Say("write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(INSIDE, "change|increase|increment ENTRY by .. ", WRITES, Say("write 'computation set: Assign(value = {1} + {2}, result => {1}) { Done -> {here} }'")),
 
     // Sensors and clocks in formulas.
     habit(VALUE, "millis|micros|clock|now|time|toc|tic ( ..", NO_CLOCK, Say(TIMED)),
@@ -206,6 +236,10 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(VALUE, "ultrasonic|sensor|bumper|lidar|sonar|encoder . NAME ..", NO_SENSOR, Say("write in an element's braces: 'supervise near: CheckDistance(distance = 30 cm) { Nearer -> {here}, Farther -> ignore }'")),
     habit(VALUE, "len|size|length|count ( ..", "there are no lists, so nothing has a length", Say("read a 'table' with 'Row' of 'std': its state 'End' says that there are no more rows")),
 
+    habit(VALUE, "Duration|duration|seconds|Seconds|secs|timedelta ( NUM )", "a time is a number with its unit", Edit("{s:1}")),
+    habit(VALUE, "milliseconds|millis|ms|Millis ( NUM )", "a time is a number with its unit", Edit("{ms:1}")),
+    habit(VALUE, "/ ..", "formulas read no topics: an entry holds a value", Say("declare 'in value: float = 0', and write 'value'")),
+
     // Lists.
     habit(VALUE, "[ ..", NO_LIST, Say(TABLE)),
     habit(OPERATOR, "[ .. ] ..", NO_LIST, Say(TABLE)),
@@ -213,6 +247,8 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(INSIDE, "NAME [ .. ] = ..", NO_LIST, Say(TABLE)),
 
     // Signs in formulas.
+    habit(VALUE, "{ NAME }", "a name stands without braces", Edit("{1}")),
+    habit(OPERATOR, "POWER 2", "formulas have no '^'", Say("write '{left} * {left}'")),
     habit(OPERATOR, ". *", "formulas have no '.*'", Edit(" *")),
     habit(OPERATOR, ". /", "formulas have no './'", Edit(" /")),
     habit(OPERATOR, ". POWER ..", "formulas have no '.^'", Say("write a product, such as '{left} * {left}'")),
@@ -220,7 +256,10 @@ pub(crate) const HABITS: &[Habit] = &[
     // Actions.
     habit(TARGET, "{ NAME = .. ; NAME }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {3} }'")),
     habit(TARGET, "{ NAME = .. }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(TARGET, "{ target : NAME }", "a target stands without braces", Edit("{1}")),
     habit(TARGET, "{ target : NAME ..", ACTION, Edit("{1}")),
+    habit(TARGET, "send|raise|emit|broadcast|publish|dispatch|trigger|notify ( STATE )", NO_MESSAGES, Edit("terminate")),
+    habit(TARGET, "send|raise|emit|broadcast|publish|dispatch|trigger|notify |( NAME |)", "an arrow leads on, and sends nothing", Edit("{1}")),
     habit(TARGET, "{ NAME + + }", ACTION, Say(COUNTS_UP)),
     habit(TARGET, "[ NAME , .. ]", "an edge leads to one element", Edit("{1}")),
     habit(TARGET, "# NAME", "a target is the name of an element", Edit("{1}")),
@@ -241,6 +280,8 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "invoke|activity|do|call : NAME ..", "an element runs when an edge leads to it", Say("write 'actor {1}: Wait(duration = 1 s) { Elapsed -> {here} }'")),
 
     // States and events.
+    habit(BODY, "< transition event = TEXT target = TEXT / >", "an edge is 'State -> target'", Edit("{1} -> {2}")),
+    habit(BODY, "< ..", "plans are not XML: an edge is 'State -> target'", Say("write '{state:here} -> terminate' in place of it")),
     habit(BODY, "on |: { NAME : NAME }", "edges stand in the braces without 'on'", Say("write '{1} -> {2}'; an event stands in the braces of its supervisor")),
     habit(BODY, "on : ..", "edges stand in the braces without 'on'", Say("write 'State -> {here}'; an event stands in the braces of its supervisor")),
     habit(PLAN, "on |: { ..", "a plan has no 'on': a supervisor watches", Say("write 'supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }'")),
@@ -261,24 +302,25 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "blackboard|userdata|context|data NAME : NAME", "a plan has no '{word}': an entry holds a value", Edit("var {1}: {2}")),
     habit(PLAN, "delay|timeout NAME |:|= NUM", "an entry that never changes begins with 'const'", Edit("const {1} = {2}")),
     habit(PLAN, "transition|edge| NAME to NAME on|when|if NAME", EDGE_OUTSIDE, Say("write '{3} -> {2}' in the braces of '{1}'")),
+    habit(PLAN, "STATE ->|=> NAME", EDGE_OUTSIDE, Say("write '{1} -> {2}' in the braces of '{here}'")),
     habit(PLAN, "NAME |- -> NAME : NAME", EDGE_OUTSIDE, Say("write '{3} -> {2}' in the braces of '{1}'")),
-    habit(PLAN, "NAME - -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
+    habit(PLAN, "NAME - -> NAME", EDGE_OUTSIDE, Say("write '{state:1} -> {2}' in the braces of '{1}'")),
     habit(PLAN, "transition|edge NAME : NAME -> NAME", EDGE_OUTSIDE, Say("write '{1} -> {3}' in the braces of '{2}'")),
-    habit(PLAN, "transition|edge| NAME -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
-    habit(PLAN, "NAME - - -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
+    habit(PLAN, "transition|edge| NAME -> NAME", EDGE_OUTSIDE, Say("write '{state:1} -> {2}' in the braces of '{1}'")),
+    habit(PLAN, "NAME - - -> NAME", EDGE_OUTSIDE, Say("write '{state:1} -> {2}' in the braces of '{1}'")),
     habit(INSIDE, "send|raise|emit|trigger|broadcast|notify|publish|dispatch ..", NO_MESSAGES, Say(CHANGED)),
     habit(INSIDE, "goto|goTo|transition_to|next NAME", "a plan has no '{word}': an edge leads on", Say("write 'State -> {1}' in the braces of an element")),
-    habit(INSIDE, "break|continue|return|stop|exit|end |NAME ..", "a plan has no '{word}': an edge leads on or ends it", Say("write '-> terminate' behind a state or event, or give a value out with an 'out' entry")),
+    habit(INSIDE, "break|continue|return|stop|exit|end |NAME ..", "a plan has no '{word}': an edge leads on or ends it", Say("write '{state:here} -> terminate' in the braces of '{here}', or give a value out with an 'out' entry")),
 
     // Behaviour trees.
-    habit(ITEMS, "sequence|seq|chain |NAME { NAME |, NAME ..", SEQUENCE, Say("write 'State -> {2}' in the braces of '{1}'")),
+    habit(ITEMS, "sequence|seq|chain |NAME { NAME |, NAME ..", SEQUENCE, Say("write '{state:1} -> {2}' in the braces of '{1}'")),
     habit(ITEMS, "fallback|selector |NAME { NAME |, NAME ..", "a plan has no '{word}': an 'Error' edge leads to what comes instead", Say("write 'Error -> {2}' in the braces of '{1}'")),
     habit(ITEMS, "reactive|memory|async|parallel sequence|fallback|selector ..", "a plan has no '{word}' nodes: a supervisor watches during an element", Say("write in the element's braces: 'supervise near: CheckDistance { Nearer -> {here}, Farther -> ignore }'")),
     habit(ITEMS, "decorator ..", "a plan has no decorators: each state has an edge of its own", Say("lead the edge of each state where it should: 'Error -> {here}'")),
     habit(ITEMS, "< ..", "plans are not XML: each leaf of a tree is an element", Say("write 'actor step: Forward { ForwardSuccessful -> {here} }' for a leaf, and '->' to what comes next")),
     habit(ITEMS, "sequence|seq|chain|fallback|selector ..", SEQUENCE, Say("write 'State -> {here}' in the braces of the element before it")),
     habit(PLAN, "inverter|invert|force_success|force_failure|succeeder ..", "a plan has no '{word}': each state has an edge of its own", Say("lead the edge of each state where it should: 'Error -> {here}'")),
-    habit(PLAN, "subtree|submachine|sub NAME", "a plan in a plan is a 'subplan'", Say("write 'subplan {1}: {Large:1} { OK -> {here} }'")),
+    habit(PLAN, "subtree|submachine|sub NAME ..", "a plan in a plan is a 'subplan'", Say("write 'subplan {1}: {Large:1} { OK -> {here} }'")),
 
     // ROS.
     habit(PLAN, "topic NAME : NAME", "a plan has no topics: an entry holds a value", Say("write 'in {1}: {2}', and a value behind it")),
@@ -289,7 +331,6 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(ITEMS, "launch|roslaunch ..", "a plan starts nothing: 'afpc run' starts it", Edit("")),
     habit(PLAN, "spin|spinOnce|ros|rclpy |( ..", "a plan runs by itself", Say("remove it")),
     habit(BODY, "feedback|result ..", "outputs go to entries, in the brackets of the template", Say("write 'driven => {left}' in the brackets behind '{template}'")),
-    habit(ITEMS, "node NAME { ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
 
     // Declarations.
     habit(PLAN, "static|const|constexpr const|int|long|float|double|bool|byte |int|long|float NAME = NUM", "an entry that never changes begins with 'const'", Edit("const {1} = {2}")),
@@ -298,7 +339,8 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "int|long|short|uint8_t|int32 NAME = NUM", "an entry begins with 'var', and its type follows the name", Edit("var {1}: int = {2}")),
     habit(PLAN, "float|double|real NAME = NUM", "an entry begins with 'var', and its type follows the name", Edit("var {1}: float = {2}")),
     habit(PLAN, "bool|boolean NAME = true|false", "an entry begins with 'var', and its type follows the name", Edit("var {1}: bool = {last}")),
-    habit(PLAN, "let|auto|local|global|val mut| NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
+    habit(PLAN, "let|auto|local|global|val|def|my|private|public|static|readonly|persistent mut|const|static|var| NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
+    habit(PLAN, "let|auto|local|global|val|def|my|private|public|static|readonly|persistent mut|const|static|var| NAME : ..", "an entry begins with 'var'", Edit("var {1}: {2}")),
     habit(FILE, "const|let|var|static NAME = ..", "entries stand in the braces of a plan", Say("move it into the plan, as 'const {small:1}: int = {2}'")),
     habit(PLAN, "ENTRY = ..", WRITES, Say("write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
     habit(INSIDE, "ENTRY + = ..", WRITES, Say("write 'computation set: Assign(value = {1} + {2}, result => {1}) { Done -> {here} }' in the plan")),
@@ -316,7 +358,8 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "param|parameter|input|argument NAME = NUM", "an entry that is given from outside begins with 'in', and has a type", Edit("in {1}: {type:2} = {2}")),
 
     // Functions, classes and files.
-    habit(ITEMS, "void|int|fn|func|function|def|sub|proc|async loop|Loop ( ) ..", FUNCTION, Say("write 'plan Loop forever { start wait actor wait: Wait { Elapsed -> wait } }'")),
+    habit(INSIDE, "\"\" TEXT \"\"", "help text begins with '///'", Edit("/// {1}")),
+    habit(ITEMS, "void|int|fn|func|function|def|sub|proc|async loop|Loop ( ) ..", FUNCTION, Say("write 'plan Loop forever { start wait actor wait: Wait { Elapsed -> wait } }' in the file, outside of other plans")),
     habit(ITEMS, "void|int|fn|func|function|def|sub|proc|async NAME ( ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
     habit(ITEMS, "function NAME = NAME ( ..", FUNCTION, Say("write 'plan {Large:2} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file; 'subplan' uses it")),
     habit(PLAN, "lambda ..", "there is no '{word}': a formula is written where its value is needed", Say("write it at the port, such as 'Wait(duration = 1 s * 2)'")),
@@ -330,108 +373,3 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(BODY, "NAME ( ..", "an element does one thing: another action is another element", Say("give '{1}' an element of its own in the plan, and lead an edge to that")),
     habit(INSIDE, "try|catch|except|finally|throw ..", "a plan has no '{word}': a failure takes the 'Error' edge", Say("write 'Error -> {here}' in the braces of the element")),
 ];
-
-/// Words that stand for ours elsewhere, by the role that ours have.
-pub(crate) const WORDS: &[(&str, &[&str])] = &[
-    ("actor", &["state", "action", "step", "node", "behavior", "behaviour", "task"]),
-    ("supervise", &["supervisor", "guard", "watch", "monitor"]),
-    ("supervisor", &["supervise", "guard", "watch", "monitor"]),
-    ("in", &["input", "param", "parameter"]),
-    ("out", &["output", "result"]),
-    ("var", &["variable"]),
-    ("const", &["constant", "static", "final"]),
-    ("subplan", &["sub", "subtree", "submachine"]),
-    ("start", &["begin", "initial", "first", "entry"]),
-    ("uses", &["use"]),
-    ("every", &["each", "period", "interval", "rate"]),
-    ("deadline", &["within", "timeout"]),
-    ("expect", &["assert", "require"]),
-];
-
-/// Words that stand behind `->` elsewhere: for the ends of plans, and for reactions to events.
-pub const ENDS: &[(&str, &[&str])] = &[
-    (
-        "terminate",
-        &[
-            "stop", "end", "done", "finish", "finished", "exit", "quit", "halt", "success",
-            "return", "final",
-        ],
-    ),
-    ("fail", &["error", "failure", "failed", "abort", "aborted", "panic"]),
-];
-pub const REACTIONS: &[(&str, &[&str])] = &[
-    ("ignore", &["none", "nothing", "nop", "noop", "pass", "skip", "null", "nil"]),
-    (
-        "resume",
-        &[
-            "continue", "proceed", "go_on", "goon", "carry_on", "history", "hist", "previous",
-            "last",
-        ],
-    ),
-];
-
-/// States that are called otherwise elsewhere: the only state of an element, and its failure.
-pub const STATES: &[(&str, &[&str])] = &[
-    (
-        "OK",
-        &[
-            "ok",
-            "success",
-            "succeeded",
-            "successful",
-            "done",
-            "ondone",
-            "onsuccess",
-            "result",
-            "finished",
-            "complete",
-            "completed",
-            "reached",
-            "arrived",
-            "next",
-            "then",
-        ],
-    ),
-    ("Error", &["error", "failure", "failed", "fail", "onerror", "aborted", "abort", "rejected"]),
-];
-
-/// Types that are called otherwise elsewhere.
-pub const TYPES: &[(&str, &[&str])] = &[
-    ("bool", &["boolean"]),
-    ("int", &["integer", "long", "short", "uint", "int32", "int64", "uint8", "i32", "i64", "u8"]),
-    (
-        "float",
-        &["double", "real", "number", "float32", "float64", "f32", "f64", "percent", "ratio"],
-    ),
-    ("string", &["str", "text", "char"]),
-    ("length", &["distance", "meters", "meter"]),
-    ("duration", &["time", "seconds", "second"]),
-    ("angle", &["degrees", "radians", "heading"]),
-    ("speed", &["velocity"]),
-    ("angular_speed", &["angular_velocity", "angularVelocity"]),
-];
-
-/// Units that the language does not have: so many of another one.
-const UNITS: &[(&[&str], f64, &str)] = &[
-    (&["in", "inch", "inches"], 2.54, "cm"),
-    (&["ft", "foot", "feet"], 30.48, "cm"),
-    (&["yd", "yard", "yards"], 91.44, "cm"),
-    (&["mi", "mile", "miles"], 1.609_344, "km"),
-    (&["mph"], 0.447_04, "m/s"),
-    (&["lb", "lbs", "pound", "pounds"], 0.453_592_37, "kg"),
-    (&["rpm"], 6.0, "deg/s"),
-];
-
-/// Our word for one of another language, in any case of letters.
-pub fn ours(words: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> {
-    let is_it = |others: &&[&str]| others.iter().any(|it| it.eq_ignore_ascii_case(name));
-    words.iter().find(|(_, others)| is_it(others)).map(|(ours, _)| *ours)
-}
-
-/// A quantity of a foreign unit in one that the language has: `30.48 cm` for `12` and `in`.
-pub(crate) fn converted(number: &str, unit: &str) -> Option<String> {
-    let (_, factor, ours) = UNITS.iter().find(|(words, ..)| words.contains(&unit))?;
-    // Fewer digits than a float has, so that no rounding is seen.
-    let rounded: f64 = format!("{:.11e}", number.parse::<f64>().ok()? * factor).parse().ok()?;
-    Some(format!("{rounded} {ours}"))
-}

@@ -14,9 +14,9 @@ pub(crate) const TOOL: Roles = 1 << 1;
 /// Begins an entry of a plan.
 pub(crate) const ENTRY: Roles = 1 << 2;
 /// Begins an element of a plan.
-const ELEMENT: Roles = 1 << 3;
+pub(crate) const ELEMENT: Roles = 1 << 3;
 const START: Roles = 1 << 4;
-const SUPERVISE: Roles = 1 << 5;
+pub(crate) const SUPERVISE: Roles = 1 << 5;
 /// Begins a part of a template.
 pub(crate) const PART: Roles = 1 << 6;
 /// Begins a part of a device.

@@ -230,10 +230,8 @@ impl<'t> Lexer<'t, '_> {
         let span = self.push(Kind::Name, length);
         if !text.is_ascii() {
             let message = message!("the name '{}' has characters that are not ASCII", text);
-            self.diags.push(
-                Diagnostic::new(Code::E0113, span, message)
-                    .help("use the letters a to z and A to Z, digits and '_'"),
-            );
+            self.diags
+                .push(Diagnostic::new(Code::E0113, span, message).help(foreign::spelled(text)));
         }
     }
 
@@ -260,6 +258,12 @@ impl<'t> Lexer<'t, '_> {
                 _ => {}
             }
         }
+        // The brace that begins a body is none of the text.
+        let before_brace = line.trim_end().strip_suffix('{').map(str::trim_end);
+        let line = before_brace.map_or(line, |line| match line.rsplit_once(" for ") {
+            Some((text, _)) => text,
+            None => line,
+        });
         let joined = self.text_of_lines(line);
         let span = self.push(Kind::Text, line.trim_end().len());
         if let Some((length, text)) = joined {

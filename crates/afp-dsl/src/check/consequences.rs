@@ -71,7 +71,10 @@ pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut D
     let plans: Vec<Span> = program.plans.iter().map(|head| head.node.span()).collect();
     let mut explained = 0;
     diags.change(|each| {
-        if each.code == Code::E0239 && explained < MOST_EXPLAINED {
+        let may_be_else = matches!(each.code, Code::E0210 | Code::E0239);
+        if (may_be_else || matches!(each.subject, Subject::Event | Subject::Value))
+            && explained < MOST_EXPLAINED
+        {
             explained += 1;
             let plan = plans.iter().position(|plan| plan.contains(each.span));
             *each = meant::explain(program, plan, each.clone());

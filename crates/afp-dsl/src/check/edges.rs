@@ -219,10 +219,9 @@ pub(super) fn connect<'e>(
                 connected.spans.extra = Some(span);
             }
             None => {
-                diags.push(unknown_outcome(origin, name, extra));
-                // 'OK' of an actor is meant for its state.
-                let added = matches!(name.text.as_str(), ERROR | DEADLINE_MISSED);
-                unknown += usize::from(!added);
+                let (error, meant) = unknown_outcome(origin, edges, name);
+                diags.push(error);
+                unknown += meant;
                 continue;
             }
         }
@@ -281,7 +280,31 @@ pub(crate) fn word(name: &str) -> Option<Word> {
     })
 }
 
-fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic {
+/// The error for a name that no state or event has, and the number of them that it may stand for.
+fn unknown_outcome(origin: &Origin<'_>, edges: &[WrittenEdge], name: &Name) -> (Diagnostic, usize) {
+    let own = origin.signature.outcomes.iter().map(|outcome| &**outcome);
+    let missing: Vec<&str> =
+        own.filter(|own| edges.iter().all(|edge| edge.name.text != *own)).collect();
+    if is_rest(&name.text) {
+        let message =
+            message!("edges have no '{}': each state and event has an edge of its own", name.text);
+        let error = Diagnostic::new(Code::E0210, name.span, message);
+        return match missing.len() {
+            0 => (error.help("remove it: all of them have one"), 0),
+            many => (error.write(missing.join(", ")), many),
+        };
+    }
+    // 'OK' of an actor is meant for its state.
+    let added = matches!(name.text.as_str(), ERROR | DEADLINE_MISSED);
+    (of_no_outcome(origin, name), usize::from(!added))
+}
+
+/// Whether other languages have the word for all states that have no edge of their own.
+fn is_rest(name: &str) -> bool {
+    matches!(name, "else" | "otherwise" | "default" | "any" | "sonst" | "sinon" | "_")
+}
+
+fn of_no_outcome(origin: &Origin<'_>, name: &Name) -> Diagnostic {
     let word = if origin.supervisor { "event" } else { "state" };
     let message = message!("'{}' has no {} '{}'", origin.signature.name, Words(word), name.text);
     if origin.supervisor && name.text == ERROR {
@@ -293,12 +316,13 @@ fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic 
     let meant = match (ours(STATES, &name.text), own.as_slice()) {
         (Some("Error"), _) => Some(ERROR),
         (Some(_), [only]) => Some(&**only),
+        (Some(ok), own) if own.iter().any(|own| **own == *ok) => Some(ok),
         _ => None,
     };
     if let Some(meant) = meant.filter(|_| !origin.supervisor) {
         return Diagnostic::new(Code::E0210, name.span, message).write(meant);
     }
-    let known = own.iter().map(|outcome| &**outcome).chain([extra]);
+    let known = own.iter().map(|outcome| &**outcome).chain([origin.extra()]);
     unknown(Code::E0210, name.span, message, &name.text, known, "remove the edge")
 }
 

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::{PlanHead, Program};
-use crate::toolbox::{TemplateKind, Toolbox};
+use crate::toolbox::{Template, TemplateKind, Toolbox};
 use crate::types::text::written;
 use afp_syntax::ast;
-use afp_syntax::diagnostics::{Code, Diagnostic, Message};
+use afp_syntax::diagnostics::{Code, Diagnostic, Message, Subject, list};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
@@ -18,6 +18,12 @@ pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnos
     else {
         return error;
     };
+    if error.subject == Subject::Event {
+        return head.and_then(|head| behind_word(program, head, text, &error)).unwrap_or(error);
+    }
+    if error.subject == Subject::Value {
+        return value(program, text, &error).unwrap_or(error);
+    }
     let Some(name) = text.get(error.span.start as usize..error.span.end as usize) else {
         return error;
     };
@@ -26,7 +32,7 @@ pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnos
             .or_else(|| unit_alone(text, name, &error))
             .or_else(|| entry(head?, name, &error)),
         Code::E0239 => head.and_then(|head| path(program, head, (text, name), &error)),
-        Code::E0210 => event(program, text, name, &error),
+        Code::E0210 => head.and_then(|head| event(program, head, (text, name), &error)),
         Code::E0216 => element(program, plan, name, &error)
             .or_else(|| no_element(program, head?, name, &error)),
         _ => None,
@@ -118,27 +124,93 @@ fn path(
     Some(said.help(help))
 }
 
-/// An event of a supervisor in the place of a state.
-fn event(program: &Program<'_>, text: &str, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
+/// `on TouchSensorPressed -> back`: an event of a supervisor behind a word.
+fn behind_word(
+    program: &Program<'_>,
+    head: &PlanHead,
+    text: &str,
+    error: &Diagnostic,
+) -> Option<Diagnostic> {
+    let behind = text.get(error.span.end as usize..)?;
+    let start = text.len() - behind.trim_start().len();
+    let name = text.get(start..)?;
+    let name = &name[..name.find(|each: char| !each.is_ascii_alphanumeric() && each != '_')?];
+    let [start, end] = [start, start + name.len()].map(|at| u32::try_from(at).ok());
+    let place = Span { start: start?, end: end?, ..error.span };
+    let of_event = Diagnostic::new(error.code, place, "");
+    let mut said = event(program, head, (text, name), &of_event)?;
+    let fix = said.fix.take()?;
+    said.span = error.span.to(fix.span);
+    Some(said.replace(fix.text))
+}
+
+/// `Forward(30 cm)`: a value without its port, which its place may tell.
+fn value(program: &Program<'_>, text: &str, error: &Diagnostic) -> Option<Diagnostic> {
+    let before = text.get(..error.span.start as usize)?;
+    let (mut depth, mut commas, mut open) = (0_usize, 0, None);
+    for (at, sign) in before.char_indices().rev() {
+        match sign {
+            ')' => depth += 1,
+            '(' if depth == 0 => {
+                open = Some(at);
+                break;
+            }
+            '(' => depth -= 1,
+            ',' if depth == 0 => commas += 1,
+            '{' | '}' => return None,
+            _ => {}
+        }
+    }
+    let head = before[..open?].trim_end();
+    let name = head.rsplit(|each: char| !each.is_ascii_alphanumeric() && each != '_').next()?;
     let templates = program.toolboxes.iter().flat_map(|toolbox| &toolbox.templates);
-    let mut watching = templates.filter(|it| it.kind == TemplateKind::Supervisor);
-    let template = watching.find(|it| it.outcomes.iter().any(|event| event.name == name))?;
+    let template = { templates }.find(|it| it.name == name)?;
+    let port = &template.inputs.get(commas)?.name;
+    let message = message!("the value has no port; this one may be for '{}'", port);
+    let said = Diagnostic::new(error.code, error.span, message);
+    let better = format!("{port} = ");
+    Some(
+        said.help(message!("write '{}' before it", better.trim_end()))
+            .fix(error.span.before(), better),
+    )
+}
+
+/// An event of a supervisor in the place of a state.
+fn event(
+    program: &Program<'_>,
+    head: &PlanHead,
+    (text, name): (&str, &str),
+    error: &Diagnostic,
+) -> Option<Diagnostic> {
+    let templates = || program.toolboxes.iter().flat_map(|toolbox| &toolbox.templates);
+    let has = |it: &Template| it.outcomes.iter().any(|outcome| outcome.name == name);
+    if templates().any(|it| it.kind != TemplateKind::Supervisor && has(it)) {
+        return None;
+    }
+    let mut watching = templates().filter(|it| it.kind == TemplateKind::Supervisor);
+    let template = watching.find(|it| has(it))?;
     let behind = text.get(error.span.end as usize..)?;
     let target = behind.trim_start().strip_prefix("->")?.trim_start();
     let ends = target.find(|each: char| !each.is_ascii_alphanumeric() && each != '_')?;
+    let end = u32::try_from(text.len() - target.len() + ends).ok()?;
+    let whole = Span { end, ..error.span };
     let edges = template.outcomes.iter().map(|event| match event.name == name {
         true => format!("{name} -> {}", &target[..ends]),
         false => format!("{} -> ignore", event.name),
     });
     let edges: Vec<_> = edges.collect();
+    let guards = head.node.guards().into_iter();
+    let made_of = |guard: &ast::Guard| guard.template().and_then(|it| it.name()).map(|it| it.text);
+    let global = guards.filter(|it| made_of(it).as_ref() == Some(&template.name));
+    if let Some(global) = { global }.find_map(|it| it.name()) {
+        let better = format!("on {} {{ {name} -> {} }}", global.text, &target[..ends]);
+        let message = message!("'{}' is an event of '{}'", name, global.text);
+        let said = Diagnostic::new(error.code, error.span, message);
+        return Some(said.help(message!("write '{}'", better)).fix(whole, better));
+    }
     let watched = &template.name;
     let better = format!("supervise watch: {watched} {{ {} }}", edges.join("  "));
     let message = message!("'{}' is an event of '{}', which a supervisor reports", name, watched);
-    let whole = error.span.to(Span {
-        start: error.span.end,
-        end: u32::try_from(text.len() - target.len() + ends).ok()?,
-        ..error.span
-    });
     let said = Diagnostic::new(error.code, error.span, message);
     Some(said.help(message!("write '{}'", better)).fix(whole, better))
 }
@@ -184,7 +256,10 @@ fn no_element(
     let guards = head.node.guards().into_iter();
     if let Some(guard) = guards.filter_map(|it| it.name()).find(|it| it.text == name) {
         let note = message!("'{}' is a supervisor, which watches beside the elements", name);
-        return Some(said.note(guard.span, note).help("lead to the element that comes next"));
+        let elements = head.node.elements().into_iter().filter_map(|it| it.name()).take(4);
+        let names: Vec<_> = elements.map(|name| name.text).collect();
+        let help = message!("lead to an element: {}", list(names.iter().map(String::as_str), "or"));
+        return Some(said.note(guard.span, note).help(help));
     }
     let mut plans = program.plans.iter().filter_map(|head| head.name.as_ref());
     if let Some(plan) = plans.find(|plan| plan.text == name) {

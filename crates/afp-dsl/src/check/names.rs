@@ -34,7 +34,7 @@ impl DeclaredNames {
         };
         let clash = if first.text == name.text {
             Diagnostic::new(Code::E0212, name.span, message!("'{}' is declared twice", name.text))
-                .help("give one of them another name")
+                .help("remove one of them, or give it another name")
         } else {
             let message =
                 message!("'{}' and '{}' differ only in case or '_'", name.text, first.text);

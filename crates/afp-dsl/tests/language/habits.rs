@@ -23,7 +23,7 @@ plan Main {
     var way: length = 20 cm
     @start<start go>
     supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }
-    actor go: Forward(@args<distance = goal>) {
+    actor go: Forward(@args<distance = goal>) @head<> {
         supervise touch: CheckTouchSensor { @event<TouchSensorPressed -> back> }
         @body<>
         @state<ForwardSuccessful -> turn>
@@ -47,8 +47,8 @@ plan Other {
 ";
 
 /// The names of its parts.
-const PARTS: [&str; 10] =
-    ["args", "event", "body", "state", "start", "value", "way", "side", "item", "top"];
+const PARTS: [&str; 11] =
+    ["args", "head", "event", "body", "state", "start", "value", "way", "side", "item", "top"];
 
 /// The plan with texts in some of its parts.
 fn plan(parts: &BTreeMap<&'static str, String>) -> String {

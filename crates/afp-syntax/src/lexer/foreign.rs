@@ -23,6 +23,7 @@ const SIGNS: &[(&str, Kind, &str)] = &[
     ("≤", Kind::LessEqual, "<="),
     ("≥", Kind::GreaterEqual, ">="),
     ("≠", Kind::NotEqual, "!="),
+    ("~=", Kind::NotEqual, "!="),
     ("−", Kind::Minus, "-"),
     ("×", Kind::Star, "*"),
     ("·", Kind::Star, "*"),
@@ -66,7 +67,8 @@ impl<'t> Lexer<'t, '_> {
         if behind.is_some_and(|next| next.is_none_or(|next| !is_word(next))) {
             return self.include();
         }
-        if rest.starts_with('#') && self.begins_comment() {
+        let is_target = self.text[..self.at].trim_end_matches(' ').ends_with("->");
+        if rest.starts_with('#') && !is_target && self.begins_comment() {
             return self.foreign_comment("#");
         }
         if let Some((length, inner)) = self.foreign_text() {
@@ -240,6 +242,34 @@ impl<'t> Lexer<'t, '_> {
         };
         let span = self.push(kind, length);
         Diagnostic::new(Code::E0101, span, message).help(help)
+    }
+}
+
+/// Returns the help for a name with letters that are not ASCII.
+pub(super) fn spelled(name: &str) -> Message {
+    let mut better = String::new();
+    for each in name.chars() {
+        match each {
+            'ä' | 'æ' => better += "ae",
+            'ö' | 'œ' => better += "oe",
+            'ü' => better += "ue",
+            'Ä' => better += "Ae",
+            'Ö' => better += "Oe",
+            'Ü' => better += "Ue",
+            'ß' => better += "ss",
+            'à'..='å' => better.push('a'),
+            'ç' => better.push('c'),
+            'è'..='ë' => better.push('e'),
+            'ì'..='ï' => better.push('i'),
+            'ñ' => better.push('n'),
+            'ò'..='õ' | 'ø' => better.push('o'),
+            'ù'..='û' => better.push('u'),
+            each => better.push(each),
+        }
+    }
+    match better.is_ascii() {
+        true => message!("write '{}'", better),
+        false => "use the letters a to z and A to Z, digits and '_'".into(),
     }
 }
 

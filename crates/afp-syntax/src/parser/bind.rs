@@ -1,7 +1,7 @@
 //! Bindings: what goes into and out of a component.
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic, Message};
+use crate::diagnostics::{Code, Diagnostic, Message, Subject};
 use crate::kind::Kind;
 use crate::message;
 
@@ -15,6 +15,7 @@ impl Parser<'_, '_> {
             self.repeat(|parser| {
                 if parser.at(Kind::Name) && parser.at_sign_of_bind() {
                     parser.bind();
+                } else if parser.value_without_sign() || parser.points_at_the_end() {
                 } else if alone && parser.stands_alone() {
                     parser.bind_alone();
                 } else {
@@ -90,7 +91,15 @@ impl Parser<'_, '_> {
                 self.pass(2);
             } else {
                 let assigns = self.at(Kind::Colon) && self.nth(1) == Kind::Equal;
-                self.wrong_arrow(1 + usize::from(assigns), "'=' carries data in to a port", "=");
+                let message = "'=' carries data in to a port";
+                match assigns && self.may_take_value(2) {
+                    true => {
+                        let error = Diagnostic::new(Code::E0108, self.ahead(2), message);
+                        self.error(error.help("write '=>' for an output, '=' for an input"));
+                        self.pass(2);
+                    }
+                    false => self.wrong_arrow(1 + usize::from(assigns), message, "="),
+                }
             }
             let value = self.at;
             self.formula();
@@ -116,6 +125,12 @@ impl Parser<'_, '_> {
         }
         self.close();
         self.close_item();
+    }
+
+    /// Whether the name so many ahead is that of an entry that takes values, and ends a binding.
+    fn may_take_value(&self, ahead: usize) -> bool {
+        let ends = matches!(self.nth(ahead + 1), Kind::Comma | Kind::CloseParen);
+        ends && matches!(self.known.entries.get(self.word(ahead)), Some(&("var" | "out")))
     }
 
     /// `distance: length = 3 m`: the type of a port stands in its toolbox.
@@ -159,7 +174,14 @@ impl Parser<'_, '_> {
     /// A value without a port, or text that is no binding at all.
     fn unnamed_bind(&mut self) {
         let (what, help) = self.bind_help();
-        self.skip(what, help, |p| {
+        let is_value = what == "a port"
+            && !self.at(Kind::Name)
+            && (self.nth(0).begins_formula() || self.at(Kind::Text));
+        match is_value {
+            true => self.missing(self.next_span(), what, help, Subject::Value),
+            false => self.report_skipped(what, help, None),
+        }
+        self.pass_to(|p| {
             p.ends_args()
                 || p.at(Kind::Comma)
                 || (p.at(Kind::Name)

@@ -77,19 +77,19 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
     }
     for _ in 0..MOST {
         let Some(wrong) = find(tokens) else { break };
+        if let Some((at, brace, sign)) = in_place(&wrong, tokens) {
+            let message = message!("expected '{}', found '{}'", sign, tokens[at].text);
+            let error = Diagnostic::new(Code::E0102, tokens[at].span(file), message);
+            diags.push(error.help(message!("write '{}'", sign)).replace(sign));
+            reported.push((tokens[at].start, tokens[at].start));
+            tokens[at].kind = brace;
+            continue;
+        }
         let (behind, error, brace) = match wrong {
-            Wrong::Stray(at) => {
+            Wrong::Stray(at) | Wrong::Swapped(at) => {
                 strays.push((tokens[at].span(file), tokens[at].text));
                 reported.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::Unknown;
-                continue;
-            }
-            Wrong::Swapped(at) => {
-                let error =
-                    Diagnostic::new(Code::E0102, tokens[at].span(file), "expected '{', found '}'");
-                diags.push(error.help("write '{'").replace("{"));
-                reported.push((tokens[at].start, tokens[at].start));
-                tokens[at].kind = Kind::OpenBrace;
                 continue;
             }
             Wrong::Missing(behind, opener) => {
@@ -160,6 +160,27 @@ fn doubled(tokens: &[Token<'_>]) -> Vec<usize> {
 /// The token of the grammar behind another one.
 fn next<'t>(tokens: &[Token<'t>], behind: usize) -> Option<Token<'t>> {
     tokens[behind + 1..].iter().copied().find(|token| !token.kind.is_trivia())
+}
+
+/// A token that stands where a brace belongs: the kind and the sign of that.
+fn in_place(wrong: &Wrong, tokens: &[Token<'_>]) -> Option<(usize, Kind, &'static str)> {
+    let opens = |at| (at, Kind::OpenBrace, "{");
+    match *wrong {
+        Wrong::Swapped(at) => Some(opens(at)),
+        Wrong::Unopened(at) => (tokens[at].kind == Kind::OpenParen).then(|| opens(at)),
+        Wrong::Missing(behind, _) => {
+            word_for_a_brace(tokens, behind).map(|at| (at, Kind::CloseBrace, "}"))
+        }
+        Wrong::Stray(_) => None,
+    }
+}
+
+/// The word after a token that ends a block in other languages, on a line without other words.
+fn word_for_a_brace(tokens: &[Token<'_>], behind: usize) -> Option<usize> {
+    let mut solid = (behind + 1..tokens.len()).filter(|at| !tokens[*at].kind.is_trivia());
+    let at = solid.next().filter(|at| matches!(tokens[*at].text, "end" | "END" | "fi" | "done"))?;
+    let ends_line = tokens.get(at + 1).is_none_or(Token::ends_line);
+    ends_line.then_some(at)
 }
 
 /// How many braces open something, and how many close something.

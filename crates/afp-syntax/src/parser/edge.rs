@@ -89,6 +89,11 @@ impl Parser<'_, '_> {
         if !self.arrow() {
             return self.close_item();
         }
+        let is_foreign = self.next_written().is_some_and(|at| at < self.token_index(0));
+        let is_called = is_foreign || matches!(self.nth(1), Kind::Name | Kind::OpenParen);
+        if self.at(Kind::Name) && is_called && self.habit_of_target() {
+            return self.close_item();
+        }
         if self.at(Kind::Name) && (self.on_same_line() || self.target_of_another_line()) {
             self.no_word_before_target();
             let brackets = self.no_brackets();

@@ -8,12 +8,13 @@ mod words;
 use super::Parser;
 use super::habits::is_operator;
 use crate::diagnostics::{Code, Diagnostic, Words};
-use crate::habits::{BEHIND, Habit, OPERATOR, PLAN, Places, TARGET, VALUE, Write};
+use crate::habits::{BEHIND, BODY, Habit, OPERATOR, PLAN, Places, TARGET, VALUE, Write};
 use crate::keywords;
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::message;
 use crate::source::Span;
+pub(super) use matcher::is_large;
 use matcher::{Matcher, beginning, between, is_written};
 use meant::Reads;
 use words::{choose, comparison, time, type_of, with_first};
@@ -51,16 +52,26 @@ impl<'t> Parser<'t, '_> {
     pub(super) fn habit(&mut self, place: Places) -> bool {
         let Some(found) = self.find_habit(place) else { return false };
         let line = &found.line;
-        let (Some(first), Some(last)) = (line.first(), line.get(found.end - 1)) else {
-            return false;
+        // A text for another place says nothing of what is read on.
+        let end = match found.habit.write {
+            Write::Say(_) | Write::Drop(_) => found.next.min(found.end),
+            Write::Edit(_) => found.end,
         };
+        let last = end.checked_sub(1).and_then(|last| line.get(last));
+        let (Some(first), Some(last)) = (line.first(), last) else { return false };
         let here = self.span_of(*first).to(self.span_of(*last));
         // A ';' at the end of the line goes with it.
-        let behind = line.get(found.end).filter(|token| token.text == ";");
+        let behind = line.get(end).filter(|token| token.text == ";");
         let whole = behind.map_or(here, |sign| here.to(self.span_of(*sign)));
         let says = self.filled(found.habit.says, &found, place);
-        let error = |says| Diagnostic::new(Code::E0102, here, message!("{}", Words(says)));
+        let place_of_error = if matches!(found.habit.write, Write::Edit(_)) { whole } else { here };
+        let error =
+            |says| Diagnostic::new(Code::E0102, place_of_error, message!("{}", Words(says)));
         let error = match found.habit.write {
+            Write::Drop(text) => {
+                let help = self.filled(text, &found, place);
+                error(says).help(message!("{}", Words(help))).fix(whole, "")
+            }
             Write::Edit("") => error(says).help("remove it").fix(whole, ""),
             Write::Edit(text) => error(says).write_at(whole, self.filled(text, &found, place)),
             Write::Say(text) => {
@@ -129,7 +140,7 @@ impl<'t> Parser<'t, '_> {
     }
 
     /// The token with a text behind the last one that was read; it may be a sign of another language.
-    fn next_written(&self) -> Option<usize> {
+    pub(super) fn next_written(&self) -> Option<usize> {
         let before = self.at.checked_sub(1).and_then(|before| self.solid.get(before));
         let from = before.map_or(0, |before| *before as usize + 1);
         Some(from + self.tokens.get(from..)?.iter().position(is_written)?)
@@ -249,13 +260,15 @@ impl<'t> Parser<'t, '_> {
                 let right = between(&found.line[..end.unwrap_or(found.end)]);
                 let left =
                     if place & OPERATOR == 0 { String::new() } else { self.operand_before() };
-                choose(&format!("{left} {right}"), self.element)
+                choose(&format!("{left} {right}"), self.element, self.element)
             }
             ["left"] => self.int.to_owned(),
             ["right"] => {
                 let next = found.line.get(1).filter(|it| it.kind == Kind::Int);
                 next.map_or("3", |token| token.text).to_owned()
             }
+            ["state", "here"] => self.state_of(self.element),
+            ["state", at] => self.state_of(capture(at).map_or("", String::as_str)),
             ["type", at] => type_of(capture(at).map_or("", String::as_str)),
             ["ms", _] => number("ms"),
             ["s", _] => number("s"),
@@ -283,11 +296,31 @@ impl<'t> Parser<'t, '_> {
                     at => capture(at).map_or("terminate", String::as_str),
                 };
                 let condition = capture(at).map_or("", String::as_str);
-                choose(condition, then)
+                choose(condition, then, self.element)
             }
             [at] => capture(at).cloned().unwrap_or_default(),
             _ => String::new(),
         }
+    }
+
+    /// The first state of an element that has an edge in the file, for a text that names it.
+    fn state_of(&self, element: &str) -> String {
+        let token = |at: usize| self.solid.get(at).map(|at| self.tokens[*at as usize]);
+        let text = |at: usize| token(at).map_or("", |token| token.text);
+        let mut depth = 0_usize;
+        let head = (0..self.solid.len()).find(|at| text(*at) == element && text(at + 1) == ":");
+        for at in head.unwrap_or(self.solid.len())..self.solid.len() {
+            match text(at) {
+                "{" => depth += 1,
+                "}" if depth <= 1 => break,
+                "}" => depth -= 1,
+                state if depth == 1 && is_large(state) && text(at + 1) == "->" => {
+                    return state.to_owned();
+                }
+                _ => {}
+            }
+        }
+        "State".to_owned()
     }
 
     /// The operand behind which something is written.
@@ -315,6 +348,7 @@ impl<'t> Parser<'t, '_> {
         let is_usual = is_state
             && (self.nth(1) == Kind::Arrow || self.nth(1) == Kind::Comma && self.at_edge())
             || self.at_word("supervise")
+            || place == BODY && self.at_head_elsewhere(&["supervise"])
             || self.at_word_before_edge();
         !is_usual && self.habit(place)
     }
@@ -326,7 +360,7 @@ impl<'t> Parser<'t, '_> {
         let is_strange = is_foreign
             || match self.nth(0) {
                 Kind::Name => is_word && is_operator(self.word(0)),
-                Kind::Pipe | Kind::OpenBracket | Kind::Dot => self.on_same_line(),
+                Kind::Pipe | Kind::OpenBracket | Kind::Dot | Kind::Caret => self.on_same_line(),
                 kind => kind.is_comparison(),
             };
         is_strange && self.habit(OPERATOR)
@@ -336,7 +370,8 @@ impl<'t> Parser<'t, '_> {
     pub(super) fn habit_of_operand(&mut self) -> bool {
         let is_foreign = self.next_written().is_some_and(|at| at < self.token_index(0));
         let is_strange = is_foreign
-            || self.at(Kind::OpenBracket)
+            || matches!(self.nth(0), Kind::OpenBracket | Kind::Slash)
+            || self.at(Kind::OpenBrace) && self.on_same_line()
             || matches!(self.word(0), "if" | "not")
             || self.at(Kind::Name) && matches!(self.nth(1), Kind::OpenParen | Kind::Dot)
             || self.nth(1).is_comparison();

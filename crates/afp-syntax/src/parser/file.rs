@@ -43,6 +43,11 @@ impl Parser<'_, '_> {
                 self.template();
             }
             word if keywords::has(word, PLAN) => self.misplaced(),
+            _ if self.at_plan_elsewhere() => {
+                self.read_as("plan", "a plan");
+                self.plan();
+            }
+            _ if self.word_before_item(&["plan", "enum", "table"]) => self.top_item(),
             _ if !self.is_toolbox && self.habit(FILE) => {}
             _ => {
                 let what = match self.is_toolbox {
@@ -83,6 +88,12 @@ impl Parser<'_, '_> {
             (_, Kind::OpenParen) => vec!["table", "enum"],
             _ => keywords::with(TOP).into_iter().chain(["object", "device", "sensor"]).collect(),
         }
+    }
+
+    /// `node Main { start go`: whether a word that stands for 'plan' is written before a name and items of a plan.
+    fn at_plan_elsewhere(&self) -> bool {
+        let is_head = (self.nth(1), self.nth(2)) == (Kind::Name, Kind::OpenBrace);
+        is_head && keywords::has(self.word(3), PLAN) && self.meant(&["plan"]).is_some()
     }
 
     /// Parses an item of a plan that stands outside of one.
@@ -178,6 +189,7 @@ impl Parser<'_, '_> {
         while self.at(Kind::Name) && !self.at_top_item() {
             self.open_item(Kind::Variant);
             self.take_name();
+            self.numbers_of_values();
             self.close_item();
         }
         let ends = |p: &Self| p.at(closing) || p.at(Kind::CloseBrace) || p.at_top_item();

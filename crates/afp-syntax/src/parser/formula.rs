@@ -66,6 +66,7 @@ impl Parser<'_, '_> {
             Kind::Name if matches!(self.word(0), "true" | "false") && !self.names_something(0) => {
                 self.literal();
             }
+            Kind::Name if self.text_with_a_letter() => {}
             Kind::Name if self.at_function_of_a_library() => {
                 let function = self.word(2);
                 let message = "functions belong to no library";
@@ -152,6 +153,9 @@ impl Parser<'_, '_> {
         }
         self.number_that_ends_with_a_point();
         let is_unit = self.eat(Kind::Unit) || self.unit_of_a_bound();
+        if is_unit {
+            self.unit_in_words();
+        }
         if !is_unit && !self.number_with_letters() && !self.percent() {
             self.unknown_unit();
         }

@@ -8,10 +8,12 @@ mod items;
 mod lines;
 mod names;
 mod numbers;
+mod values;
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, Message, Subject, Words};
 use crate::dimension::Dimension;
+use crate::habits::{ENDS, ours};
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::message;
@@ -50,9 +52,10 @@ impl Parser<'_, '_> {
     /// `start go, turn`
     pub(super) fn one_start(&mut self) {
         let more = (0..).step_by(2).take_while(|at| {
-            (self.nth(*at), self.nth(at + 1)) == (Kind::Comma, Kind::Name)
+            matches!(self.nth(*at), Kind::Comma | Kind::Arrow)
+                && self.nth(at + 1) == Kind::Name
                 && !self.begins_line(at + 1)
-                && (matches!(self.nth(at + 2), Kind::Comma | Kind::CloseBrace)
+                && (matches!(self.nth(at + 2), Kind::Comma | Kind::Arrow | Kind::CloseBrace)
                     || self.begins_line(at + 2))
         });
         let more = 2 * more.count();
@@ -63,10 +66,26 @@ impl Parser<'_, '_> {
 
     /// `Done -> goto turn`
     pub(super) fn no_word_before_target(&mut self) {
-        if self.at_arrow_word() && !self.edge_at(1) {
+        let ends = self.begins_line(2) || matches!(self.nth(2), Kind::CloseBrace | Kind::End);
+        let is_pair = self.nth(1) == Kind::Name && !self.begins_line(1) && ends;
+        if is_pair && let Some(ending) = ours(ENDS, self.word(0)) {
+            let error = Diagnostic::new(Code::E0102, self.ahead(2), "an edge leads to one element");
+            self.error(error.write(ending));
+            self.pass(1);
+        } else if self.at_arrow_word() && !self.edge_at(1) || is_pair && self.is_small_pair() {
             let message = message!("unexpected {} before a target", self.found());
             self.instead(1, message, "remove it", "");
         }
+    }
+
+    /// Whether two words with small letters stand here, neither of which is a word of the grammar.
+    fn is_small_pair(&self) -> bool {
+        let is_small = |word: &str| word.starts_with(|first: char| first.is_ascii_lowercase());
+        let is_free = |word: &str| {
+            is_small(word)
+                && !matches!(word, "and" | "or" | "terminate" | "fail" | "ignore" | "resume")
+        };
+        is_free(self.word(0)) && is_small(self.word(1)) && !self.begins_item()
     }
 
     /// The ':' before a template, or what was written for it.
@@ -87,6 +106,13 @@ impl Parser<'_, '_> {
             let help = message!("write the name first: '{}: {}'", name, template);
             self.expected("':'", help);
             return false;
+        }
+        let is_template = matches!(self.nth(1), Kind::OpenBrace | Kind::OpenParen | Kind::Arrow);
+        if is_template && looks(name, true) && self.on_same_line() {
+            let here = self.behind();
+            let error = Diagnostic::new(Code::E0102, here, "missing ':' before a template");
+            self.error(error.help("write ':'").fix(here, ":"));
+            return true;
         }
         self.expect(Kind::Colon, "write ':' and the template")
     }
@@ -114,7 +140,9 @@ impl Parser<'_, '_> {
         let next = self.at_plan_item() || self.at_word("from");
         let begins = next || self.names_something(0) && self.nth(1) != Kind::Equal;
         if self.eat(Kind::Colon) {
-            self.ty();
+            if !self.type_of_a_type() {
+                self.ty();
+            }
         } else if self.at(Kind::Name) && self.on_same_line() && !begins {
             let (before, word) = (self.word_before(), self.word(0));
             let is_swapped = is_type(before) && !is_type(word);
@@ -230,7 +258,7 @@ impl Parser<'_, '_> {
             Kind::Star if doubled => {
                 let here = self.next_span();
                 let error = Diagnostic::new(Code::E0102, here, "formulas have no '**'");
-                self.error(error.help("write a product, such as 'x * x'"));
+                self.error(error.help(self.power_help()));
                 self.pass(1);
                 Some(true)
             }

@@ -2,12 +2,13 @@
 
 use super::Parser;
 use super::recovery::Body;
+use crate::diagnostics::{Code, Diagnostic, Subject};
 use crate::habits;
-use crate::keywords::{self, ENTRY, NAMED, PLAN};
+use crate::keywords::{self, ELEMENT, ENTRY, NAMED, PLAN, SUPERVISE, with};
 use crate::kind::Kind;
 use crate::message;
 
-/// What to do with a time that stands behind the braces of a supervisor.
+/// The help for a time after the braces of a supervisor.
 const TIME_BEHIND_BODY: &str = "write it behind the supervisor's template, before its '{'";
 /// What the body of an element holds.
 pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
@@ -21,11 +22,12 @@ impl Parser<'_, '_> {
         self.known = self.plans.remove(&self.at).unwrap_or_default();
         self.element = "terminate";
         self.keyword();
-        self.name("give the plan a name");
+        self.word_twice();
+        self.name("give the plan a name, such as 'Main'");
         self.eat_meant("forever", |next| next == Kind::OpenBrace);
         let help = match self.nth(0) {
-            Kind::OpenParen => "remove the brackets: a plan declares what it takes with 'in'",
-            _ => "put the plan's items in braces",
+            Kind::OpenParen => self.help_for_parameters(),
+            _ => "put the plan's items in braces".into(),
         };
         let body = self.open_body(help, Self::at_plan_item);
         if let Some(body) = body {
@@ -54,6 +56,13 @@ impl Parser<'_, '_> {
     /// Passes over what is no item of a plan.
     fn no_plan_item(&mut self) {
         if self.live_before_in() {
+            return self.plan_item();
+        }
+        let heads = with(ELEMENT | SUPERVISE);
+        if self.at_head_elsewhere(&heads) && self.item_meant(ITEMS, &heads) {
+            return self.plan_item();
+        }
+        if self.word_before_item(&heads) {
             return self.plan_item();
         }
         if self.habit(habits::PLAN) {
@@ -146,6 +155,7 @@ impl Parser<'_, '_> {
             self.int = name;
         }
         self.value_and_range();
+        self.comma_for_a_point();
         if !is_typed && self.at != end {
             self.type_behind_value(end);
         }
@@ -203,17 +213,19 @@ impl Parser<'_, '_> {
 
     /// `NAME ":" ref [args]`
     fn head(&mut self, what: &'static str, watches: bool) {
+        self.word_twice();
         self.times_before_template(watches);
         if !watches && self.at(Kind::Name) {
             self.element = self.word(0);
         }
         let is_nameless = self.template_without_name();
-        if !is_nameless {
+        if !is_nameless && !self.name_in_two_words() {
             self.name("give it a name");
         }
         self.times_before_template(watches);
         if is_nameless || self.colon_of_head() {
             self.times_before_template(watches);
+            self.word_before_template();
             // The name of an edge or of the next item is no template.
             let template = !self.names_something(0) && !self.begins_item();
             if self.at(Kind::Name) && (self.on_same_line() || template) {
@@ -293,7 +305,10 @@ impl Parser<'_, '_> {
     pub(super) fn edge_or_skip(&mut self, what: &'static str) {
         if self.at_word_before_edge() {
             let message = message!("unexpected {} before an edge", self.found());
-            return self.instead(1, message, "remove it", "");
+            let error = Diagnostic::new(Code::E0102, self.ahead(1), message).help("remove it");
+            let subject = if what == BODY { Subject::Event } else { Subject::Other };
+            self.error(error.replace("").about(subject));
+            return self.pass(1);
         }
         if self.port_in_braces() {
             return;

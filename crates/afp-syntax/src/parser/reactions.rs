@@ -92,6 +92,15 @@ impl Parser<'_, '_> {
 
     /// The edges of events, in braces; `help` tells who has left them out.
     pub(super) fn events(&mut self, help: impl Into<Message>) {
+        if self.at(Kind::Arrow) && self.nth(1) == Kind::Name && !self.begins_line(1) {
+            let error = Diagnostic::new(
+                Code::E0102,
+                self.ahead(2),
+                message!("an edge of '{}' names its event, in braces", self.template),
+            );
+            self.error(error.help(message!("write '{{ Event -> {} }}' with that", self.word(1))));
+            return self.pass(2);
+        }
         let body = self.open_body(help, Self::begins_body);
         if let Some(body) = body {
             while !self.ends_body(&body) && (!self.at_watch() || self.is_nested()) {

@@ -167,6 +167,10 @@ impl Parser<'_, '_> {
                 Diagnostic::new(Code::E0102, self.next_span(), "expected '{', found '['")
                     .help("write '{' and '}'"),
             ),
+            Kind::Colon if self.on_same_line() && self.begins_line(1) => {
+                self.expected("'{'", "write '{' in place of ':', and '}' at the end");
+            }
+            _ if self.nothing_before_brace() => {}
             _ => self.expected("'{'", help),
         }
         // As indented languages have it.

@@ -65,11 +65,13 @@ impl Parser<'_, '_> {
             "world" => {
                 self.open_item(Kind::World);
                 self.keyword();
+                self.no_sign_behind_word();
                 self.expect(Kind::Text, "write the world's file in double quotes");
             }
             "seed" => {
                 self.open_item(Kind::Seed);
                 self.keyword();
+                self.no_sign_behind_word();
                 self.whole_number("write a whole number");
             }
             "over" => self.over(),
@@ -89,6 +91,7 @@ impl Parser<'_, '_> {
             "until" => {
                 self.open_item(Kind::Until);
                 self.keyword();
+                self.no_sign_behind_word();
                 self.quantity("write a time such as '60 s'");
             }
             _ => self.expectation(),

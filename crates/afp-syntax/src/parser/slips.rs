@@ -2,6 +2,7 @@
 //! what they were meant for.
 
 use super::Parser;
+use super::elsewhere::is_large;
 use crate::diagnostics::{Code, Diagnostic, Message, words};
 use crate::keywords;
 use crate::kind::Kind;
@@ -15,6 +16,16 @@ impl Parser<'_, '_> {
         let is_read = self.slip.is_some_and(|(at, _)| at == self.at);
         let is_word = self.at(Kind::Name) && goes_on && !self.begins_line(1) && !is_read;
         (is_word && self.explains()).then(|| keywords::meant(self.word(0), list))?
+    }
+
+    /// `callback hit: CheckTouchSensor {`: whether a word that stands for one of a list is written before a name and a
+    /// template.
+    pub(super) fn at_head_elsewhere(&self, list: &[&str]) -> bool {
+        use Kind::{Arrow, Colon, Name, OpenBrace, OpenParen};
+        let is_head = (self.nth(1), self.nth(2)) == (Name, Colon)
+            && is_large(self.word(3))
+            && matches!(self.nth(4), OpenParen | OpenBrace | Arrow);
+        is_head && self.meant(list).is_some()
     }
 
     /// Reads the next word as that of a list which it was meant for, after having said so. Returns whether it was.
@@ -50,6 +61,28 @@ impl Parser<'_, '_> {
             self.read_as(word, message!("'{}'", word));
         }
         self.eat_word(word)
+    }
+
+    /// `actor actor go`: says that a word stands there twice, and reads past the second.
+    pub(super) fn word_twice(&mut self) {
+        if self.word(0) == self.word_before() && self.nth(1) == Kind::Name && self.on_same_line() {
+            let message = message!("'{}' stands here twice", self.word(0));
+            self.instead(1, message, "remove it", "");
+        }
+    }
+
+    /// `pub plan Main {`, `async actor go: Wait`: says that a word stands before one of a list, and reads past it. Returns
+    /// whether it does.
+    pub(super) fn word_before_item(&mut self, list: &[&str]) -> bool {
+        let stands = self.at(Kind::Name)
+            && list.contains(&self.word(1))
+            && self.nth(2) == Kind::Name
+            && !self.begins_line(1);
+        if stands {
+            let message = message!("unexpected {} before '{}'", self.found(), self.word(1));
+            self.instead(1, message, "remove it", "");
+        }
+        stands
     }
 
     /// `out live x`: says that nothing else than an input is live, and reads past the word.

@@ -272,7 +272,11 @@ impl Parser<'_, '_> {
             self.close();
             return true;
         }
-        let is_whole = self.eat_word("to");
+        let points = (0..2).all(|at| self.nth(at) == Kind::Dot) && self.on_same_line();
+        if points {
+            self.instead(2, "'to' stands between the ends of a range", "write ' to '", " to ");
+        }
+        let is_whole = points || self.eat_word("to");
         if is_whole {
             self.formula();
         } else {

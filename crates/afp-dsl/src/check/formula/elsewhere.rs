@@ -3,12 +3,24 @@
 use super::Scope;
 use crate::check::names::{offer, unknown};
 use afp_syntax::ast;
-use afp_syntax::diagnostics::{Code, Diagnostic, Sought, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Sought, list, words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// What objects call themselves elsewhere.
-const OWN: &[&str] = &["self", "this"];
+/// Words before the name of a variable in other languages.
+const OWN: &[&str] = &[
+    "self",
+    "this",
+    "blackboard",
+    "bb",
+    "context",
+    "ctx",
+    "data",
+    "userdata",
+    "msg",
+    "params",
+    "vars",
+];
 
 /// What is said of a name that other languages have for a value.
 fn elsewhere(error: &Diagnostic, name: &str) -> Option<Diagnostic> {
@@ -17,9 +29,11 @@ fn elsewhere(error: &Diagnostic, name: &str) -> Option<Diagnostic> {
         "pi" | "PI" | "Pi" | "M_PI" => {
             error.help("write '180 deg' for the angle, '3.141592653589793' for the number")
         }
-        "None" | "none" | "null" | "NULL" | "nil" | "nullptr" | "undefined" => error.elsewhere(
-            "there is none: a 'var' without '=' and a value has no value until one is written",
-        ),
+        "None" | "none" | "null" | "NULL" | "nil" | "nullptr" | "undefined" => {
+            error.elsewhere("remove it and the '=': a 'var' has no value until one is written")
+        }
+        "HIGH" | "ON" | "On" | "yes" | "YES" | "Yes" => error.write("true"),
+        "LOW" | "OFF" | "Off" | "no" | "NO" | "No" => error.write("false"),
         _ => return None,
     })
 }
@@ -45,14 +59,20 @@ pub(super) fn unknown_enum(
         return error;
     }
     if OWN.contains(&home.text.as_str()) && scope.indices.find(&name.text).is_some() {
-        return error.help(message!("write '{}'", name.text)).fix(span, &*name.text);
+        let message = message!("entries have no '{}' in front of them", home.text);
+        return Diagnostic::new(Code::E0239, span, message).write(&*name.text);
     }
     if words::nearest(&home.text, known.clone()).is_none()
         && let Some(error) = elsewhere(&error, &name.text)
     {
         return error;
     }
-    let none = "declare it in the file, or write the name of an entry";
+    let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
+    let entries: Vec<_> = readable.map(|(_, entry)| entry.name.text.as_str()).take(3).collect();
+    let none = match *entries {
+        [] => "declare it in the file".into(),
+        _ => message!("declare it in the file, or write an entry: {}", list(entries, "or")),
+    };
     offer(error, &home.text, known, none)
 }
 

@@ -7,6 +7,11 @@ use crate::habits::{HABITS, Habit, Places};
 use crate::kind::Kind;
 use crate::lexer::Token;
 
+/// Whether a name begins with a capital letter, as states and templates do.
+pub(in crate::parser) fn is_large(name: &str) -> bool {
+    name.starts_with(|first: char| first.is_ascii_uppercase())
+}
+
 /// Whether a token has a text that somebody wrote as part of a plan.
 pub(super) fn is_written(token: &Token<'_>) -> bool {
     !token.kind.is_trivia() && !token.text.is_empty()
@@ -30,7 +35,14 @@ static BY_FIRST: LazyLock<BTreeMap<&'static str, Vec<usize>>> = LazyLock::new(||
 /// The habits of a place whose patterns may begin with a token, in the order of the table.
 pub(super) fn beginning(token: &str, place: Places) -> Vec<&'static Habit> {
     let is_name = token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
-    let classes = if is_name { ["NAME", "ENTRY"].as_slice() } else { &[] };
+    let classes: &[_] = match is_name {
+        true if is_large(token) => &["NAME", "ENTRY", "STATE"],
+        true => &["NAME", "ENTRY"],
+        false if token == "^" => &["POWER"],
+        false if token == "|" => &["PIPE"],
+        false if token.len() > 2 && token.starts_with('"') => &["TEXT"],
+        false => &[],
+    };
     let words = std::iter::once(token).chain(classes.iter().copied());
     let mut found: Vec<usize> =
         words.filter_map(|word| BY_FIRST.get(word)).flatten().copied().collect();
@@ -104,6 +116,12 @@ impl Matcher<'_, '_> {
         let text = self.text(at);
         match part {
             "NAME" if kind == Some(Kind::Name) => self.captures.push(text.to_owned()),
+            "STATE" if kind == Some(Kind::Name) && is_large(text) => {
+                self.captures.push(text.to_owned());
+            }
+            "TEXT" if kind == Some(Kind::Text) => {
+                self.captures.push(text.trim_matches('"').to_owned());
+            }
             "NUM" if matches!(kind, Some(Kind::Int | Kind::Float)) => {
                 let unit = self.line.get(at + 1).is_some_and(|token| token.kind == Kind::Unit);
                 self.captures.push(self.between(at, at + 1 + usize::from(unit)));
@@ -111,7 +129,7 @@ impl Matcher<'_, '_> {
             }
             "ENTRY" if self.entries.contains_key(text) => self.captures.push(text.to_owned()),
             "SAME" => return (self.captures.first()? == text).then_some(at + 1),
-            "NAME" | "NUM" | "ENTRY" => return None,
+            "NAME" | "NUM" | "ENTRY" | "STATE" | "TEXT" => return None,
             _ => {
                 let is_it = |each: &str| match each {
                     "NAME" => kind == Some(Kind::Name),

@@ -29,7 +29,7 @@ pub(super) fn with_first(name: Option<&String>, change: impl Fn(&str) -> String)
 
 /// The first of several conditions, without brackets around them.
 pub(super) fn first_of(condition: &str) -> &str {
-    let inner = condition.trim().trim_end_matches(':').trim();
+    let inner = condition.trim().trim_end_matches([':', ',']).trim();
     let inner = inner.strip_prefix('(').and_then(|it| it.strip_suffix(')')).unwrap_or(inner);
     let signs = ["&&", "&", "|", " and ", " or ", " xor ", "=>"];
     let end = signs.into_iter().filter_map(|sign| inner.find(sign)).min();
@@ -38,7 +38,7 @@ pub(super) fn first_of(condition: &str) -> &str {
 
 /// Both sides of a comparison and its sign.
 pub(super) fn comparison(condition: &str) -> Option<(&str, &str, &str)> {
-    let signs = ["==", "!=", "<=", ">=", "<", ">", "=", " is "];
+    let signs = ["==", "!=", "~=", "<=", ">=", "<", ">", "=", " is "];
     let first = first_of(condition);
     let sign = signs.into_iter().find(|sign| first.contains(sign))?;
     let (left, right) = first.split_once(sign)?;
@@ -69,8 +69,9 @@ fn number_of(text: &str) -> &str {
     }
 }
 
-/// The computation that chooses by a condition: if it holds, an edge leads on to `then`.
-pub(super) fn choose(condition: &str, then: &str) -> String {
+/// The computation that chooses by a condition: if it holds, an edge leads on to `then`, else to an element.
+pub(super) fn choose(condition: &str, then: &str, element: &str) -> String {
+    let other = if then == "terminate" { element } else { "terminate" };
     let whole = |(left, _, right): &(&str, _, &str)| !left.is_empty() && !right.is_empty();
     let Some((left, sign, right)) = comparison(condition).filter(whole) else {
         let value = first_of(condition).trim_start_matches('=');
@@ -81,17 +82,18 @@ pub(super) fn choose(condition: &str, then: &str) -> String {
             value => value,
         };
         return format!(
-            "computation choose: Is(value = {value}, equals = {equals}) {{ Yes -> {then}, No -> terminate }}"
+            "computation choose: Is(value = {value}, equals = {equals}) {{ Yes -> {then}, No -> {other} }}"
         );
     };
     let is_number = right.starts_with(|it: char| it.is_ascii_digit() || it == '-');
+    let sign = if sign == "~=" { "!=" } else { sign };
     if matches!(sign, "==" | "!=" | "=" | "is") && !is_number {
         let right = match right {
             "HIGH" | "TRUE" | "True" => "true",
             "LOW" | "FALSE" | "False" => "false",
             right => right,
         };
-        let (yes, no) = if sign == "!=" { ("terminate", then) } else { (then, "terminate") };
+        let (yes, no) = if sign == "!=" { (other, then) } else { (then, other) };
         return format!(
             "computation choose: Is(value = {left}, equals = {right}) {{ Yes -> {yes}, No -> {no} }}"
         );
@@ -105,6 +107,6 @@ pub(super) fn choose(condition: &str, then: &str) -> String {
         _ => ("Equal", "Less, Greater"),
     };
     format!(
-        "computation choose: Compare(left = {left}, right = {right}) {{ {holds} -> {then}, {fails} -> terminate }}"
+        "computation choose: Compare(left = {left}, right = {right}) {{ {holds} -> {then}, {fails} -> {other} }}"
     )
 }

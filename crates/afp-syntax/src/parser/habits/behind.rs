@@ -7,7 +7,7 @@ use crate::message;
 use crate::parser::Parser;
 use crate::source::Span;
 
-/// What claims may have behind them.
+/// The help for text after a claim.
 const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 'once' or '3 times'; \
      another claim is a line of its own";
 
@@ -19,7 +19,7 @@ fn is_end(word: &str) -> bool {
     ENDS.into_iter().any(|end| end.eq_ignore_ascii_case(word))
 }
 
-/// What is to be said of something that stands behind a line: a help, and an edit of a place where it mends all.
+/// The help for text after a line, and an edit if one edit mends the line.
 struct Said(Message, Option<(Span, String)>);
 
 impl Parser<'_, '_> {

@@ -4,6 +4,7 @@ use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::message;
 use crate::parser::Parser;
+use crate::parser::elsewhere::is_large;
 use crate::parser::plan::BODY;
 
 impl Parser<'_, '_> {
@@ -22,6 +23,8 @@ impl Parser<'_, '_> {
                 | "state"
                 | "edge"
         );
+        let is_small = self.word(0).starts_with(|first: char| first.is_ascii_lowercase());
+        let is_word = is_word || is_small && is_large(self.word(1)) && !self.names_something(0);
         is_word
             && self.nth(1) == Kind::Name
             && !self.begins_line(1)

@@ -52,6 +52,14 @@ impl Parser<'_, '_> {
             self.instead(1, message, message!("write '{}'", better), &better);
             return true;
         }
+        if self.at(Kind::Int) && self.token_index(1) == self.token_index(0) + 1 {
+            let name = self.word(1);
+            if !name.is_empty() {
+                let help = message!("write '{}'", name);
+                self.instead(2, "a name begins with a letter", help, name);
+                return true;
+            }
+        }
         let in_brackets = matches!(
             (self.nth(0), self.nth(2)),
             (Kind::OpenParen, Kind::CloseParen) | (Kind::OpenBracket, Kind::CloseBracket)

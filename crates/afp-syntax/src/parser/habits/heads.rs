@@ -1,9 +1,11 @@
 //! What stands behind a template as other languages have it: ports, times.
 
-use crate::diagnostics::{Code, Diagnostic, Words};
+use crate::diagnostics::{Code, Diagnostic, Message, Words};
+use crate::habits::HEAD;
 use crate::kind::Kind;
 use crate::message;
 use crate::parser::Parser;
+use crate::parser::elsewhere::is_large;
 
 /// So many tokens of a path are looked at.
 const MOST_TOKENS: usize = 64;
@@ -18,6 +20,14 @@ impl Parser<'_, '_> {
         let path = self.text_of(0, tokens);
         if !self.on_same_line() || !(path.contains('/') || path.ends_with(".afp")) {
             return false;
+        }
+        let toolbox = self.word(0);
+        if matches!(toolbox, "std" | "carbot") && !path.ends_with(".afp") {
+            let error =
+                Diagnostic::new(Code::E0102, self.ahead(tokens), "a toolbox is used as a whole");
+            self.error(error.write(toolbox));
+            self.pass(tokens);
+            return true;
         }
         let error = Diagnostic::new(Code::E0102, self.ahead(tokens), "a file is named by a text");
         let error = error.help("put the path in double quotes");
@@ -91,6 +101,64 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// `actor hold still: Hold`: reports a name in two words, and reads it. Returns whether it stands here.
+    pub(in crate::parser) fn name_in_two_words(&mut self) -> bool {
+        let stands = (self.nth(0), self.nth(1), self.nth(2))
+            == (Kind::Name, Kind::Name, Kind::Colon)
+            && self.on_same_line()
+            && !self.begins_line(1);
+        if stands {
+            let error = Diagnostic::new(Code::E0102, self.ahead(2), "a name is one word");
+            self.error(error.write(format!("{}_{}", self.word(0), self.word(1))));
+            self.bump();
+            self.pass(1);
+        }
+        stands
+    }
+
+    /// `new Turn(`, `not CheckTouchSensor {`: reports a word before a template, and reads past it.
+    pub(in crate::parser) fn word_before_template(&mut self) {
+        let is_small = self.word(0).starts_with(|first: char| first.is_ascii_lowercase());
+        let is_template = is_large(self.word(1))
+            && matches!(self.nth(2), Kind::OpenParen | Kind::OpenBrace | Kind::Arrow);
+        if is_small && is_template && self.on_same_line() && !self.begins_line(1) {
+            let message = message!("unexpected {} before a template", self.found());
+            self.instead(1, message, "remove it", "");
+        }
+    }
+
+    /// Returns the help for brackets after the name of a plan.
+    pub(in crate::parser) fn help_for_parameters(&self) -> Message {
+        let close = (1..MOST_TOKENS).find(|at| self.nth(*at) == Kind::CloseParen);
+        let is_typed = (self.nth(1), self.nth(2)) == (Kind::Name, Kind::Colon);
+        match close.filter(|_| is_typed) {
+            Some(close) => {
+                let entries = self.text_of(1, close).replace(',', " in");
+                message!("remove the brackets, and write 'in {}' in the braces", entries)
+            }
+            None => "remove the brackets: a plan declares what it takes with 'in'".into(),
+        }
+    }
+
+    /// `plan Main extends Other {`: reports what stands before a brace that opens a body on this line, and reads past it.
+    /// Returns whether something stands there.
+    pub(in crate::parser) fn nothing_before_brace(&mut self) -> bool {
+        let opens = self.ahead_on_line(Kind::OpenBrace);
+        let closes = self.ahead_on_line(Kind::CloseBrace);
+        let Some(tokens) = opens.filter(|open| closes.is_none_or(|close| close > *open)) else {
+            return false;
+        };
+        let is_port = (0..tokens).any(|at| matches!(self.nth(at), Kind::Equal | Kind::FatArrow));
+        if self.at(Kind::OpenParen) || is_port || !self.on_same_line() {
+            return false;
+        }
+        if !self.habit(HEAD) {
+            let message = message!("unexpected '{}' before '{{'", self.text_of(0, tokens));
+            self.instead(tokens, message, "remove it", "");
+        }
+        true
+    }
+
     /// `supervise t: every 5 ms CheckTouchSensor`: reports times before a template, and reads them.
     pub(in crate::parser) fn times_before_template(&mut self, watches: bool) {
         let mut tokens = 0;
@@ -136,6 +204,24 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// `rate 100 Hz`: reports a frequency behind a word for 'every', and reads past it. Returns whether it stands here.
+    fn frequency_for_a_period(&mut self) -> bool {
+        let factor = match self.token(2).map_or("", |unit| unit.text) {
+            "Hz" => 1.0,
+            "kHz" => 1000.0,
+            _ => return false,
+        };
+        let number = self.token(1).and_then(|number| number.text.parse::<f64>().ok());
+        let Some(hertz) = number.filter(|hertz| *hertz > 0.0) else { return false };
+        let message = "a supervisor has a period, not a frequency";
+        let error = Diagnostic::new(Code::E0102, self.ahead(3), message);
+        let ms = 1000.0 / (hertz * factor);
+        let period = if ms < 1.0 { format!("{} us", ms * 1000.0) } else { format!("{ms} ms") };
+        self.error(error.write(format!("every {period}")));
+        self.pass(3);
+        true
+    }
+
     /// `every 5 ms * 2`: reports what is computed with a time, and reads past it.
     pub(in crate::parser) fn no_formula_of_a_time(&mut self) {
         use Kind::{CloseBrace, Minus, OpenBrace, OpenParen, Percent, Plus, Slash, Star};
@@ -174,6 +260,9 @@ impl Parser<'_, '_> {
     /// there.
     pub(in crate::parser) fn time_by_another_word(&mut self) -> bool {
         let before_time = matches!(self.nth(1), Kind::Int | Kind::Float) && self.on_same_line();
+        if before_time && self.frequency_for_a_period() {
+            return false;
+        }
         before_time && self.item_meant("'every' or 'deadline'", &["every", "deadline"])
     }
 }

@@ -23,6 +23,14 @@ impl Parser<'_, '_> {
         stands
     }
 
+    /// `seed = 7`, `until: 20 s`: reports the sign, and reads past it.
+    pub(in crate::parser) fn no_sign_behind_word(&mut self) {
+        if matches!(self.nth(0), Kind::Equal | Kind::Colon) && self.on_same_line() {
+            let message = message!("unexpected {} after '{}'", self.found(), self.word_before());
+            self.instead(1, message, "remove it", "");
+        }
+    }
+
     /// `expect a <> 0`: reports the signs, and reads past them. Returns whether they stand here.
     pub(in crate::parser) fn unequal_meant(&mut self) -> bool {
         let adjacent = self.token_index(1) == self.token_index(0) + 1;

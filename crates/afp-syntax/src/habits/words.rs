@@ -1,0 +1,194 @@
+//! Words of other languages that stand for ours: of the grammar, of ends, states, types and units.
+
+/// Words that stand for ours elsewhere, by the role that ours have.
+pub(crate) const WORDS: &[(&str, &[&str])] = &[
+    (
+        "plan",
+        &[
+            "tree",
+            "node",
+            "class",
+            "machine",
+            "statemachine",
+            "state_machine",
+            "chart",
+            "module",
+            "program",
+            "mission",
+            "process",
+            "behaviortree",
+            "behavior_tree",
+            "programm",
+            "ablauf",
+            "programme",
+        ],
+    ),
+    (
+        "actor",
+        &[
+            "state",
+            "action",
+            "step",
+            "node",
+            "behavior",
+            "behaviour",
+            "task",
+            "invoke",
+            "activity",
+            "action_client",
+            "service",
+            "acteur",
+            "aktion",
+        ],
+    ),
+    (
+        "supervise",
+        &[
+            "supervisor",
+            "guard",
+            "watch",
+            "monitor",
+            "condition",
+            "trigger",
+            "callback",
+            "subscribe",
+            "subscriber",
+            "listener",
+            "listen",
+            "interrupt",
+            "timer",
+            "observe",
+            "surveille",
+            "surveiller",
+            "beobachte",
+            "ueberwache",
+        ],
+    ),
+    ("supervisor", &["supervise", "guard", "watch", "monitor"]),
+    ("computation", &["choice", "decision", "junction", "compute", "calculation"]),
+    ("in", &["input", "param", "parameter", "eingang", "entree"]),
+    ("out", &["output", "result", "ausgang", "sortie"]),
+    ("var", &["variable"]),
+    ("const", &["constant", "static", "final"]),
+    ("subplan", &["sub", "subtree", "submachine", "composite"]),
+    ("start", &["begin", "initial", "first", "entry", "beginne", "anfang", "commence", "debut"]),
+    ("uses", &["use"]),
+    ("every", &["each", "period", "interval", "rate", "alle"]),
+    ("deadline", &["within", "timeout"]),
+    ("until", &["timeout", "duration", "stop_after", "limit"]),
+    ("expect", &["assert", "require", "erwarte"]),
+];
+
+/// Words that stand behind `->` elsewhere: for the ends of plans, and for reactions to events.
+pub const ENDS: &[(&str, &[&str])] = &[
+    (
+        "terminate",
+        &[
+            "stop",
+            "end",
+            "done",
+            "finish",
+            "finished",
+            "exit",
+            "quit",
+            "halt",
+            "success",
+            "return",
+            "final",
+            "cancel",
+            "cancelled",
+            "canceled",
+            "ende",
+            "fertig",
+            "fin",
+            "arreter",
+        ],
+    ),
+    ("fail", &["error", "failure", "failed", "abort", "aborted", "panic"]),
+];
+pub const REACTIONS: &[(&str, &[&str])] = &[
+    ("ignore", &["none", "nothing", "nop", "noop", "pass", "skip", "null", "nil"]),
+    (
+        "resume",
+        &[
+            "continue", "proceed", "go_on", "goon", "carry_on", "history", "hist", "previous",
+            "last",
+        ],
+    ),
+];
+
+/// States that are called otherwise elsewhere: the only state of an element, and its failure.
+pub const STATES: &[(&str, &[&str])] = &[
+    (
+        "OK",
+        &[
+            "ok",
+            "success",
+            "succeeded",
+            "successful",
+            "done",
+            "ondone",
+            "onsuccess",
+            "result",
+            "finished",
+            "complete",
+            "completed",
+            "reached",
+            "arrived",
+            "next",
+            "then",
+        ],
+    ),
+    ("Error", &["error", "failure", "failed", "fail", "onerror", "aborted", "abort", "rejected"]),
+];
+
+/// Types that are called otherwise elsewhere.
+pub const TYPES: &[(&str, &[&str])] = &[
+    ("bool", &["boolean", "logical", "wahrheitswert", "booleen"]),
+    (
+        "int",
+        &[
+            "integer", "ganzzahl", "entier", "long", "short", "uint", "int32", "int64", "uint8",
+            "i32", "i64", "u8",
+        ],
+    ),
+    (
+        "float",
+        &[
+            "double", "real", "number", "float32", "float64", "f32", "f64", "percent", "ratio",
+            "zahl", "nombre",
+        ],
+    ),
+    ("string", &["str", "text", "char", "texte"]),
+    ("length", &["distance", "meters", "meter", "strecke", "longueur"]),
+    ("duration", &["time", "seconds", "second", "zeit", "dauer", "duree", "temps"]),
+    ("angle", &["degrees", "radians", "heading", "winkel"]),
+    ("speed", &["velocity", "geschwindigkeit", "vitesse"]),
+    ("angular_speed", &["angular_velocity", "angularVelocity"]),
+];
+
+/// Units that the language does not have: so many of another one.
+const UNITS: &[(&[&str], f64, &str)] = &[
+    (&["in", "inch", "inches"], 2.54, "cm"),
+    (&["ft", "foot", "feet"], 30.48, "cm"),
+    (&["yd", "yard", "yards"], 91.44, "cm"),
+    (&["mi", "mile", "miles"], 1.609_344, "km"),
+    (&["mph"], 0.447_04, "m/s"),
+    (&["lb", "lbs", "pound", "pounds"], 0.453_592_37, "kg"),
+    (&["rpm"], 6.0, "deg/s"),
+    (&["rotation", "rotations", "turns", "rev", "revolutions", "umdrehungen"], 360.0, "deg"),
+];
+
+/// Our word for one of another language, in any case of letters.
+pub fn ours(words: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> {
+    let is_it = |others: &&[&str]| others.iter().any(|it| it.eq_ignore_ascii_case(name));
+    words.iter().find(|(_, others)| is_it(others)).map(|(ours, _)| *ours)
+}
+
+/// A quantity of a foreign unit in one that the language has: `30.48 cm` for `12` and `in`.
+pub(crate) fn converted(number: &str, unit: &str) -> Option<String> {
+    let (_, factor, ours) = UNITS.iter().find(|(words, ..)| words.contains(&unit))?;
+    // Fewer digits than a float has, so that no rounding is seen.
+    let rounded: f64 = format!("{:.11e}", number.parse::<f64>().ok()? * factor).parse().ok()?;
+    Some(format!("{rounded} {ours}"))
+}
