@@ -49,11 +49,9 @@ pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     }
 }
 
-/// The templates that Rust types of the crate implement. The plan has the readers of tables, and formulas declare
-/// some computations.
+/// The templates that Rust types of the crate implement.
 fn implemented(toolbox: &Toolbox) -> impl Iterator<Item = &Template> {
-    let all = toolbox.templates.iter();
-    all.filter(|template| template.reads_table.is_none() && template.cases.is_none())
+    toolbox.templates.iter().filter(|template| !template.is_declared())
 }
 
 struct Words {

@@ -7,7 +7,6 @@ pub mod fact;
 use crate::table::Table;
 use crate::types::{Enum, Object, Type};
 use afp_syntax::source::Span;
-use afp_types::Meaning;
 use std::sync::Arc;
 
 pub use crate::types::Constant;
@@ -82,8 +81,6 @@ pub struct Template {
     /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
     /// there.
     pub states_of: Option<StatesOf>,
-    /// What is known of it beyond its declaration.
-    pub meaning: Option<Meaning>,
     /// The port that takes a table, whose columns are the outputs; there are none until a table is
     /// bound there. No Rust type implements such a template: each back end reads its tables itself.
     pub reads_table: Option<ReadsTable>,
@@ -100,6 +97,11 @@ pub struct Template {
 }
 
 impl Template {
+    /// Whether no Rust or Python code implements it.
+    pub fn is_declared(&self) -> bool {
+        self.cases.is_some() || self.states_of.is_some() || self.reads_table.is_some()
+    }
+
     /// The table that it reads, in the template as a component of a plan has it, and the port that takes it.
     pub fn table(&self) -> Option<(&InPort, &Arc<Table>)> {
         let reads = self.reads_table.as_ref()?;

@@ -94,7 +94,7 @@ impl Toolbox {
     fn _implement(&self, template: String, maker: Py<PyAny>) -> PyResult<()> {
         let declared = self.declared()?;
         let found = declared.templates.iter().find(|known| known.name == template);
-        if found.is_some_and(|found| found.cases.is_some()) {
+        if found.is_some_and(Template::is_declared) {
             let text =
                 format!("the states of '{template}' have bodies, so Python cannot implement it");
             return Err(PyValueError::new_err(text));

@@ -6,6 +6,7 @@ mod progress;
 mod summary;
 mod timeline;
 
+use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -24,11 +25,16 @@ pub(crate) use summary::{Ran, Requests, RunFigures, StoppedBy, Summary};
 
 /// The timeline of a log, line by line.
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
-    log.events.iter().filter_map(|event| {
-        let name = log.names.component(event.component.id);
+    let writes = log.events.iter().filter(|it| matches!(it.kind, EventKind::Committed { .. }));
+    let writers: BTreeSet<_> = writes.map(|event| event.component.id).collect();
+    log.events.iter().filter_map(move |event| {
+        let id = event.component.id;
+        let name = log.names.component(id);
         let watches = name.kind == ComponentKind::Supervisor;
         let starts = event.kind == EventKind::Started;
-        if watches && starts { None } else { timeline::line(event, name.template) }
+        // Logs have no bound outputs.
+        let logs = timeline::logs(&log.names, id) && !writers.contains(&id);
+        if watches && starts { None } else { timeline::line(event, name.template, logs) }
     })
 }
 
@@ -36,22 +42,20 @@ pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
 pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<String> {
     let template = match *record {
         Record::Polled { .. } => return None,
-        Record::Input { component, .. } => match names.component(component).template {
-            template if timeline::logs(template) => template,
-            _ => return None,
-        },
+        Record::Input { component, .. } if timeline::logs(names, component) => "",
+        Record::Input { .. } => return None,
         Record::Started { component } => match names.component(component) {
             name if name.kind == ComponentKind::Supervisor => return None,
             name => name.template,
         },
         _ => "",
     };
-    timeline::line(&RunEvent::new(at, record, names), template)
+    timeline::line(&RunEvent::new(at, record, names), template, true)
 }
 
 /// What happened besides the records, as a line of the timeline.
 pub fn event_line(event: &RunEvent) -> Option<String> {
-    timeline::line(event, "")
+    timeline::line(event, "", false)
 }
 
 /// Tells of a run as an observer.
@@ -139,7 +143,7 @@ impl Report {
     fn tell_event(&mut self, event: &RunEvent) {
         let line = match self.json {
             true => json::line(event),
-            false => timeline::line(event, ""),
+            false => timeline::line(event, "", false),
         };
         self.tell_line(line);
     }

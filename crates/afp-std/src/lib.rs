@@ -15,7 +15,6 @@ mod idle;
 mod random;
 mod since;
 mod stopwatch;
-mod switch;
 mod wait;
 
 pub use after::After;
@@ -26,7 +25,6 @@ pub use every::Every;
 pub use idle::Idle;
 pub use random::Random;
 pub use stopwatch::Stopwatch;
-pub use switch::Switch;
 pub use wait::Wait;
 
 /// Registers the templates on a platform, like the macros with this name in other toolboxes.

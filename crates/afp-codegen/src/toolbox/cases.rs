@@ -14,21 +14,13 @@ use afp_types::Comparison;
 
 /// The `impl` in the module of the template; nothing for a template that Rust or Python implements.
 pub fn implement(core: &TokenStream, template: &Template) -> Option<TokenStream> {
-    let (last, cases) = template.cases.as_deref()?.split_last()?;
-    let type_paths = type_paths(core);
-    let names: Vec<_> = template.inputs.iter().map(|port| ident(&snake(&port.name))).collect();
-    let formulas = Formulas { reads: Reads::Inputs, ..Formulas::new(&type_paths, &names) };
-    let writer = Writer { template, formulas };
-    let first = template.outcomes.iter().zip(cases).map(|(outcome, case)| {
-        let conditions = case.when.iter().map(|one| writer.condition(one));
-        let state = writer.state(&outcome.name, case);
-        quote!(if #(#conditions)&&* { return Ok(#state); })
-    });
-    let last = writer.state(&template.outcomes.last()?.name, last);
-    let body = quote!(#(#first)* Ok(#last));
+    let body = match &template.states_of {
+        Some(states) => selection(core, template, states.port)?,
+        None => first_case(core, template)?,
+    };
     let uses = imports::of_core(core, &[("", body.clone())]);
     let reads = template.cases.iter().flat_map(|cases| cases.iter()).flat_map(Case::formulas);
-    let reads = reads.flat_map(Formula::entries).next().is_some();
+    let reads = template.states_of.is_some() || reads.flat_map(Formula::entries).next().is_some();
     let inputs = if reads { quote!(inputs) } else { quote!(_) };
     let name = ident(&camel(&template.name));
     let (parameters, arguments) = match bound(template) {
@@ -46,6 +38,33 @@ pub fn implement(core: &TokenStream, template: &Template) -> Option<TokenStream>
             }
         }
     })
+}
+
+/// The state is the position of a port's value.
+fn selection(core: &TokenStream, template: &Template, port: u16) -> Option<TokenStream> {
+    let name = ident(&snake(&template.inputs.get(usize::from(port))?.name));
+    Some(quote! {
+        match inputs.#name.as_value() {
+            #core::ValueRef::Choice(place) => Ok(State(place)),
+            _ => Err(#core::Fault::INTERNAL),
+        }
+    })
+}
+
+/// The first state whose condition holds.
+fn first_case(core: &TokenStream, template: &Template) -> Option<TokenStream> {
+    let (last, cases) = template.cases.as_deref()?.split_last()?;
+    let type_paths = type_paths(core);
+    let names: Vec<_> = template.inputs.iter().map(|port| ident(&snake(&port.name))).collect();
+    let formulas = Formulas { reads: Reads::Inputs, ..Formulas::new(&type_paths, &names) };
+    let writer = Writer { template, formulas };
+    let first = template.outcomes.iter().zip(cases).map(|(outcome, case)| {
+        let conditions = case.when.iter().map(|one| writer.condition(one));
+        let state = writer.state(&outcome.name, case);
+        quote!(if #(#conditions)&&* { return Ok(#state); })
+    });
+    let last = writer.state(&template.outcomes.last()?.name, last);
+    Some(quote!(#(#first)* Ok(#last)))
 }
 
 struct Writer<'a> {

@@ -10,12 +10,14 @@ use crate::check::edges::{DEADLINE_MISSED, ERROR};
 use crate::check::scope::FileScope;
 use crate::check::signature::{Signature, Signatures};
 use crate::gather::PlanFile;
-use crate::toolbox::{Outcome, StatesOf, Template, Toolbox};
+use crate::graph::{EntryId, Formula, Op};
+use crate::toolbox::{Case, Condition, Outcome, StatesOf, Template, Toolbox};
 use crate::types::text::a_type;
 use crate::types::{Enum, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
+use afp_types::Comparison;
 
 /// Adds to the toolboxes in use a template for each enum, where a file speaks of such a template.
 pub(super) fn specialise(
@@ -61,11 +63,29 @@ fn of_enum(template: &Template, home: &Arc<Enum>) -> Template {
         span,
     };
     let states = template.states_of.clone();
+    let cases = states.as_ref().map(|states| cases(states, home));
     Template {
+        cases,
         outcomes: outcomes.map(outcome).collect(),
         states_of: states.map(|states| StatesOf { home: Some(home.clone()), ..states }),
         ..template.clone()
     }
+}
+
+/// One state for each value.
+fn cases(states: &StatesOf, home: &Arc<Enum>) -> Arc<[Case]> {
+    let formula = |op| Formula::new(op, [], Type::Enum(home.clone()), states.span);
+    let last = home.variants.len().saturating_sub(1);
+    let places = (0..).take(home.variants.len());
+    let cases = places.map(|place: u16| Case {
+        when: Vec::from_iter((usize::from(place) < last).then(|| Condition {
+            left: formula(Op::Entry(EntryId(states.port))),
+            comparison: Comparison::Equal,
+            right: formula(Op::Choice(place)),
+        })),
+        writes: Vec::new(),
+    });
+    cases.collect()
 }
 
 /// The signature with the states of the enum that is bound; the signature itself where it has states
@@ -92,7 +112,7 @@ pub(super) fn chosen(
             );
             diags.push(
                 Diagnostic::new(Code::E0244, at, message)
-                    .help("bind an enum, or use 'Is' or 'Compare' of 'std'"),
+                    .help("bind an enum, or compare the value in a computation"),
             );
             return None;
         }

@@ -67,7 +67,7 @@ pub(super) fn program<'a>(
         }
     }
     choices::specialise(&mut linked, files, &scopes);
-    tables::specialise(&mut linked, &scopes);
+    tables::specialise(&mut linked, &scopes, diags);
     let signatures = Signatures::of(&linked, &plans);
     let sub_plans = plans.iter().map(|head| recursion::sub_plans(head, &scopes)).collect();
     Program { toolboxes, linked, files: scopes, plans, sub_plans, signatures, record }

@@ -1,6 +1,6 @@
 //! Tables of a file: columns with types, rows of constants.
 //!
-//! `Row` of `std` reads them. Its toolbox declares it once; what stands in the graph has the columns
+//! A template with a port of the type `table` reads them. Its toolbox declares it once; what stands in the graph has the columns
 //! of the table that is bound as its outputs, so that whoever reads the graph finds ports as everywhere.
 
 mod bound;
@@ -17,17 +17,13 @@ use crate::gather::PlanFile;
 use crate::index::Recorder;
 use crate::rows::MAX_ROWS;
 use crate::table::{Cell, Column, Table};
-use crate::toolbox::{OutPort, ReadsTable, Template, Toolbox};
+use crate::toolbox::{OutPort, Template, Toolbox};
 use crate::types::{Type, is_built_in};
 use afp_syntax::ast::{self, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
 use afp_syntax::message;
-use afp_types::Meaning;
 
 pub(super) use bound::{fits, read_by};
-
-/// The ports of the template that reads tables, which no column can be called.
-const PORTS: [&str; 2] = ["table", "index"];
 
 /// The tables that a file declares.
 pub(super) fn own(
@@ -98,7 +94,7 @@ fn read(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Option
             diags.push(Diagnostic::new(Code::E0250, name.span, message).help(help));
         } else if written.is_empty() {
             let message = message!("the table '{}' has no rows", name.text);
-            let help = "write rows in its braces; without any, 'Row' goes to 'End' at once";
+            let help = "write rows in its braces";
             diags.push(Diagnostic::new(Code::E0252, name.span, message).help(help));
         }
     }
@@ -119,11 +115,6 @@ fn columns(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Vec
         });
         let Some(name) = column.name() else { continue };
         names.declare(&name, diags);
-        if PORTS.contains(&name.text.as_str()) {
-            let message = message!("no column is called '{}': 'Row' has such a port", name.text);
-            let help = "give the column another name";
-            diags.push(Diagnostic::new(Code::E0250, name.span, message).help(help));
-        }
         found.push(Column { name: name.text, doc: column.doc(), ty, span: name.span });
     }
     found
@@ -194,17 +185,12 @@ fn misfit(
     }
 }
 
-/// Marks the template that reads tables when its toolbox is read.
-pub(super) fn mark(template: &mut Template) {
-    if template.meaning != Some(Meaning::ReadsRow) {
-        return;
-    }
-    let port = template.inputs.iter().find(|port| port.name == PORTS[0]).cloned();
-    template.reads_table = port.map(|port| ReadsTable { port, table: None });
-}
-
 /// Adds to the toolboxes in use the template that reads each table.
-pub(super) fn specialise(linked: &mut [Arc<Toolbox>], scopes: &[FileScope<'_>]) {
+pub(super) fn specialise(
+    linked: &mut [Arc<Toolbox>],
+    scopes: &[FileScope<'_>],
+    diags: &mut Diagnostics,
+) {
     let mut tables: Vec<&Arc<Table>> = Vec::new();
     for table in scopes.iter().flat_map(|scope| &scope.tables) {
         if !tables.iter().any(|known| Arc::ptr_eq(known, table)) {
@@ -216,10 +202,25 @@ pub(super) fn specialise(linked: &mut [Arc<Toolbox>], scopes: &[FileScope<'_>]) 
         open.flat_map(|open| tables.iter().map(|table| of_table(open, table))).collect()
     };
     for toolbox in linked {
+        let open = toolbox.templates.iter().filter(|template| template.reads_table.is_some());
+        for template in open {
+            tables.iter().for_each(|table| columns_fit(template, table, diags));
+        }
         let readers = readers(toolbox);
         if !readers.is_empty() {
             Arc::make_mut(toolbox).templates.extend(readers);
         }
+    }
+}
+
+/// Reports columns that are called like an input.
+fn columns_fit(template: &Template, table: &Table, diags: &mut Diagnostics) {
+    let is_port = |column: &&Column| template.inputs.iter().any(|port| port.name == column.name);
+    for column in table.columns.iter().filter(is_port) {
+        let (name, reader) = (&column.name, &template.name);
+        let message = message!("no column is called '{}': '{}' has such a port", name, reader);
+        let error = Diagnostic::new(Code::E0250, column.span, message);
+        diags.push(error.help("give the column another name"));
     }
 }
 
@@ -234,7 +235,8 @@ fn of_table(template: &Template, table: &Arc<Table>) -> Template {
         span: column.span,
     };
     let mut own = template.clone();
-    own.inputs.retain(|port| port.name != PORTS[0]);
+    own.inputs
+        .retain(|port| Some(&port.name) != template.reads_table.as_ref().map(|it| &it.port.name));
     own.outputs = table.columns.iter().map(output).collect();
     if let Some(reads) = &mut own.reads_table {
         reads.table = Some(table.clone());

@@ -22,7 +22,6 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::parse;
 use afp_syntax::source::{Source, Span};
 use afp_syntax::unquote;
-use afp_types::Meaning;
 
 use device::Devices;
 use ports::Site;
@@ -149,10 +148,6 @@ fn read(
     toolbox.devices = devices(&items, &site, diags);
     let site = Site { devices: &toolbox.devices, ..site };
     toolbox.templates = templates(&items, &site, diags);
-    for template in &mut toolbox.templates {
-        template.meaning = Meaning::of(&toolbox.name, &template.name);
-        crate::check::tables::mark(template);
-    }
     let spans = toolbox.templates.iter().map(|template| template.span);
     size::at_most(
         MAX_ROWS,

@@ -17,7 +17,6 @@ use crate::graph::{
 use crate::toolbox::Template;
 use crate::types::Constant;
 use afp_syntax::source::Span;
-use afp_types::Meaning;
 
 pub(crate) use counter::{Counter, Counters};
 
@@ -272,14 +271,6 @@ impl<'a> View<'a> {
     /// The template of a supervisor.
     pub fn template(&self, supervisor: &Supervisor) -> &'a Template {
         self.model.template(supervisor.template)
-    }
-
-    /// What is known of a computation beyond the declaration of its template.
-    pub fn meaning(&self, element: &Element) -> Option<Meaning> {
-        match element.component {
-            Component::Computation(id) => self.model.template(id).meaning,
-            _ => None,
-        }
     }
 
     /// The supervisors that are ever started: global ones, and those of reached elements.

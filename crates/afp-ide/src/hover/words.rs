@@ -12,7 +12,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         }
         "scenario" => "A test of a plan: stimuli and expected behaviour.",
         "enum" => "A type whose values are listed.",
-        "table" => "Rows of constants, which 'Row' of 'std' reads one by one.",
+        "table" => "Rows of constants for a computation that reads tables.",
         "toolbox" => "Templates, and the devices of a robot, for plans to use.",
         "start" => "The element that is active first.",
         "actor" if in_toolbox => "A template that acts over time and ends in a state.",

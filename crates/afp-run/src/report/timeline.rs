@@ -3,12 +3,11 @@
 use std::fmt::Write;
 
 use afp_core::Duration;
-use afp_core::trace::Cause;
+use afp_core::trace::{Cause, ComponentId, ComponentKind, Names, declared};
 use afp_session::{
     Done, EndingKind, EventAt, EventKind, FaultText, Miss, NameWithUnit, NamedComponent,
     NamedOutcome, Requested, RunEvent, Stimulus,
 };
-use afp_types::Meaning;
 use anstyle::{AnsiColor, Style};
 
 const QUIET: Style = Style::new().dimmed();
@@ -18,9 +17,11 @@ const DATA: Style = AnsiColor::Cyan.on_default();
 const BAD: Style = AnsiColor::BrightRed.on_default().bold();
 const STRONG: Style = Style::new().bold();
 
-/// Whether a template is there so that people see its input.
-pub(super) fn logs(template: &str) -> bool {
-    Meaning::of("std", template) == Some(Meaning::Logs)
+/// Whether a computation has one state and no bound output, so that its inputs are its purpose.
+pub(super) fn logs(names: &(impl Names + ?Sized), id: ComponentId) -> bool {
+    names.component(id).kind == ComponentKind::Computation
+        && declared(names, id).count() == 1
+        && names.outputs(id) == 0
 }
 
 /// The lines that say what runs.
@@ -34,11 +35,11 @@ pub(super) fn head(what: &[(&str, String)]) -> String {
 
 /// An event as a line without its end; `None` for what is not worth a line. The template is that
 /// of the event's component.
-pub(super) fn line(event: &RunEvent, template: &str) -> Option<String> {
+pub(super) fn line(event: &RunEvent, template: &str, logs: bool) -> Option<String> {
     use EventKind as Kind;
     let component = &event.component.path;
     let text = match &event.kind {
-        Kind::Input { port, value, unit } if logs(template) => {
+        Kind::Input { port, value, unit } if logs => {
             format!("{DATA}✎ {component}: {port} = {}{DATA:#}", value.in_unit(unit))
         }
         Kind::Unknown | Kind::Polled(_) | Kind::Input { .. } | Kind::Interrupted => return None,

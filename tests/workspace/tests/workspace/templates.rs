@@ -1,4 +1,4 @@
-//! Names of templates occur only in their own crates, and in one table.
+//! Names of templates occur only in their own crates.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,17 +8,14 @@ use afp_workspace::root;
 
 use crate::sources::rust_files;
 
-/// Implementations, toolbox files and the table of meanings.
-const HOMES: [&str; 4] = ["afp-std/", "afp-carbot/", "afp-toolboxes/", "afp-types/src/meaning.rs"];
+/// Implementations and toolbox files.
+const HOMES: [&str; 3] = ["afp-std/", "afp-carbot/", "afp-toolboxes/"];
 
 /// Other files that name templates, each with its reason.
-const ALLOWED: [(&str, &str); 10] = [
+const ALLOWED: [(&str, &str); 7] = [
     ("afp-dsl/src/check/bindings/generic.rs", HELP),
-    ("afp-dsl/src/check/choices.rs", HELP),
     ("afp-dsl/src/check/formula/elsewhere.rs", HELP),
-    ("afp-dsl/src/check/tables.rs", HELP),
     ("afp-dsl/src/flow/cycles/count.rs", HELP),
-    ("afp-ide/src/hover/words.rs", HELP),
     ("afp-run/src/stop.rs", "a Rust type has the same name"),
     (
         "afp-sim/src/simulation/wall.rs",
@@ -59,7 +56,7 @@ fn is_test(file: &Path) -> bool {
 }
 
 #[test]
-fn templates_are_named_in_their_own_crates_and_in_one_table() {
+fn templates_are_named_in_their_own_crates() {
     let (crates, templates) = (root().join("crates"), templates());
     assert!(templates.contains("Count") && templates.contains("WallForward"));
     let mut naming = BTreeSet::new();
@@ -72,7 +69,7 @@ fn templates_are_named_in_their_own_crates_and_in_one_table() {
         }
     }
     let allowed = ALLOWED.iter().map(|(file, _)| (*file).to_owned()).collect();
-    assert_eq!(naming, allowed, "ask 'afp_types::Meaning', or add the file with its reason");
+    assert_eq!(naming, allowed, "declare a fact in the toolbox, or add the file with its reason");
 }
 
 #[test]

@@ -5,10 +5,10 @@ use crate::check::names::Indices;
 use crate::check::names::{DeclaredNames, unknown};
 use crate::check::range;
 use crate::check::types::Types;
-use crate::index::Recorder;
+use crate::index::{Recorder, Word};
 use crate::toolbox::{Device, InPort, OutPort, Outcome, TemplateKind};
 use crate::types::{Constant, Type};
-use afp_syntax::ast::{self, Formula};
+use afp_syntax::ast::{self, Formula, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
@@ -33,7 +33,13 @@ pub(super) fn input(
                 .replace(""),
         );
     }
-    let ty = node.ty().and_then(|ty| site.types.resolve(&ty, site.record, diags));
+    let ty = node.ty().and_then(|ty| match table_word(&ty) {
+        Some(word) => {
+            site.record.word(word.span, Word::Type);
+            Some(Type::Any)
+        }
+        None => site.types.resolve(&ty, site.record, diags),
+    });
     let Some(ty) = ty else {
         site.names_only(node);
         return None;
@@ -50,6 +56,13 @@ pub(super) fn input(
         name: name.text,
         ty,
     })
+}
+
+/// The word `table`, if it is the whole type.
+pub(super) fn table_word(ty: &ast::Type) -> Option<Name> {
+    let [factor] = &ty.factors()[..] else { return None };
+    let reference = factor.reference.as_ref().filter(|it| it.home().is_none())?;
+    reference.name().filter(|name| name.text == "table" && factor.exponent == Some(1))
 }
 
 /// Reads an output port; `None` when it has no name or no type.

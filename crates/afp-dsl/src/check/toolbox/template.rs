@@ -6,7 +6,7 @@ use crate::check::toolbox::ports::{self, Site, misfit};
 use crate::check::{size, timing};
 use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
-use crate::toolbox::{Outcome, StatesOf, Template, TemplateKind};
+use crate::toolbox::{Outcome, ReadsTable, StatesOf, Template, TemplateKind};
 use crate::types::Type;
 use crate::types::text::a_type;
 use afp_syntax::ast::{self, Name, Part};
@@ -39,7 +39,12 @@ pub(super) fn read(
                 uses(resource.as_ref(), *span, &mut template, diags);
             }
             Part::In(port) => {
+                let table = port.ty().and_then(|ty| ports::table_word(&ty));
                 let port = ports::input(port, template.kind, site, &mut names, diags);
+                if let (Some(word), Some(port)) = (table, &port) {
+                    seen.once("in table", word.span, diags);
+                    template.reads_table = Some(ReadsTable { port: port.clone(), table: None });
+                }
                 template.inputs.extend(port);
             }
             Part::Out(port) => {
@@ -60,6 +65,7 @@ pub(super) fn read(
         }
     }
     cases::read(&parts, &mut template, site, diags);
+    reads_table(&template, diags);
     too_large(&template, diags);
     deadline(&parts, &template, diags);
     without_outcomes(node, &template, diags);
@@ -217,6 +223,23 @@ fn states_of(
         );
     }
     u16::try_from(index).ok()
+}
+
+/// A template that reads a table has no implementation, so its declaration is fixed.
+fn reads_table(template: &Template, diags: &mut Diagnostics) {
+    let Some(reads) = &template.reads_table else { return };
+    let others = template.inputs.iter().filter(|port| port.name != reads.port.name);
+    let others: Vec<_> = others.map(|port| &port.ty).collect();
+    let fits = template.kind == TemplateKind::Computation
+        && others == [&Type::Int]
+        && template.outputs.is_empty()
+        && template.outcomes.len() == 2
+        && template.cases.is_none();
+    if !fits {
+        let message = message!("'{}' cannot read a table", template.name);
+        let help = "declare a computation with one 'int' input, two states and no output";
+        diags.push(Diagnostic::new(Code::E0510, reads.port.span, message).help(help));
+    }
 }
 
 fn set_time(time: &ast::Timing, template: &mut Template, seen: &mut Seen, diags: &mut Diagnostics) {

@@ -1,11 +1,9 @@
-//! What declared computations, and those with a known meaning, decide where the values that go into them are known.
+//! The states of declared computations and readers of tables whose inputs are known.
 //!
 //! Known are constants, the values that entries have at the start of a plan, what every user of a sub-plan binds to an
 //! input of it, and what these computations write from those.
 
 use std::collections::{BTreeMap, BTreeSet};
-
-use afp_types::Meaning;
 
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::constant::{convert, evaluate};
@@ -23,8 +21,7 @@ const MOST: usize = 64;
 /// The entries that such a computation reads, with their values at the start of the plan.
 pub(super) fn at_start(view: &View<'_>) -> Known {
     let mut read = BTreeSet::new();
-    let is_known = |it: &Element| view.cases(it).is_some() || view.meaning(it).is_some();
-    for (_, element) in view.elements().filter(|(_, element)| is_known(element)) {
+    for (_, element) in view.elements().filter(|(_, it)| chooses_by_inputs(view, it)) {
         read.extend(element.inputs.iter().flat_map(Formula::entries).map(|(entry, _)| entry));
     }
     if read.is_empty() || read.len() > MOST {
@@ -124,7 +121,7 @@ pub(super) fn is_choice(element: &Element, state: u16) -> bool {
 
 /// Whether a computation is known to choose by what goes into it alone.
 pub(super) fn chooses_by_inputs(view: &View<'_>, element: &Element) -> bool {
-    view.cases(element).is_some() || view.meaning(element).is_some_and(Meaning::is_choice)
+    view.cases(element).is_some() || table(view, element).is_some()
 }
 
 /// The state in which a computation ends with these values.
@@ -133,15 +130,9 @@ pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Opti
     if let Some(cases) = view.cases(element) {
         return reached(cases, &value);
     }
-    match view.meaning(element)? {
-        Meaning::ReadsRow => match value(0)? {
-            Constant::Int(index) if index >= 0 => Some(u16::from(index >= rows(view, element)?)),
-            _ => None,
-        },
-        Meaning::Selects => match value(0)? {
-            Constant::Choice(place) => Some(place),
-            _ => None,
-        },
+    let rows = rows(view, element)?;
+    match value(0)? {
+        Constant::Int(index) if index >= 0 => Some(u16::from(index >= rows)),
         _ => None,
     }
 }
@@ -169,9 +160,9 @@ fn written(
     let Cause::State(id, state) = cause else { return None };
     let element = &view.plan.elements[id.index()];
     let value = |input: u16| value_of(element.inputs.get(usize::from(input))?, known);
-    let value = match (view.cases(element), view.meaning(element), state) {
-        (Some(cases), ..) => cases.get(usize::from(state))?.written(output.port, &value)?,
-        (_, Some(Meaning::ReadsRow), 0) => cell(view, element, value(0)?, output.port)?,
+    let value = match (view.cases(element), state) {
+        (Some(cases), _) => cases.get(usize::from(state))?.written(output.port, &value)?,
+        (None, 0) => cell(view, element, value(0)?, output.port)?,
         _ => return None,
     };
     let value = match &output.conversion {
@@ -185,7 +176,7 @@ fn value_of(formula: &Formula, known: &Known) -> Option<Constant> {
     evaluate(formula, &|entry| known.get(&EntryId(entry)).cloned()).ok()?
 }
 
-/// How many rows the table of a `Row` has.
+/// How many rows the table of an element has.
 fn rows(view: &View<'_>, element: &Element) -> Option<i64> {
     i64::try_from(table(view, element)?.rows.len()).ok()
 }

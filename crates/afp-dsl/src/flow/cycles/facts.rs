@@ -1,4 +1,4 @@
-//! What toolboxes declare of events: which of them come after a time, and which never hold together.
+//! The declared facts of events: some events come after a time, and some never hold together.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;

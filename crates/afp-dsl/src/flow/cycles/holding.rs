@@ -1,6 +1,6 @@
 //! Which conditions can hold while an element is entered.
 
-use afp_types::{MAX_TEXT, Meaning};
+use afp_types::MAX_TEXT;
 
 use super::facts;
 use crate::flow::view::{Cause, View};
@@ -41,8 +41,7 @@ pub(super) fn never_fails(view: &View<'_>, element: &Element) -> bool {
 
 /// Whether a computation is known to have no fault of its own.
 pub(super) fn is_known(view: &View<'_>, element: &Element) -> bool {
-    let declared = view.cases(element).is_some_and(|cases| cases.iter().all(Case::never_fails));
-    declared || view.meaning(element) == Some(Meaning::Selects)
+    view.cases(element).is_some_and(|cases| cases.iter().all(Case::never_fails))
 }
 
 /// Whether an output takes every value.
