@@ -1,7 +1,7 @@
 //! From the trees of plan files to the static graph.
 //!
-//! One rule, one submodule. All rules run on everything that could be read, so that all errors of
-//! all files come at once; the graph comes only when there are none.
+//! Each rule has a submodule. All rules run on everything that was parsed, so that the errors of
+//! all files are reported at once; the graph exists only without errors.
 
 mod assemble;
 pub(crate) mod bindings;
@@ -60,32 +60,30 @@ pub(crate) use plan::Members;
 pub(crate) use scope::{Context, Program};
 use toolbox::names_only;
 
-/// Whether flow is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Flow {
-    /// As everywhere.
     Checked,
-    /// For tests of what the run time does with plans that the checks refuse.
+    /// For tests of invalid plans at run time.
     Unchecked,
 }
 
-/// What plan files come to; without graph and scenarios where anything but scenarios has errors.
+/// Results of the check; no graph and scenarios if anything except scenarios has errors.
 #[derive(Default)]
 pub(crate) struct Checked {
-    /// The graph of the plan that runs.
+    /// The graph of the main plan.
     pub graph: Option<Graph>,
-    /// What is known of that plan while anything but scenarios has errors.
+    /// The known parts of a main plan with errors.
     pub partial: Option<Partial>,
     /// The scenarios of the first file.
     pub scenarios: Vec<Scenario>,
-    /// What stands in the files, with or without errors.
+    /// Contents of the files, with or without errors.
     pub outline: Outline,
-    /// What names mean, with or without errors.
+    /// Meanings of names, with or without errors.
     pub index: Index,
 }
 
-/// Checks plan files and builds the graph of the plan `main` of the first file, or of its first
-/// plan; in a file of scenarios alone that is the plan of the first scenario.
+/// Checks plan files and builds the graph of the plan `main` of the first file. Defaults to its
+/// first plan or, in a file with only scenarios, to the plan of the first scenario.
 pub(crate) fn check(
     files: &[PlanFile],
     toolboxes: &Toolboxes,
@@ -138,7 +136,7 @@ pub(crate) fn check(
     checked
 }
 
-/// Takes back that nothing reads an entry of which a scenario says something.
+/// Withdraws warnings of unread entries that scenarios use.
 fn read_by_scenarios(program: &Program<'_>, files: &[PlanFile], diags: &mut Diagnostics) {
     let items = files.iter().flat_map(|file| file.tree.items());
     let scenarios = items.filter_map(|item| match item {
@@ -152,7 +150,7 @@ fn read_by_scenarios(program: &Program<'_>, files: &[PlanFile], diags: &mut Diag
     }
 }
 
-/// What all names mean, and what toolboxes declare.
+/// Meanings of all names, and declarations of toolboxes.
 fn names(
     files: &[PlanFile],
     toolboxes: &Toolboxes,
@@ -190,7 +188,7 @@ fn names(
     (meanings, declared)
 }
 
-/// Says what the paths behind `use` mean.
+/// Records the meanings of paths after `use`.
 fn note_files(files: &[PlanFile], record: &Recorder) {
     for file in files {
         let paths = file.tree.items().into_iter().filter_map(|item| match item {
@@ -204,7 +202,7 @@ fn note_files(files: &[PlanFile], record: &Recorder) {
     }
 }
 
-/// Checks the flow of every plan that has no error so far.
+/// Checks the flow of every plan without errors.
 fn check_flow(
     program: &Program<'_>,
     plans: &[Option<graph::Plan>],
@@ -219,13 +217,13 @@ fn check_flow(
     flow::check(&Model { plans: valid, order: order.to_vec(), toolboxes }, diags);
 }
 
-/// Reports a type that hides one of the language.
+/// Reports a type that shadows a built-in one.
 pub(crate) fn shadows(name: &Name, diags: &mut Diagnostics) {
     let message = message!("'{}' is a type of the language", name.text);
     diags.push(Diagnostic::new(Code::E0213, name.span, message).help("choose another name"));
 }
 
-/// The plan to run: one of the first file, by its place among all.
+/// Index of the main plan, one of the first file.
 fn select(
     program: &Program<'_>,
     file: &PlanFile,

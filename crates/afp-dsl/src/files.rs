@@ -1,7 +1,7 @@
-//! The plan files that plan files use: where their texts come from, and what their paths mean.
+//! The plan files that plan files use: the source of their texts, and the meaning of their paths.
 //!
-//! The compiler reads nothing itself. Whoever calls it hands over [`Files`]: the [`Disk`], texts that
-//! an editor has not saved yet, or texts that a program carries along.
+//! The compiler does no I/O. Its caller provides [`Files`]: the [`Disk`], unsaved texts of an
+//! editor, or texts embedded in a program.
 
 mod uri;
 
@@ -12,23 +12,22 @@ use std::path::PathBuf;
 pub use afp_output::{read_text, read_text_file};
 pub use uri::{path_of, uri_of};
 
-/// Where the texts of used plan files come from.
+/// The source of used plan files.
 pub trait Files {
-    /// The text of a file. The path is that of the using file's folder joined with what stands
-    /// behind `use`, without `.` and with `..` resolved as far as it goes; its parts are separated
-    /// by `/`.
+    /// The text of a file. The path is the using file's folder joined with the path after `use`,
+    /// without `.` and with `..` resolved as far as possible, separated by `/`.
     ///
     /// # Errors
     /// Why there is no text: lower case, no final period.
     fn read(&self, path: &str) -> Result<String, String>;
 
-    /// What all paths of one file have alike, so that a link and what it leads to are one file; the path itself where links
-    /// are not known.
+    /// A common identity of all paths of one file, so that a link and its target are one file; the
+    /// path itself if links are unknown.
     fn identity(&self, path: &str) -> String {
         path.to_owned()
     }
 
-    /// The whole path of the folder that paths are seen from, without links; `None` where it has none.
+    /// The absolute path of the base folder, without links; `None` without one.
     fn folder(&self) -> Option<String> {
         None
     }
@@ -40,7 +39,7 @@ impl<F: Fn(&str) -> Result<String, String>> Files for F {
     }
 }
 
-/// The files of the disk, seen from a folder; that of the process where it is empty.
+/// Files on disk, relative to a folder; the process's folder if empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Disk(pub PathBuf);
 
@@ -66,18 +65,18 @@ impl Files for Disk {
     }
 }
 
-/// Texts by path; without any, a plan file has only itself.
+/// Texts by path; empty if a plan file uses no others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Texts(BTreeMap<String, String>);
 
 impl Texts {
-    /// Adds a text, or puts it in place of the one that the path has.
+    /// Adds or replaces a text.
     pub fn add(&mut self, path: &str, text: impl Into<String>) {
         self.0.insert(normalised(path), text.into());
     }
 
-    /// Takes a text apart in which further files follow, each below a line `// file: PATH`: the
-    /// first file, and the others.
+    /// Splits a text with further files, each after a line `// file: PATH`, into the first file and
+    /// the others.
     #[doc(hidden)]
     pub fn in_one(text: &str) -> (String, Texts) {
         const HEAD: &str = "// file: ";
@@ -105,8 +104,8 @@ impl Files for Texts {
     }
 }
 
-/// A path without `.` and empty parts and with `..` resolved as far as it goes, its parts separated
-/// by `/`: two paths of one file are equal then, links aside.
+/// Normalises a path: without `.` and empty parts, with `..` resolved as far as possible, separated
+/// by `/`. Equal paths then have equal text, apart from links.
 pub fn normalised(path: &str) -> String {
     let path = path.replace('\\', "/");
     let root = if path.starts_with('/') { "/" } else { "" };
@@ -123,7 +122,7 @@ pub fn normalised(path: &str) -> String {
     format!("{root}{}", parts.join("/"))
 }
 
-/// The path of a file that the file `user` names as `written`.
+/// The path of a file that `user` names as `written`.
 pub fn joined(user: &str, written: &str) -> String {
     let user = normalised(user);
     match user.rsplit_once('/') {
@@ -132,7 +131,7 @@ pub fn joined(user: &str, written: &str) -> String {
     }
 }
 
-/// How the file `user` can name the file `path`, both normalised; `None` when no path leads there.
+/// How `user` can name the file `path`, both normalised; `None` if that is impossible.
 pub fn relative(user: &str, path: &str) -> Option<String> {
     if user.starts_with('/') != path.starts_with('/') {
         return None;
@@ -141,7 +140,7 @@ pub fn relative(user: &str, path: &str) -> Option<String> {
     from.pop();
     let to: Vec<&str> = path.split('/').collect();
     let same = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    // Nobody knows the name of the folder that '..' leaves.
+    // The name of the folder before '..' is unknown.
     if from[same..].contains(&"..") {
         return None;
     }
@@ -149,9 +148,8 @@ pub fn relative(user: &str, path: &str) -> Option<String> {
     Some(up.chain(to[same..].iter().copied()).collect::<Vec<_>>().join("/"))
 }
 
-/// The normalised paths, seen from the deepest folder that all of them are in. Where some lead out
-/// of the folder from which they are seen and others do not, that one has its name; where `folder`, its whole path, is not
-/// known, it is called `here`.
+/// The normalised paths, relative to their deepest common folder. If only some leave the base
+/// folder, its name is taken from `folder`, its absolute path, or is `here` if unknown.
 pub(crate) fn below_all(paths: &[String], folder: Option<&str>) -> Vec<String> {
     let ups = |path: &str| path.split('/').take_while(|part| *part == "..").count();
     let highest = paths.iter().map(|path| ups(path)).max().unwrap_or(0);
@@ -171,7 +169,7 @@ pub(crate) fn below_all(paths: &[String], folder: Option<&str>) -> Vec<String> {
     let mut shared = paths.first().map_or("", |path| &path[..folder(path)]);
     while let Some(other) = paths.iter().find(|path| !path.starts_with(shared)) {
         let same = shared.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
-        // What is the same may end inside a letter; a folder's border never does.
+        // The common prefix may end inside a name; a folder ends at a slash.
         let cut = shared.as_bytes()[..same].iter().rposition(|byte| *byte == b'/');
         shared = &shared[..cut.map_or(0, |slash| slash + 1)];
     }

@@ -1,8 +1,8 @@
-//! Checks of flow: what can be reached, what has a value when it is read, what never ends.
+//! Flow checks: reachability, values before reads, endings.
 //!
-//! They run on finished plans, sub-plans before the plans that use them, and need nothing of a
-//! sub-plan but a [`Summary`]. Only elements that can be reached take part. Every search is
-//! iterative, so that no plan is too deep or too long for the stack.
+//! They run on complete plans, sub-plans first, and need only a [`Summary`] of sub-plans. Only
+//! reachable elements count. Every search is iterative, so that large plans do not overflow the
+//! stack.
 
 mod assigned;
 mod cycles;
@@ -32,11 +32,11 @@ use view::View;
 
 /// The plans of a compilation; [`crate::graph::Component::SubPlan`] is an index into them.
 pub(crate) struct Model<'a> {
-    /// Plans without errors; the others are holes, of which nothing bad is assumed.
+    /// Plans without errors; `None` for others, which are assumed to be correct.
     pub plans: Vec<Option<&'a Plan>>,
-    /// All places of `plans`, sub-plans before the plans that use them.
+    /// All indices of `plans`, sub-plans before their users.
     pub order: Vec<usize>,
-    /// The toolboxes that templates are indices into.
+    /// The toolboxes of template ids.
     pub toolboxes: Vec<Arc<Toolbox>>,
 }
 
@@ -50,32 +50,32 @@ impl Model<'_> {
 pub(crate) const OK: usize = 0;
 /// Index of the ending `Interrupted`.
 pub(crate) const INTERRUPTED: usize = 1;
-/// Index of failing, which has a place in [`Summary::ends`] alone: no state of a sub-plan stands for it.
+/// Index of failing, only in [`Summary::ends`]: no state of a sub-plan stands for it.
 pub(crate) const FAILED: usize = 2;
 
-/// What the users of a plan need to know of its flow.
+/// Flow properties of a plan for its users.
 #[derive(Clone, Debug)]
 pub(crate) struct Summary {
     /// Whether it can end as `OK`, as `Interrupted`, by failing.
     pub ends: [bool; 3],
     /// Whether it can do so within the step that starts it.
     pub instant: [bool; 2],
-    /// An edge to `fail` that can be reached.
+    /// A reachable edge to `fail`.
     pub fails: Option<Span>,
-    /// Whether it consists of computations only, so that it never takes time.
+    /// Whether it has only computations, so that it never takes time.
     pub timeless: bool,
-    /// How many edges it takes in one step, if loops of computations decide that and it never takes time.
+    /// Number of edges per step, if loops of computations determine it and the plan never takes
+    /// time.
     pub taken: i64,
-    /// For each ending and `out` entry: a way to the ending on which nothing writes the entry.
+    /// For each ending and `out` entry: a path to the ending on which the entry is not written.
     pub unset: [Vec<Option<String>>; 2],
 }
 
-/// Checks all plans of a model.
 pub(crate) fn check(model: &Model<'_>, diags: &mut Diagnostics) {
     in_order(model, |view| check_plan(view, diags));
 }
 
-/// Sums all plans of a model up, without what only the checks ask for: `unset` is empty.
+/// Summarises all plans of a model without the parts for checks: `unset` is empty.
 pub(crate) fn sum_up(model: &Model<'_>) -> Vec<Option<Summary>> {
     in_order(model, |view| {
         let (instant, timeless) = cycles::instant_endings(view);
@@ -84,7 +84,7 @@ pub(crate) fn sum_up(model: &Model<'_>) -> Vec<Option<Summary>> {
     })
 }
 
-/// Sums up each plan after its sub-plans.
+/// Summarises each plan after its sub-plans.
 fn in_order(
     model: &Model<'_>,
     mut sum_up: impl FnMut(&View<'_>) -> Summary,

@@ -1,8 +1,7 @@
-//! Collects the files of a compilation: toolboxes, the plan file that is compiled, and those that it uses,
-//! directly or through others.
+//! Collects the files of a compilation: toolboxes, the main plan file, and directly or indirectly
+//! used files.
 //!
-//! Each file is read once, however many use it; files may use one another in a circle, since only
-//! plans that contain themselves have no meaning.
+//! Each file is read once. Files may use each other in a circle; only recursive plans are invalid.
 
 mod toolboxes;
 
@@ -20,42 +19,39 @@ use rustc_hash::FxHashMap;
 pub(crate) use toolboxes::ToolboxFile;
 pub use toolboxes::Toolboxes;
 
-/// A plan file of a compilation.
 pub(crate) struct PlanFile {
     /// Its normalised path.
     pub path: String,
-    /// The others by which it is used.
+    /// Further paths by which it is used.
     pub further: Vec<String>,
     pub source: Arc<Source>,
-    /// What the parser has made of it.
     pub parse: Parse,
     pub tree: File,
     /// Its index among the sources.
     pub index: u16,
-    /// The files that it uses, by their places among the gathered ones, as written.
+    /// The used files as indices of gathered files, in source order.
     pub uses: Vec<usize>,
-    /// The paths behind `use` that lead to files, with these places.
+    /// The paths after `use` that lead to files, with their indices.
     pub paths: Vec<(Span, usize)>,
-    /// Whether a file that it wants to use is missing.
+    /// Whether a used file is missing.
     pub incomplete: bool,
 }
 
 impl PlanFile {
-    /// Whether a path of it leads out of the folder from which paths are seen.
+    /// Whether one of its paths leaves the base folder.
     pub fn leads_out(&self) -> bool {
         let mut paths = self.further.iter().chain([&self.path]);
         paths.any(|path| path.starts_with("../"))
     }
 
-    /// The place of the whole text.
+    /// The span of the whole text.
     pub fn whole(&self) -> Span {
         let end = u32::try_from(self.source.text.len()).unwrap_or(u32::MAX);
         Span { file: self.index, start: 0, end }
     }
 }
 
-/// Collects the files, the compiled one first, the others as they are found; their texts join
-/// `sources`.
+/// Collects the files, the main one first, then as found; their texts are added to `sources`.
 pub(crate) fn gather(
     source: &Source,
     files: &dyn Files,
@@ -73,7 +69,7 @@ pub(crate) fn gather(
     gathering.found
 }
 
-/// Collects files that are all there is: those that they use are among them or missing.
+/// Collects a complete set of files: used files are among them or missing.
 pub(crate) fn gather_all(
     files: &[Source],
     toolboxes: &Toolboxes,
@@ -95,18 +91,16 @@ struct Gathering<'a> {
     sources: &'a mut Sources,
     diags: &'a mut Diagnostics,
     found: Vec<PlanFile>,
-    /// What became of each path: a place in `found`, or nothing with the reason.
+    /// The result of each path: an index in `found`, or an error.
     known: FxHashMap<String, Result<usize, Unusable>>,
-    /// The files in `found` by what all paths of each have alike; none before the first `use`.
+    /// Files in `found` by identity; empty before the first `use`.
     identities: FxHashMap<String, usize>,
 }
 
-/// Why a file cannot be used.
 #[derive(Clone)]
 enum Unusable {
-    /// It cannot be read.
     Unread(String),
-    /// It is a toolbox of that name.
+    /// It is a toolbox with that name.
     Toolbox(String),
 }
 
@@ -123,8 +117,7 @@ impl<'a> Gathering<'a> {
 
     fn first(&mut self, source: &Source) {
         let source = Arc::new(source.clone());
-        // Beyond 65,536 files spans would be ambiguous; nothing can be said about such a
-        // compilation.
+        // With more than 65,536 files spans would be ambiguous, so there are no diagnostics.
         let index = self.sources.add(source.clone()).unwrap_or(u16::MAX);
         let tree = parse(&source.text, index, self.diags);
         self.add(normalised(&source.name), source, index, tree);
@@ -165,10 +158,10 @@ impl<'a> Gathering<'a> {
         }
     }
 
-    /// The file behind one `use`; reports when there is none.
+    /// The file of a `use`; reports an unusable one.
     fn used(&mut self, user: usize, written: &Name) -> Option<usize> {
         let mut wrong = Diagnostics::default();
-        // A path has no escapes: a backslash in it is that of a folder.
+        // A path has no escapes: a backslash separates folders.
         let text = match written.text.trim_matches('"') {
             path if path.contains('\\') => path.replace("\\\\", "\\"),
             _ => unquote(written, &mut wrong),
@@ -213,7 +206,7 @@ impl<'a> Gathering<'a> {
         known.map_err(|why| self.diags.push(self.unusable(&why, &path, written.span))).ok()
     }
 
-    /// The file of a path that was not met yet: one that has been read by another path, or a new one.
+    /// The file of a new path: one already read by another path, or a new one.
     fn find(&mut self, path: &str) -> Result<usize, Unusable> {
         if self.identities.is_empty() {
             let identity =
@@ -270,7 +263,7 @@ impl<'a> Gathering<'a> {
     }
 }
 
-/// What is wrong with a path as it is written.
+/// Reports an invalid path.
 fn path_error(path: &str, span: Span) -> Option<Diagnostic> {
     let refused = |message: Message| Diagnostic::new(Code::E0507, span, message);
     let quoted = |path: &str| format!("\"{path}\"");

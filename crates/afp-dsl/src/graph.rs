@@ -1,8 +1,8 @@
-//! The static graph: what a checked plan is.
+//! The static graph: the result of checking a plan.
 //!
-//! Interpreter, Rust back end, drawings, editor and language server read this and nothing else.
-//! Everything is resolved: names are indices, conversions are nodes of the formulas, defaults are
-//! filled in, polling order is fixed. A plan with errors has no graph.
+//! Interpreter, Rust back end, drawings, editor and language server read only this. Everything is
+//! resolved: names are indices, conversions are nodes of formulas, defaults are filled in, polling
+//! order is fixed. A plan with errors has no graph.
 
 pub(crate) mod constant;
 mod dump;
@@ -26,183 +26,159 @@ pub use formula::{Formula, Node, Note, Part};
 pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};
 
-/// Where an edge leads in a running plan; elements go by their numbers.
+/// Target of an edge in a running plan, with the element's number.
 pub type Goal = Target<u32, ()>;
 
-/// All plans that one plan needs, itself included.
+/// A plan with all of its sub-plans.
 #[derive(Clone, Debug)]
 pub struct Graph {
-    /// Sub-plans stand before the plans that use them.
+    /// Sub-plans before their users.
     pub plans: Vec<Plan>,
     pub main: PlanId,
-    /// The toolboxes in use, in the order in which the files name them.
+    /// Used toolboxes, in the order of the files.
     pub toolboxes: Vec<Arc<Toolbox>>,
-    /// The tables that the scheduler reads, one for each of [`Graph::plans`].
+    /// The scheduler's tables, one for each of [`Graph::plans`].
     pub rows: Vec<Arc<Rows>>,
-    /// The plan files, each with the number by which spans name it.
+    /// The plan files, with their numbers in spans.
     pub sources: Vec<(u16, Arc<Source>)>,
 }
 
-/// One plan: elements, supervisors, entries.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Its name in the text. Plans of one name, from files that do not see each other, have `_2` and
-    /// so on behind it, but not the main plan.
+    /// Its name. Equal names from files that do not see each other get a suffix `_2` and so on,
+    /// except for the main plan.
     pub name: String,
-    /// The file that it stands in, seen from the folder of the main plan's file; `None` in that file
-    /// itself.
+    /// Its file, relative to the main plan's folder; `None` for the main file.
     pub file: Option<String>,
-    /// Its `///` lines, without the slashes.
+    /// Its `///` lines, without slashes.
     pub doc: String,
     pub entries: Vec<Entry>,
-    /// Actors, computations and sub-plans as written.
+    /// Actors, computations and sub-plans in source order.
     pub elements: Vec<Element>,
-    /// The global supervisors as written, then the local ones, element by element.
+    /// Global supervisors in source order, then the local ones, element by element.
     pub supervisors: Vec<Supervisor>,
-    /// How many of [`Plan::supervisors`] are global.
+    /// Number of global supervisors in [`Plan::supervisors`].
     pub globals: u16,
     pub start: ElementId,
-    /// Why edges to `fail` end the plan: each text once.
+    /// Texts of `fail`, each once.
     pub reasons: Vec<String>,
     /// Whether an event or `DeadlineMissed` edge leads to `terminate`, so that the plan can end as
     /// `Interrupted`.
     pub interruptible: bool,
-    /// Whether it is meant to run until something happens to it.
+    /// Whether it should run until an event ends it.
     pub forever: bool,
-    /// The name in the text.
     pub span: Span,
-    /// The name behind `start`.
+    /// The name after `start`.
     pub start_span: Span,
 }
 
-/// A named value of the configuration.
 #[derive(Clone, Debug)]
 pub struct Entry {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// Who may set it.
     pub kind: EntryKind,
-    /// Whether an `in` entry is given its value anew before each step of the sub-plan.
+    /// Whether an `in` entry is updated before each step of the sub-plan.
     pub live: bool,
     /// Its type; never `any` or `number`.
     pub ty: Type,
     /// Its initial value, of type [`Entry::ty`].
     pub init: Option<Formula>,
-    /// That value, where it is the same in every run; it is of the range.
+    /// The initial value if it is constant; it is in range.
     pub value: Option<Constant>,
-    /// Least and greatest value, in SI units; both belong to it.
+    /// Minimum and maximum, inclusive, in SI units.
     pub range: Option<(f64, f64)>,
-    /// The constants that the range is made of.
+    /// The constants in the range.
     pub ranged_by: Vec<EntryId>,
-    /// The name in the text.
     pub span: Span,
 }
 
-/// An actor, a computation or a sub-plan.
 #[derive(Clone, Debug)]
 pub struct Element {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// What it is made from.
     pub component: Component,
-    /// The type that stands for `any` or `number` in its template.
+    /// The type of `any` or `number` in its template.
     pub generic: Option<Type>,
-    /// One formula for each input port of the template (for each `in` entry of a sub-plan), in
-    /// their order, of the port's type.
+    /// A formula for each input port of the template (each `in` entry of a sub-plan), in order, of
+    /// the port's type.
     pub inputs: Vec<Formula>,
-    /// The connected outputs.
     pub outputs: Vec<Output>,
-    /// One target for each state of the template, in its order; of a sub-plan `OK` and
-    /// `Interrupted`, the latter `None` where it cannot happen and was not connected.
+    /// A target for each state of the template, in order; for a sub-plan `OK` and `Interrupted`,
+    /// the latter `None` if it is impossible and unconnected.
     pub states: Vec<Option<Target>>,
-    /// Where `Error` leads; unconnected it ends the plan.
+    /// Target of `Error`; unconnected it ends the plan.
     pub on_error: Option<Target>,
-    /// Its local supervisors, as written.
+    /// Its local supervisors, in source order.
     pub supervisors: Vec<SupervisorId>,
-    /// Its reactions to global supervisors, as written; at most one set for each.
+    /// Its reactions to global supervisors, in source order; at most one set for each.
     pub reactions: Vec<Reactions>,
-    /// The name in the text.
     pub span: Span,
-    /// Where its edges stand in the text.
     pub edges: EdgeSpans,
 }
 
-/// Where the edges of a component stand in the text.
+/// Source places of a component's edges.
 #[derive(Clone, Debug, Default)]
 pub struct EdgeSpans {
-    /// One place for each state or event, in the order of the targets; `None` where it is not
-    /// connected.
+    /// A place for each state or event, in the order of targets; `None` if unconnected.
     pub outcomes: Vec<Option<Span>>,
     /// The place of `Error` or `DeadlineMissed`.
     pub extra: Option<Span>,
 }
 
-/// What an element is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
     Actor(TemplateId),
     Computation(TemplateId),
-    /// A plan used like an actor.
     SubPlan(PlanId),
 }
 
-/// A template of a toolbox.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TemplateId {
     pub toolbox: ToolboxId,
-    /// Which of [`Toolbox::templates`].
+    /// Index in [`Toolbox::templates`].
     pub index: u16,
 }
 
-/// A supervisor, global or local.
 #[derive(Clone, Debug)]
 pub struct Supervisor {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// The element it belongs to; `None` for a global one.
+    /// Its element; `None` for a global one.
     pub owner: Option<ElementId>,
-    /// What it is made from.
     pub template: TemplateId,
-    /// The type that stands for `any` or `number` in its template.
+    /// The type of `any` or `number` in its template.
     pub generic: Option<Type>,
-    /// One formula for each input port of the template.
+    /// A formula for each input port of the template.
     pub inputs: Vec<Formula>,
-    /// The connected outputs.
     pub outputs: Vec<Output>,
-    /// One target for each event of the template.
+    /// A target for each event of the template.
     pub events: Vec<Target>,
-    /// Where `DeadlineMissed` leads.
+    /// Target of `DeadlineMissed`.
     pub on_miss: Option<Target>,
-    /// When it is polled.
     pub timing: Timing,
-    /// The constants that its times are.
+    /// The constants in its times.
     pub timed_by: Vec<EntryId>,
-    /// Where `every` is written, if it is.
     pub every_span: Option<Span>,
-    /// The name in the text.
     pub span: Span,
-    /// Where its edges stand in the text.
     pub edges: EdgeSpans,
 }
 
-/// An output port bound to an entry.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// Index of the template's output port (of the sub-plan's `out` entries, counted among
-    /// themselves).
+    /// Index of the template's output port, or of the sub-plan's `out` entry among these.
     pub port: u16,
     pub entry: EntryId,
-    /// How the port's value becomes the entry's.
+    /// Conversion of the port's value to the entry.
     pub conversion: Option<Conversion>,
-    /// Where the entry is named.
+    /// The entry's name in the binding.
     pub span: Span,
 }
 
 impl Element {
-    /// Whether it is an actor or a sub-plan, so that supervisors watch it.
+    /// Whether it is an actor or a sub-plan, which supervisors can watch.
     pub(crate) fn takes_time(&self) -> bool {
         !matches!(self.component, Component::Computation(_))
     }
@@ -217,7 +193,6 @@ impl Graph {
         &self.plans[id.index()]
     }
 
-    /// The tables of a plan by index.
     pub fn rows(&self, id: PlanId) -> &Arc<Rows> {
         &self.rows[id.index()]
     }

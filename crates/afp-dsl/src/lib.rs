@@ -1,6 +1,6 @@
 //! The compiler of Action Flow Plans: text in; diagnostics, outline and static graph out.
 //!
-//! It does no I/O and depends on the syntax and the arithmetic, `afp-types`, alone.
+//! It does no I/O and depends only on `afp-syntax` and `afp-types`.
 
 mod check;
 mod compile;

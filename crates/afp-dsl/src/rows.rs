@@ -1,8 +1,8 @@
-//! The tables that the scheduler reads, lowered once from the checked plans.
+//! The scheduler's tables, made once from the checked plans.
 //!
-//! Loaded plans share them and generated code prints them, so the two back ends cannot disagree. The
-//! types of the rows are those of `afp-types`. The check refuses a plan whose tables would be too large
-//! (`check/size.rs`), and `lower` returns nothing rather than a number that wrapped.
+//! Loaded plans share them and generated code prints them, so the two back ends cannot differ. The
+//! row types are those of `afp-types`. The check rejects plans with too large tables
+//! (`check/size.rs`), and `lower` returns `None` instead of wrapping a number.
 
 mod ids;
 mod lower;

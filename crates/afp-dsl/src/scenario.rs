@@ -1,9 +1,9 @@
 //! Scenarios: tests of a plan, checked and resolved.
 //!
-//! A scenario puts the robot into a world, lets things happen at instants, and says what is expected.
-//! Everything is resolved as in the static graph: components and entries go by the numbers of
-//! [`crate::unfold`], values are in SI units, times in nanoseconds. What is pressed, fails or signals is the
-//! robot's: it goes by the names that toolboxes declare.
+//! A scenario puts the robot into a world, applies stimuli at instants, and states expectations.
+//! Everything is resolved as in the static graph: components and entries have the numbers of
+//! [`crate::unfold`], values are in SI units, times in nanoseconds. Controls, faults and signals
+//! have the names of their toolboxes.
 
 use std::fmt;
 use std::sync::Arc;
@@ -16,40 +16,39 @@ use afp_syntax::source::Span;
 
 pub use afp_types::Comparison;
 
-/// How long a scenario lasts unless it says otherwise, nanoseconds.
+/// Default duration of a scenario, nanoseconds.
 pub const DEFAULT_UNTIL: u64 = 60_000_000_000;
 
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// Its name; where it is over several seeds or worlds, with those of this run behind it.
+    /// Its name; for one of several seeds or worlds, with these appended.
     pub name: String,
-    /// The name in the text.
     pub span: Span,
-    /// The plan that it is for, as the one that runs.
+    /// Its plan as the main plan.
     pub graph: Arc<Graph>,
-    /// The file with the plan, as it was read.
+    /// The file of the plan.
     pub plan_file: String,
-    /// The file of the world, as written; without one it is that of the plan.
+    /// The file of the world, as written; `None` for the plan's world.
     pub world: Option<String>,
-    /// Where the robot starts, unless it is where the world says.
+    /// The robot's start, if it differs from the world's.
     pub robot: Option<Start>,
-    /// The seed of all noise.
+    /// The noise seed.
     pub seed: u64,
     /// Values of `in` entries, by position.
     pub set: Vec<(u16, Constant)>,
-    /// Instants that are known once they have come, those that others count from before them.
+    /// Instants known at run time, each after the moment that it is relative to.
     pub moments: Vec<Moment>,
-    /// What happens, in order of time from the start or from one moment; at one instant as written.
+    /// Stimuli in order of time from the start or from a moment; at one instant in source order.
     pub stimuli: Vec<Stimulus>,
-    /// What is expected, as written.
+    /// Expectations in source order.
     pub expectations: Vec<Expectation>,
-    /// When it ends at the latest, nanoseconds.
+    /// Time limit, nanoseconds.
     pub until: u64,
 }
 
 impl Scenario {
-    /// A run of a plan in its own world in which nothing happens and nothing is expected, for so
-    /// many nanoseconds.
+    /// A run of a plan in its own world without stimuli and expectations, for a duration in
+    /// nanoseconds.
     pub fn quiet(
         name: impl Into<String>,
         graph: Arc<Graph>,
@@ -73,15 +72,14 @@ impl Scenario {
     }
 }
 
-/// A scenario that cannot be run as it is written, or as its plan is now.
+/// A scenario with errors, or with an invalid plan.
 #[derive(Clone, Debug)]
 pub struct InvalidScenario {
     pub name: String,
-    /// The name in the text.
     pub span: Span,
-    /// The name of the plan that it is for, as written.
+    /// The name of its plan, as written.
     pub plan: String,
-    /// What is wrong with it, at least one error.
+    /// The errors, at least one.
     pub errors: Diagnostics,
 }
 
@@ -95,17 +93,16 @@ pub struct Start {
     pub heading: f64,
 }
 
-/// An instant of a run by what holds or happens then for the first time.
+/// An instant of a run, defined by the first time of a claim.
 #[derive(Clone, Debug)]
 pub struct Moment {
     pub claim: Claim,
-    /// From when on: the start of the run, or another moment.
+    /// The moment from which it counts; the run's start if `None`.
     pub from: Option<MomentId>,
-    /// How long after it the run ends at the latest, nanoseconds.
+    /// Time limit of the run after it, nanoseconds.
     pub until: Option<u64>,
-    /// The line as written, without those that count from it.
+    /// The line as written, without its relative lines.
     pub text: String,
-    /// The claim in the text.
     pub span: Span,
 }
 
@@ -113,34 +110,30 @@ pub struct Moment {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MomentId(pub u16);
 
-/// Something that happens.
 #[derive(Clone, Debug)]
 pub struct Stimulus {
-    /// What its time counts from; the start of the run without one.
+    /// The origin of its time; the run's start if `None`.
     pub from: Option<MomentId>,
-    /// When, nanoseconds.
+    /// Its time, nanoseconds.
     pub at: u64,
     pub action: Action,
     pub text: String,
-    /// The line in the text.
     pub span: Span,
 }
 
-/// What happens.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// An entry is written from outside.
+    /// Writes an entry from outside.
     Set(u16, Constant),
-    /// A control is held down, for so many nanoseconds or for as long as the robot's own
-    /// presses last.
+    /// Holds a control down, for this many nanoseconds or for the robot's default.
     Press(Part, Option<u64>),
-    /// It is let go.
+    /// Releases a control.
     Release(Part),
-    /// A device fails, for so many nanoseconds or for good.
+    /// Injects a fault, for this many nanoseconds or permanently.
     Fail(Failure, Option<u64>),
-    /// A supervisor reports an event, or an element reaches a state, without a reason.
+    /// Injects an event of a supervisor or a state of an element.
     Inject(Injection),
-    /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
+    /// Makes an actor, those of a sub-plan, or all of them idle from their next start on.
     Idle(Option<u32>),
 }
 
@@ -151,15 +144,15 @@ pub struct Part {
     pub name: String,
 }
 
-/// A fault, and how much of it.
+/// A fault with its amount.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     pub fault: Part,
-    /// In SI units; without it as much as the declaration says.
+    /// In SI units; defaults to the declaration's.
     pub amount: Option<f64>,
 }
 
-/// A part of a signal that is no single value.
+/// A part of a composite signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
     /// Of a pose: metres.
@@ -168,34 +161,33 @@ pub enum Field {
     Y,
     /// Of a pose: radians.
     Heading,
-    /// Of a range: metres; without an echo there is none.
+    /// Of a range: metres; missing without an echo.
     Distance,
 }
 
-/// An outcome that does not come from its component.
+/// An injected outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Injection {
     pub component: u32,
-    /// Its event or state; the special one is `Error` of an actor, `DeadlineMissed` of a supervisor.
+    /// Its event or state; the special one is `Error` of an actor, `DeadlineMissed` of a
+    /// supervisor.
     pub outcome: Outcome,
-    /// The outputs that come with it, by position among the template's, each of its port's type.
+    /// Its outputs, by position in the template, each of its port's type.
     pub outputs: Vec<(u16, Constant)>,
 }
 
 #[derive(Clone, Debug)]
 pub struct Expectation {
     pub claim: Claim,
-    /// How often it has to hold.
     pub wanted: Wanted,
-    /// What its window counts from; the start of the run without one.
+    /// The origin of its window; the run's start if `None`.
     pub from: Option<MomentId>,
     pub window: Window,
     pub text: String,
-    /// The line in the text.
     pub span: Span,
 }
 
-/// How often a claim has to hold.
+/// How often a claim must hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// At some instant of the window.
@@ -204,11 +196,11 @@ pub enum Wanted {
     Always,
     /// At no instant of the window.
     Never,
-    /// So often in the window; for what happens at an instant.
+    /// This often in the window; for momentary claims.
     Times(u32),
 }
 
-/// A stretch of time, nanoseconds.
+/// A time interval, nanoseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
     /// Its first instant.
@@ -217,24 +209,22 @@ pub struct Window {
     pub to: u64,
 }
 
-/// What may hold or happen.
+/// A condition or event.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Claim {
-    /// An edge is taken.
     Transition {
-        /// The element that is left.
+        /// The left element.
         from: u32,
-        /// Where the edge leads.
+        /// The target.
         to: Goal,
-        /// The state or event that it belongs to.
+        /// The state or event of the edge.
         by: Option<Cause>,
     },
     /// A state is reached or an event is taken.
     Happens(Cause),
-    /// An element or sub-plan is active.
     Active(u32),
-    /// Something compares so with something of its type; an unset entry, or a signal that measured nothing, with
-    /// nothing.
+    /// A comparison of values of one type; an unset entry, or a signal without a measurement,
+    /// equals nothing.
     Compare {
         left: Subject,
         comparison: Comparison,
@@ -243,52 +233,49 @@ pub enum Claim {
     /// The plan has not ended.
     Running,
     End(Option<EndCause>),
-    /// An actor or sub-plan is interrupted.
     Interrupt(u32),
     Commit {
-        /// The entry; any without one.
+        /// The entry; any if `None`.
         of: Option<u32>,
-        /// The element, supervisor or plan that writes it; anybody without one.
+        /// The writing element, supervisor or plan; any if `None`.
         by: Option<u32>,
     },
 }
 
-/// What changes while a plan runs and can be compared.
+/// A changing value that can be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Subject {
     Entry(u32),
-    /// A signal of the robot, or a part of one.
+    /// A signal of the robot, or a part of it.
     Signal(Part, Option<Field>),
 }
 
-/// What something is compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Operand {
     Value(Constant),
-    /// What another one is at that time.
+    /// The value of another subject at that time.
     Subject(Subject),
 }
 
-/// A component, or one of its outcomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cause {
     pub component: u32,
-    /// Its state or event; any without one.
+    /// Its state or event; any if `None`.
     pub outcome: Option<Outcome>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// One of the template, by position.
+    /// Of the template, by position.
     Declared(u16),
     /// `Error` of an element, `DeadlineMissed` of a supervisor.
     Special,
 }
 
-/// What ends a plan, or how it ends.
+/// The cause or the kind of a plan's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndCause {
-    /// The outcome whose edge leads to `terminate`, or the `Error` that leads nowhere.
+    /// The outcome whose edge leads to `terminate`, or an unconnected `Error`.
     Cause(Cause),
     /// `OK`
     Ok,
@@ -299,7 +286,6 @@ pub enum EndCause {
 }
 
 impl Part {
-    /// Something of a device.
     pub(crate) fn new(device: &str, name: &str) -> Part {
         Part { device: device.to_owned(), name: name.to_owned() }
     }
@@ -313,7 +299,6 @@ impl fmt::Display for Part {
 }
 
 impl Field {
-    /// The parts of signals of a type.
     pub fn of(ty: SignalType) -> &'static [Field] {
         match ty {
             SignalType::Pose => &[Field::X, Field::Y, Field::Heading],
@@ -339,20 +324,19 @@ impl MomentId {
 }
 
 impl Window {
-    /// The same so much later.
+    /// The window shifted by a time.
     #[must_use]
     pub fn behind(self, by: u64) -> Window {
         Window { from: self.from.saturating_add(by), to: self.to.saturating_add(by) }
     }
 
-    /// Whether an instant lies in it.
     pub fn contains(self, at: u64) -> bool {
         (self.from..=self.to).contains(&at)
     }
 }
 
 impl Claim {
-    /// Whether it happens at an instant rather than holds for a while.
+    /// Whether it is momentary.
     pub fn is_event(&self) -> bool {
         matches!(
             self,

@@ -1,9 +1,9 @@
-//! What can be said of time before a plan runs: demand, longest step, responses, and how long the
-//! robot may go on after a supervisor's condition has come to hold.
+//! Static timing analysis: demand, longest step, responses, and the time from a supervisor's
+//! condition to standstill.
 //!
-//! All of it rests on what the toolboxes declare (`budget`, `stop`) and on the plan's periods and
-//! deadlines. Where a declaration is missing, the result says so instead of guessing. Every search
-//! goes over sub-plans once, however often they are used, so the effort is linear.
+//! It is based on the toolboxes' declarations (`budget`, `stop`) and on the plan's periods and
+//! deadlines. If a declaration is missing, the result is unknown. Every search visits a sub-plan
+//! once, so the cost is linear.
 
 mod before;
 mod check;
@@ -31,100 +31,95 @@ pub(crate) use check::check_everywhere;
 pub use check::check_target;
 pub use target::{BUILT_IN, Budgets, BuiltIn, Target};
 
-/// What is known of the time behaviour of a plan and its sub-plans.
+/// Timing of a plan and its sub-plans.
 #[derive(Clone, Debug)]
 pub struct Timing {
     pub plan: String,
-    /// The longest that one step may take, that which starts the plan too, budgets added up: supervisors, the active actor,
-    /// and what is entered behind it. `Err` names the declaration that is missing.
+    /// Longest duration of a step, including the plan's first, as a sum of budgets: supervisors,
+    /// the active actor, and everything entered after it. `Err` names the missing declaration.
     pub longest_step: Result<u64, String>,
-    /// What that step is made of, and the path of the element that is active then; `None` where it is not known.
+    /// The parts of that step, and the path of its active element; `None` if unknown.
     pub step_parts: Option<StepParts>,
-    /// The greatest share of the processor that is ever asked for (1 is all of it), and the path of
-    /// the element that is active then. `Err` names the declaration that is missing.
+    /// Maximum share of the processor (1 is all), and the path of the element that is then active.
+    /// `Err` names the missing declaration.
     pub demand: Result<(f64, String), String>,
-    /// What the budgets are.
     pub basis: Basis,
-    /// Every supervisor that can run, sub-plans last. One in a sub-plan stands for all uses of it,
-    /// at its worst.
+    /// Every supervisor that can run, sub-plans last. One in a sub-plan stands for all its uses, at
+    /// its worst.
     pub supervisors: Vec<SupervisorTiming>,
 }
 
-/// Where the budgets come from that everything rests on; none of them is measured here.
+/// Origin of the budgets; none is measured here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basis {
-    /// The target that they hold for.
+    /// Their target.
     pub target: Option<String>,
-    /// How many times what is declared.
+    /// Factor on the declared budgets.
     pub slowdown: f64,
-    /// How many templates have a budget of their own on the target.
+    /// Number of templates with their own budget on the target.
     pub given: usize,
 }
 
-/// What the longest step is made of, in nanoseconds.
+/// Parts of the longest step, in nanoseconds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StepParts {
-    /// The path of the element that is active when it begins; empty where the step is that which starts the plan.
+    /// Path of the element that is active at its beginning; empty for the plan's first step.
     pub path: String,
-    /// Polls of the supervisors, and their starts where the plan starts.
+    /// Polls of the supervisors, and their starts in the first step.
     pub supervisors: u64,
-    /// The poll of the active element, or what its interruption takes.
+    /// Poll or interruption of the active element.
     pub active: u64,
-    /// What is entered behind it: its supervisors, started and asked, and its own start.
+    /// Everything entered after it: supervisors, their first polls, and starts.
     pub entered: u64,
 }
 
-/// What is known of one supervisor.
+/// Timing of one supervisor.
 #[derive(Clone, Debug)]
 pub struct SupervisorTiming {
-    /// The plan that it stands in.
+    /// Its plan.
     pub plan: String,
     /// Its path in that plan, such as `searchFirstWall.touch`.
     pub path: String,
-    /// When it is polled.
     pub timing: graph::Timing,
-    /// How long after its release its poll is over. `Err` names the declaration that is missing.
+    /// Time from its release to the end of its poll. `Err` names the missing declaration.
     pub response: Result<Response, String>,
-    /// How long after its condition has come to hold the robot stands still; `None` when it
-    /// interrupts nothing.
+    /// Time from its condition to standstill; `None` if it interrupts nothing.
     pub interruption: Option<Interruption>,
-    /// Its name in the text.
     pub span: Span,
 }
 
-/// The response of a supervisor and what it is made of, in nanoseconds.
+/// Parts of a supervisor's response, in nanoseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Response {
-    /// How late the target may notice the release: one tick.
+    /// Delay in noticing the release: one tick.
     pub tick: u64,
-    /// The step that is running then; a step is not interrupted.
+    /// The running step, which is not interrupted.
     pub step: u64,
-    /// The supervisors that are polled before.
+    /// Earlier polls of other supervisors.
     pub before: u64,
-    /// What an event of one of those interrupts and leads to, up to the look in which the others are asked; zero for one
-    /// that ends with what is interrupted.
+    /// Interruption and entries caused by an event of these, up to the look with the other polls;
+    /// zero for a supervisor that ends with the interrupted element.
     pub entered: u64,
-    /// The supervisor's own poll, with what is computed before `resume`.
+    /// Its own poll, with computations before `resume`.
     pub own: u64,
 }
 
 impl Response {
-    /// The sum of all parts.
     pub fn total(&self) -> u64 {
         let parts = [self.tick, self.step, self.before, self.entered, self.own];
         parts.into_iter().fold(0, u64::saturating_add)
     }
 }
 
-/// How far the bound of an interruption can be trusted.
+/// Trust in the bound of an interruption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trust {
     /// It follows from the declared budgets.
     Proved,
-    /// It holds when every deadline is kept, which does not follow from the declared budgets; or while nobody outside
-    /// writes an entry in which a loop of computations counts.
+    /// It holds if every deadline is kept, which does not follow from the declared budgets; or if
+    /// no external write changes an entry in which a loop of computations counts.
     Assumed,
-    /// There is none, since a declaration is missing.
+    /// Unknown, since a declaration is missing.
     Unknown,
 }
 
@@ -138,29 +133,29 @@ impl Trust {
     }
 }
 
-/// From the moment at which a condition holds at the sensor to standstill.
+/// Time from a condition at the sensor to standstill.
 ///
-/// Delays of the sensor itself come on top. It does not hold across a look that diverts, nor for an
-/// event that is not taken because its target is active already.
+/// The sensor's delay is added to it. It does not apply across a look that diverts, nor to an event
+/// that is not taken because its target is already active.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interruption {
-    /// How far it can be trusted.
     pub trust: Trust,
     /// Its parts in nanoseconds, by name: `period`, `response` or `deadline`, `interrupt`, `stop`.
     pub terms: Vec<(&'static str, u64)>,
-    /// Why it is not proved; empty when it is.
+    /// Why it is not proved; empty if it is.
     pub reason: String,
 }
 
 impl Interruption {
-    /// The sum of all terms; `None` when the bound is unknown.
+    /// The sum of all terms; `None` if unknown.
     pub fn total(&self) -> Option<u64> {
         let sum = || self.terms.iter().fold(0u64, |sum, (_, time)| sum.saturating_add(*time));
         (self.trust != Trust::Unknown).then(sum)
     }
 }
 
-/// Works out the timing of a plan; without a target, ticks count as infinitely fine, and budgets are as declared.
+/// Computes the timing of a plan; without a target, ticks are infinitely fine and budgets as
+/// declared.
 pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
     let model = model(graph, target);
     let summaries = flow::sum_up(&model);
@@ -184,7 +179,7 @@ pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
     Timing { plan, longest_step: longest.known(), step_parts, demand, basis, supervisors }
 }
 
-/// The plans, with toolboxes as they are on a target.
+/// The plans with the toolboxes' budgets on a target.
 fn model<'graph>(graph: &'graph Graph, target: Option<&Target>) -> Model<'graph> {
     let adapted = |toolbox| target.map_or_else(|| Arc::clone(toolbox), |it| it.adapted(toolbox));
     Model {

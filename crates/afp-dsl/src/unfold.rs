@@ -1,9 +1,9 @@
-//! Numbers for everything in a running plan, sub-plans unfolded.
+//! Numbers for everything in a running plan, including sub-plans.
 //!
-//! A trace speaks in these numbers. Generated code, plans loaded at run time and readers of logs
-//! take the names from here, and from [`crate::rows`] where the numbers of a sub-plan begin, so they
-//! cannot disagree: 0 is the outermost plan; then come its elements and its supervisors, then, element
-//! by element, the blocks of its sub-plans, laid out alike. Entries are numbered the same way.
+//! Traces use these numbers. Generated code, loaded plans and log readers take names from here, and
+//! the first numbers of sub-plans from [`crate::rows`], so they cannot differ: 0 is the outermost
+//! plan; then its elements and its supervisors, then, element by element, the blocks of its
+//! sub-plans with the same layout. Entries are numbered likewise.
 
 mod ports;
 mod texts;
@@ -18,7 +18,7 @@ pub use afp_types::ComponentKind;
 use ports::Ports;
 pub use texts::{PlanTexts, TextPlace};
 
-/// A component with the names that a trace needs.
+/// Names of a component for a trace.
 #[derive(Clone, Debug)]
 pub struct ComponentNames {
     /// Dotted path from the outermost plan; the plan's own name for the outermost.
@@ -26,62 +26,57 @@ pub struct ComponentNames {
     pub kind: ComponentKind,
     /// Name of its template or plan.
     pub template: String,
-    /// States or events with where they lead (empty where unconnected), by position.
+    /// States or events with their targets (empty if unconnected), by position.
     pub outcomes: Vec<(String, String)>,
-    /// Where its `Error` (elements) or `DeadlineMissed` (supervisors) leads; empty where
-    /// unconnected.
+    /// Target of its `Error` (elements) or `DeadlineMissed` (supervisors); empty if unconnected.
     pub special: String,
     pub inputs: Vec<PortNames>,
-    /// The output ports that are bound, each with its position.
+    /// The bound output ports with their positions.
     pub outputs: Vec<(u16, PortNames)>,
-    /// Its edges that hold instead of those of global supervisors, each with where it leads.
+    /// Its edges that override global ones, with their targets.
     pub reactions: Vec<(Reaction, String)>,
 }
 
-/// A port with the names that a trace needs.
+/// Names of a port for a trace.
 #[derive(Clone, Debug)]
 pub struct PortNames {
     pub name: String,
-    /// The type of its values.
     pub ty: Type,
-    /// Their SI unit; empty for what is no quantity.
+    /// The SI unit; empty for other values.
     pub unit: String,
-    /// Least and greatest value, in SI units; of an output, those of its entry.
+    /// Minimum and maximum, in SI units; for an output, those of its entry.
     pub range: Option<(f64, f64)>,
-    /// The entry that an output is bound to, as a dotted path; empty for an input.
+    /// Dotted path of an output's entry; empty for an input.
     pub entry: String,
-    /// Where what is bound stands in the text; a default has a place in its toolbox.
+    /// Place of the bound formula; a default has a place in its toolbox.
     pub span: Span,
 }
 
-/// An edge of an element that holds instead of one of a global supervisor.
+/// An edge of an element that overrides a global one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reaction {
-    /// The number of the supervisor.
     pub supervisor: u32,
     /// The event; `None` for `DeadlineMissed`.
     pub event: Option<u16>,
 }
 
-/// An entry with the names that a trace needs.
+/// Names of an entry for a trace.
 #[derive(Clone, Debug)]
 pub struct EntryNames {
     /// Dotted path from the outermost plan.
     pub path: String,
-    /// Who may set it.
     pub kind: EntryKind,
     pub ty: Type,
-    /// Its type as in the text.
+    /// Its type as written.
     pub type_text: String,
-    /// The SI unit of its values; empty for what is no quantity.
+    /// The SI unit; empty for other values.
     pub unit: String,
-    /// Least and greatest value, in SI units.
+    /// Minimum and maximum, in SI units.
     pub range: Option<(f64, f64)>,
-    /// The plan that it belongs to, which goes by the number of its element; 0 is the outermost.
+    /// Its plan, as the number of its element; 0 is the outermost.
     pub plan: u32,
-    /// The name in the text.
     pub span: Span,
-    /// Where its initial value stands in the text.
+    /// Place of its initial value.
     pub initial: Option<Span>,
 }
 
@@ -90,44 +85,40 @@ pub struct EntryNames {
 pub struct Unfolded {
     pub components: Vec<ComponentNames>,
     pub entries: Vec<EntryNames>,
-    /// The texts of the plans.
     pub texts: PlanTexts,
 }
 
-/// How a component hangs together with the others, by their numbers.
+/// The relations of a component, by numbers.
 #[derive(Clone, Debug, Default)]
 pub struct Place {
-    /// The plan that it belongs to, which goes by the number of its element; 0 is the outermost. The
-    /// outermost plan belongs to itself.
+    /// Its plan, as the number of its element; 0 is the outermost. The outermost plan belongs to
+    /// itself.
     pub plan: u32,
     /// The element of a local supervisor.
     pub owner: Option<u32>,
-    /// Whether it is a computation that may lead to `resume`, so that nothing is interrupted before it runs.
+    /// Whether it is a computation that may reach `resume`, so that nothing is interrupted before
+    /// it.
     pub resumes: bool,
-    /// Where its states or events lead, by position.
+    /// Targets of its states or events, by position.
     pub outcomes: Vec<Option<Goal>>,
-    /// Where its `Error` or `DeadlineMissed` leads.
+    /// Target of its `Error` or `DeadlineMissed`.
     pub special: Option<Goal>,
-    /// The name in the text.
     pub span: Span,
-    /// Where its edges stand in the text.
     pub edges: EdgeSpans,
     /// The types of its inputs, by port.
     pub inputs: Vec<Type>,
-    /// Its edges that hold instead of those of global supervisors, and where they stand in the text.
+    /// Its edges that override global ones, with their source places.
     pub reactions: Vec<(Reaction, Goal, Span)>,
 }
 
 impl Place {
-    /// Where an event of a supervisor, or its `DeadlineMissed`, leads where this element does not keep
-    /// the supervisor's own edge.
+    /// The target of a supervisor's event, or its `DeadlineMissed`, if this element overrides it.
     pub fn reaction(&self, supervisor: u32, event: Option<u16>) -> Option<Goal> {
         let wanted = Reaction { supervisor, event };
         self.reactions.iter().find(|(each, ..)| *each == wanted).map(|(_, goal, _)| *goal)
     }
 }
 
-/// The place of each component, by its number.
 pub fn places(graph: &Graph) -> Vec<Place> {
     let mut all = vec![Place { span: graph.main().span, ..Place::default() }];
     add_places(graph, graph.main, 0, &mut all);
@@ -173,8 +164,8 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
     }
 }
 
-/// The edges of an element that hold instead of those of global supervisors; `supervisors` is the number
-/// of the plan's first one.
+/// The edges of an element that override global ones; `supervisors` is the number of the plan's
+/// first one.
 fn reactions(
     element: &Element,
     supervisors: u32,
@@ -193,7 +184,6 @@ fn reactions(
     })
 }
 
-/// Names for all numbers of the plan that runs.
 pub fn unfold(graph: &Graph) -> Unfolded {
     let main = graph.main();
     let mut all = Unfolded { texts: PlanTexts::new(graph), ..Unfolded::default() };
@@ -299,7 +289,7 @@ fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> Compone
     }
 }
 
-/// A target as the text names it.
+/// The name of a target.
 fn target(plan: &Plan, target: Option<Target>) -> String {
     let Some(target) = target else { return String::new() };
     target.keyword().unwrap_or_else(|id| &plan.elements[id.index()].name).to_owned()

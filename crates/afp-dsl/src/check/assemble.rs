@@ -1,4 +1,4 @@
-//! Puts the plans that one plan needs into one graph, sub-plans first.
+//! Assembles the plans that one plan needs into a graph, sub-plans first.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use crate::check::names::key;
 use crate::graph::{self, Component, Graph, PlanId};
 use crate::rows;
 
-/// The graph of the plan `main`; `order` has sub-plans before their users. `plan` gives the plan of a place; it is asked for
-/// each that is needed, once.
+/// The graph of the plan `main`. `order` has sub-plans before their users; `plan` is called once
+/// per needed plan.
 pub(super) fn graph(
     program: &Program<'_>,
     mut plan: impl FnMut(usize) -> Option<graph::Plan>,
@@ -41,7 +41,7 @@ pub(super) fn graph(
     Some(graph)
 }
 
-/// Which plans `main` is made of, itself included.
+/// The plans that `main` contains, including itself.
 pub(super) fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
     let mut needed = vec![false; program.plans.len()];
     let mut open = vec![main];
@@ -53,8 +53,8 @@ pub(super) fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
     needed
 }
 
-/// Gives plans of one name, which come from files that do not see each other, numbers; the main
-/// plan keeps its name.
+/// Numbers plans with equal names from files that do not see each other; the main plan keeps its
+/// name.
 pub(super) fn tell_apart(plans: &mut [graph::Plan], main: PlanId) {
     let mut taken = std::collections::HashSet::from([key(&plans[main.index()].name)]);
     for (index, plan) in plans.iter_mut().enumerate() {

@@ -1,5 +1,5 @@
-//! What goes into and comes out of a component: every input has a value of its port's type, every
-//! output an entry that may be written.
+//! Bindings of components: every input has a value of its port's type, every output a writable
+//! entry.
 
 mod alone;
 mod generic;
@@ -20,24 +20,22 @@ use rustc_hash::FxHashMap;
 pub(crate) use alone::meant;
 use generic::{Generic, actual};
 
-/// The checked bindings of a component.
 pub(crate) struct Bound {
-    /// One formula for each input port and the connected outputs; `None` when something is wrong
-    /// with them.
+    /// A formula for each input port, and the connected outputs; `None` if there are errors.
     pub valid: Option<(Vec<Formula>, Vec<Output>)>,
-    /// The type that stands for `any` or `number`.
+    /// The type of `any` or `number`.
     pub generic: Option<Type>,
 }
 
-/// Where a component stands and how much of it is there.
+/// Place and completeness of a component.
 pub(crate) struct Site {
-    /// The name of its template.
+    /// Name of its template.
     pub reference: Span,
-    /// Whether the text has syntax errors here, so that what is missing may only be half typed.
+    /// Whether there are syntax errors here, so that missing parts may not be complete yet.
     pub broken: bool,
 }
 
-/// Checks the bindings of one component.
+/// Checks the bindings of a component.
 pub(crate) fn check(
     scope: &Scope<'_>,
     signature: &Signature,
@@ -52,7 +50,7 @@ pub(crate) fn check(
         .map(|bound| bound.map(|formula| formula.and_then(|f| scope.infer(f, diags))))
         .collect();
     let generic = generic::decide(scope, signature, &inferred, &ports, diags);
-    // What has no port stands for what has no value.
+    // An unknown port may be meant for a missing input.
     let broken = site.broken || !ports.complete;
     let inputs = inputs(scope, signature, inferred, &generic, &Site { broken, ..*site }, diags);
     let outputs = outputs::check(scope, signature, &ports, &generic, diags);
@@ -74,19 +72,18 @@ pub(crate) fn check(
     }
 }
 
-/// The bindings, sorted by port.
 struct Ports<'a> {
-    /// For each input: nothing, a hole, or a formula.
+    /// For each input: nothing, an invalid binding, or a formula.
     inputs: Vec<Option<Option<&'a ast::Formula>>>,
-    /// For each output that is bound: its place, the entry, and what stands there instead of one.
+    /// For each bound output: its index, the entry, or the formula in its place.
     outputs: Vec<(usize, Option<&'a Name>, Option<&'a ast::Formula>)>,
-    /// Whether every binding found its port.
+    /// Whether every binding has a port.
     complete: bool,
 }
 
-/// Finds out what the names in bindings mean whose component is made from nothing that is known.
+/// Records the names in bindings of a component with an unknown template.
 pub(crate) fn names_only(scope: &Scope<'_>, binds: &[Bind], diags: &mut Diagnostics) {
-    // Whatever reads a table has its columns.
+    // A reader of a table has its columns.
     let table = binds.iter().find_map(|bind| match bind {
         Bind::In { formula: Some(formula), .. } => scope.named_table(formula),
         _ => None,
@@ -102,7 +99,7 @@ pub(crate) fn names_only(scope: &Scope<'_>, binds: &[Bind], diags: &mut Diagnost
             _ => scope.record.unknown(port.span),
         }
         match bind {
-            // What reads a table may be what is not known.
+            // The reader of a table may be unknown.
             Bind::In { formula: Some(formula), .. } if !scope.names_table(formula) => {
                 scope.check(formula, None, diags);
             }
@@ -111,7 +108,7 @@ pub(crate) fn names_only(scope: &Scope<'_>, binds: &[Bind], diags: &mut Diagnost
     }
 }
 
-/// Finds out what a binding is bound to that does not count.
+/// Records the names in an ignored binding.
 pub(super) fn bound_names(scope: &Scope<'_>, bind: &Bind) {
     match bind {
         Bind::In { formula, .. } => formula.iter().for_each(|formula| scope.names_only(formula)),
@@ -186,7 +183,7 @@ fn find_ports<'a>(
     ports
 }
 
-/// Says what the name of a port means, which may be an entry's, too.
+/// Records the meaning of a port's name, which may also be an entry's.
 fn record_port(
     scope: &Scope<'_>,
     signature: &Signature,
@@ -210,7 +207,7 @@ fn bound_twice(port: &Name, first: &Name) -> Diagnostic {
         .help("remove one of them")
 }
 
-/// Reports a value for an output. Where an entry that can be written stands there, the sign alone is wrong.
+/// Reports a value for an output. If the value is a writable entry, only the sign is wrong.
 fn output_for_an_input(
     scope: &Scope<'_>,
     sign: Span,
@@ -278,7 +275,7 @@ fn without_value(signature: &Signature, missing: &[&Input], site: &Site) -> Diag
         .help(message!("bind every input, such as '({})'", examples.join(", ")))
 }
 
-/// How a value of the type may look.
+/// An example value of the type.
 fn example(ty: Option<&Type>) -> String {
     match ty {
         Some(Type::Bool) => "true".to_owned(),
@@ -294,7 +291,7 @@ fn example(ty: Option<&Type>) -> String {
     }
 }
 
-/// A value outside of its port's range that is known, or that results from the defaults of the plan's inputs.
+/// Reports a known value outside its port's range, also from the defaults of the plan's inputs.
 fn out_of_range(
     scope: &Scope<'_>,
     input: &Input,

@@ -1,7 +1,7 @@
 //! Templates whose states are the values of an enum: one for each enum that a plan can bind.
 //!
-//! The toolbox declares one template; what stands in the graph has the states of the enum that is
-//! bound, so that whoever reads the graph finds states as everywhere.
+//! The toolbox declares one template. The graph has the states of the bound enum, so that its users
+//! find ordinary states.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_types::Comparison;
 
-/// Adds to the toolboxes in use a template for each enum, where a file speaks of such a template.
+/// Adds a template for each enum to the used toolboxes, if a file uses such a template.
 pub(super) fn specialise(
     linked: &mut [Arc<Toolbox>],
     files: &[PlanFile],
@@ -42,7 +42,7 @@ pub(super) fn specialise(
     }
 }
 
-/// All enums that some file can name, each once.
+/// All enums that a file can name, each once.
 fn enums(scopes: &[FileScope<'_>]) -> Vec<Arc<Enum>> {
     let mut found: Vec<Arc<Enum>> = Vec::new();
     for (_, home) in scopes.iter().flat_map(|scope| &scope.types.enums) {

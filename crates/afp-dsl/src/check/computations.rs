@@ -1,4 +1,4 @@
-//! Computations that a plan file declares; their names share the namespace of plans.
+//! Computations declared in a plan file; their names share the namespace of plans.
 
 use std::sync::Arc;
 
@@ -14,7 +14,8 @@ use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 
-/// The computations of a file as a toolbox without a name, which joins `linked`; `None` without any.
+/// The computations of a file as a nameless toolbox, which is added to `linked`; `None` without
+/// any.
 pub(super) fn own(
     file: &PlanFile,
     types: &Types,

@@ -1,7 +1,7 @@
-//! Components as their check leaves them, without paths and without what names in them mean.
+//! Checked components without paths and meanings of names.
 //!
-//! They are read while their nodes are at hand, so that no node of the tree is kept; [`super::outline`] says the rest
-//! once all names have their meanings.
+//! They are made while their nodes are available, so that no tree is kept; [`super::outline`] adds
+//! the rest when all names are resolved.
 
 use std::hash::Hash;
 use std::rc::Rc;
@@ -20,26 +20,25 @@ use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 use rustc_hash::FxHashMap;
 
-/// The parts of a component as written.
 #[derive(Default)]
 pub(crate) struct WrittenParts {
-    /// What it is made from.
+    /// Template or plan.
     pub template: Option<ast::Ref>,
     pub binds: Vec<ast::Bind>,
     pub edges: Vec<WrittenEdge>,
 }
 
-/// What a component is made from, as far as that is known.
+/// The template or plan of a component, as far as known.
 #[derive(Default)]
 pub(crate) struct Made {
     pub signature: Option<Rc<Signature>>,
-    /// The type that stands for `any` or `number`.
+    /// The type of `any` or `number`.
     pub generic: Option<Type>,
-    /// When it is polled; supervisors only.
+    /// Polling times of a supervisor.
     pub times: Option<Times>,
 }
 
-/// An element without its supervisors, a supervisor, or reactions; `text` is that of the file.
+/// An element without its supervisors, a supervisor, or reactions; `text` is the file's.
 pub(crate) fn draft(
     (kind, name): (ComponentKind, Option<Name>),
     frame: Frame,
@@ -78,7 +77,7 @@ pub(crate) fn draft(
     }
 }
 
-/// Inputs and outputs: those that are declared, then those that are only written.
+/// Inputs and outputs: declared ones, then undeclared bindings.
 fn ports(made: &Made, binds: &[Bind], text: &str) -> (Vec<Input>, Vec<Output>) {
     let (declared, binds) = match &made.signature {
         Some(signature) => {
@@ -134,19 +133,19 @@ fn binding(bind: &Bind, text: &str) -> Binding {
     Binding { span: port.span.to(last), port_span: port.span, value }
 }
 
-/// A formula, without the entry that it may be.
+/// A formula, without resolving an entry.
 pub(super) fn value(text: &str, formula: &ast::Formula) -> Value {
     let span = formula.span();
     let text = in_one_line(text, span).unwrap_or_else(|| formula.in_one_line());
     Value { text, span, entry: None }
 }
 
-/// Where an edge or `start` leads, without what that means.
+/// The target of an edge or `start`, unresolved.
 pub(super) fn target(name: Name) -> Target {
     Target { text: name.text, span: name.span, to: Destination::Element(None) }
 }
 
-/// The text at a place, where it stands in one line without comments and spare blanks.
+/// The text at a place, if it is a single line without comments and extra spaces.
 pub(super) fn in_one_line(text: &str, span: Span) -> Option<String> {
     let text = text.get(span.start as usize..span.end as usize)?;
     let mut before = b'\0';
@@ -157,8 +156,7 @@ pub(super) fn in_one_line(text: &str, span: Span) -> Option<String> {
     fits.then(|| text.to_owned())
 }
 
-/// States or events: those that are declared, then the one that needs no declaration, then those that are only
-/// written.
+/// States or events: declared ones, then the implicit one, then undeclared ones.
 fn exits(kind: ComponentKind, edges: Vec<WrittenEdge>, signature: Option<&Signature>) -> Vec<Exit> {
     let supervisor = matches!(kind, ComponentKind::Supervisor | ComponentKind::Reactions);
     let (usual, special_kind) = match supervisor {
@@ -171,7 +169,7 @@ fn exits(kind: ComponentKind, edges: Vec<WrittenEdge>, signature: Option<&Signat
     if let Some(signature) = signature {
         for (at, name) in signature.outcomes.iter().enumerate() {
             let declared = signature.outcome_span(at);
-            // Whether a plan can be interrupted decides whether its user must say what then.
+            // Users of an interruptible plan must connect `Interrupted`.
             let required =
                 declared.is_some() || **name != *"Interrupted" || signature.interrupting.is_some();
             exits.push(Exit { declared, required, known: true, ..exit(name.clone(), usual) });
@@ -197,7 +195,7 @@ fn exits(kind: ComponentKind, edges: Vec<WrittenEdge>, signature: Option<&Signat
     exits
 }
 
-/// The name of a state or event, and its edge.
+/// Splits a state or event and its edge.
 fn named(edge: WrittenEdge) -> (String, Edge) {
     let WrittenEdge { name, target, reason, span } = edge;
     let target = match (target.map(self::target), reason) {
@@ -210,7 +208,8 @@ fn named(edge: WrittenEdge) -> (String, Edge) {
     (name.text, Edge { span, name_span: name.span, target })
 }
 
-/// The number of one more of a name; `written` says of how many of each there are already, but the first that is declared.
+/// The number of the next occurrence of a name; `written` counts occurrences except the first
+/// declared one.
 fn following<N: Hash + Eq>(written: &mut FxHashMap<N, usize>, name: N, is_declared: bool) -> u16 {
     let count = written.entry(name).or_insert(usize::from(is_declared));
     *count += 1;
@@ -227,7 +226,7 @@ fn made_from(signature: &Rc<Signature>) -> Option<MadeFrom> {
     })
 }
 
-/// The ports of a template or plan, none of them bound.
+/// The ports of a template or plan, unbound.
 fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<Output>) {
     let actual = |ty: &Option<Type>| match (ty, generic) {
         (Some(Type::Any | Type::Number | Type::Discrete), Some(generic)) => Some(generic.clone()),
@@ -249,7 +248,7 @@ fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<O
     (table(signature).into_iter().chain(inputs).collect(), outputs.collect())
 }
 
-/// The port that takes a table, which the signature with its columns does not have.
+/// The port for a table, which the signature with columns lacks.
 fn table(signature: &Signature) -> Option<Input> {
     let (port, _) = signature.template()?.table()?;
     let (name, declared) = (port.name.as_str().into(), Some(port.span));

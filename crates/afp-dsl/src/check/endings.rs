@@ -1,19 +1,18 @@
-//! Whether a plan can end as `Interrupted`: some event of an element that can be reached leads to
-//! `terminate`.
+//! Whether a plan can end as `Interrupted`: an event of a reachable element leads to `terminate`.
 
 use crate::check::names::Indices;
 use afp_syntax::ast::{Edge, Element, ElementKind, Guard, Plan, Reactions};
 use afp_syntax::source::Span;
 
-/// The first edge, as written, that ends the plan as `Interrupted`.
+/// The first edge that ends the plan as `Interrupted`.
 pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
     let elements = plan.elements();
-    // Among computations nobody asks for events.
+    // Computations are not interrupted by events.
     if elements.iter().all(|element| element.kind() == ElementKind::Computation) {
         return None;
     }
     let globals = edges_of_globals(plan);
-    // Most plans are decided without looking into their elements.
+    // A fast decision for most plans.
     if elements.iter().all(|element| element.reactions().is_empty())
         && let Some((_, edge)) = globals.iter().find(|(_, edge)| edge.leads_to("terminate"))
     {
@@ -37,20 +36,19 @@ pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
     edge.or_else(|| active().find_map(|(each, _)| ending(&each.edges))).and_then(|edge| edge.span())
 }
 
-/// The edges of a plan's supervisors.
 struct Events {
-    /// Those of global ones, each with its supervisor's name.
+    /// Edges of global supervisors, with the supervisors' names.
     globals: Vec<(String, Edge)>,
-    /// For each element those that hold there alone.
+    /// Edges of each element.
     elements: Vec<OfElement>,
 }
 
-/// What an element adds to the edges of global supervisors, and what it replaces.
+/// An element's additions to and replacements of global edges.
 struct OfElement {
     takes_time: bool,
-    /// The edges of its own supervisors and of its reactions.
+    /// Edges of its supervisors and reactions.
     edges: Vec<Edge>,
-    /// Supervisors and events to which it reacts by itself.
+    /// Supervisors and events with its own reactions.
     replaced: Vec<(String, String)>,
 }
 
@@ -61,7 +59,7 @@ impl Events {
     }
 }
 
-/// The edges of global supervisors, each with its supervisor's name.
+/// Edges of global supervisors, with the supervisors' names.
 fn edges_of_globals(plan: &Plan) -> Vec<(String, Edge)> {
     let guards = plan.guards().into_iter().flat_map(|guard| {
         let name = guard.name().map(|name| name.text).unwrap_or_default();
@@ -87,7 +85,7 @@ impl OfElement {
         OfElement { takes_time, edges, replaced }
     }
 
-    /// Whether an edge of a global supervisor holds while the element is active, for one of its events.
+    /// Whether an event of a global supervisor's edge keeps its target while the element is active.
     fn keeps(&self, (guard, edge): &(String, Edge)) -> bool {
         let is_replaced =
             |event: &String| self.replaced.iter().any(|(of, known)| of == guard && known == event);
@@ -99,8 +97,8 @@ fn leads_to(edge: &Edge) -> String {
     edge.target.as_ref().map(|name| name.text.clone()).unwrap_or_default()
 }
 
-/// Which elements can be reached from `start`, by their own edges, and by those of global supervisors
-/// that hold where something is active.
+/// Elements reachable from `start`, by their own edges and by effective edges of global
+/// supervisors.
 fn reached(plan: &Plan, elements: &[Element], events: &Events) -> Vec<bool> {
     let names: Vec<_> = elements.iter().map(Element::name).collect();
     let indices =

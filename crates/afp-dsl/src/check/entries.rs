@@ -1,5 +1,5 @@
-//! Entries of a plan: their types, initial values and ranges, in the order in which values come to be
-//! known: `const`, then `in`, then the others.
+//! Entries of a plan: types, initial values and ranges, in the order of evaluation: `const`, `in`,
+//! then others.
 
 use crate::check::formula::Scope;
 use crate::check::head::EntryDraft;
@@ -13,8 +13,7 @@ use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
-/// The entries of a plan as written; those without a name are left out. Also tells where which one
-/// stands.
+/// The entries of a plan, without nameless ones, and their places.
 pub(crate) fn read(
     plan: &ast::Plan,
     types: &Types,
@@ -57,7 +56,7 @@ pub(crate) fn read(
     (drafts, indices)
 }
 
-/// What initial values can name.
+/// The context of initial values.
 struct Site<'a> {
     indices: &'a Indices,
     types: &'a Types,
@@ -66,7 +65,7 @@ struct Site<'a> {
 }
 
 impl Site<'_> {
-    /// Finds out what the names in an entry mean that has no name itself.
+    /// Records the names in a nameless entry.
     fn names_only(&self, entry: &ast::Entry, entries: &[EntryDraft]) {
         if let Some(ty) = entry.ty() {
             self.types.resolve(&ty, self.record, &mut Diagnostics::default());
@@ -120,7 +119,7 @@ fn initialise(
         EntryKind::In => "the default of an 'in' may use 'const' entries",
         EntryKind::Var | EntryKind::Out => "an initial value may use 'const' and 'in' entries",
     };
-    // A type that is written and unknown is reported once; the value is still looked at.
+    // An unknown type is reported once; the value is still checked.
     let checked = site.scope(drafts, &readable, unreadable).check(&formula, ty.as_ref(), diags);
     let needs_type = matches!(kind, EntryKind::In | EntryKind::Out) && entry.ty().is_none();
     if needs_type {
@@ -136,7 +135,7 @@ fn initialise(
     draft.init = Some(formula);
 }
 
-/// Reads the range of an entry, and checks its initial value against it.
+/// Reads the range of an entry, and checks its initial value.
 fn limit(
     index: usize,
     entry: &ast::Entry,
@@ -196,7 +195,7 @@ fn missing(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
 }
 
 fn untyped(own: &EntryDraft, entry: &ast::Entry, of_value: Option<&Type>, diags: &mut Diagnostics) {
-    // What could not be read may have been the type or the value.
+    // The unparsed part may be the type or the value.
     if diags.syntax_errors_within(entry.span()).next().is_some() {
         return;
     }

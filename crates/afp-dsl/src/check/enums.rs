@@ -19,7 +19,7 @@ pub(crate) fn read(
     let name = node.name()?;
     let mut variants = node.variants();
     let mut names = DeclaredNames::default();
-    // One that is there twice is said once, not wherever the enum is used.
+    // Duplicates are reported once, not at each use of the enum.
     variants.retain(|variant| names.declare(variant, diags));
     let spans = variants.iter().map(|variant| variant.span);
     size::at_most(MAX_ROWS, ("an enum", "values"), spans, "split it into two enums", diags);

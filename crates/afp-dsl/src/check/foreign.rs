@@ -1,7 +1,7 @@
-//! Templates of another robot than the one that plans run on.
+//! Templates of other robots.
 //!
-//! A robot has what its toolbox declares. It may have devices of another robot's toolbox, by their names, and then does
-//! what the templates of that toolbox ask of them.
+//! A robot has the devices of its toolbox. These may include devices of another robot's toolbox, by
+//! name; the robot then supports that toolbox's templates for them.
 
 use crate::check::signature::Signature;
 use crate::gather::Toolboxes;
@@ -10,8 +10,8 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Reports a template of another robot's toolbox that needs what the robot of the project does not have: a device that it
-/// commands, or, of a supervisor, any sensor of that toolbox.
+/// Reports a template of another robot's toolbox that needs a missing device: a commanded one or,
+/// for a supervisor, any sensor of that toolbox.
 pub(crate) fn check(
     toolboxes: &Toolboxes,
     signature: &Signature,
@@ -87,7 +87,7 @@ mod tests {
     const PLAN: &str = "use crane\nplan P {\n    start guess\n    supervise look: Look { Seen -> terminate }\n    \
                         computation guess: Guess { Done -> grip }\n    actor grip: Grip { Done -> terminate }\n}\n";
 
-    /// The columns of the names that are refused where the robot is a cart with these devices.
+    /// Columns of the names rejected for a cart with these devices.
     fn refused(devices: &str) -> Vec<String> {
         let cart = format!("toolbox cart version \"1\"\nrobot {{ truth pose: pose }}\n{devices}\n");
         let files = [("crane.afp", CRANE, "crane"), ("cart.afp", &cart, "cart")];

@@ -1,4 +1,4 @@
-//! What is known of a plan before its components are checked.
+//! Facts about a plan before its components are checked.
 
 use crate::check::names::Indices;
 use crate::graph::{EntryId, EntryKind, Formula};
@@ -6,11 +6,11 @@ use crate::types::{Constant, Type};
 use afp_syntax::ast::{self, Name};
 use afp_syntax::source::Span;
 
-/// What other plans need to know of a plan.
+/// The facts that other plans need.
 pub(crate) struct PlanHead {
     pub node: ast::Plan,
     pub name: Option<Name>,
-    /// The file that it stands in.
+    /// Its file.
     pub file: usize,
     pub entries: Vec<EntryDraft>,
     pub indices: Indices,
@@ -18,31 +18,30 @@ pub(crate) struct PlanHead {
     pub interrupting: Option<Span>,
 }
 
-/// An entry, as far as it is understood.
+/// An entry, as far as known.
 #[derive(Clone, Debug)]
 pub(crate) struct EntryDraft {
     pub name: Name,
     /// Its `///` lines.
     pub doc: String,
-    /// Who may set it.
     pub kind: EntryKind,
-    /// Whether it is given its value anew while the plan runs as a sub-plan.
+    /// Whether a running sub-plan gets new values.
     pub live: bool,
-    /// Its type, where that is known.
+    /// Its type, if known.
     pub ty: Option<Type>,
     pub init: Option<Formula>,
-    /// Whether an initial value is written, right or wrong.
+    /// Whether an initial value is written, valid or not.
     pub has_init: bool,
-    /// The initial value where it is the same in every run.
+    /// The initial value if it is constant.
     pub value: Option<Constant>,
-    /// Least and greatest value, in SI units.
+    /// Minimum and maximum, in SI units.
     pub range: Option<(f64, f64)>,
-    /// The constants that the range is made of.
+    /// The constants in the range.
     pub ranged_by: Vec<EntryId>,
 }
 
 impl EntryDraft {
-    /// A draft that formulas can read, of an entry or an input port.
+    /// A draft for formulas, of an entry or an input port.
     pub fn readable(name: &str, span: Span, kind: EntryKind, ty: &Type) -> EntryDraft {
         EntryDraft {
             name: Name { text: name.to_owned(), span },

@@ -12,20 +12,19 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// A toolbox that a file uses.
 #[derive(Clone)]
 pub(crate) struct Import {
-    /// The name that qualifies what is in it.
+    /// Its qualifier.
     pub qualifier: String,
-    /// Where that name is declared: behind `as`, or in the toolbox.
+    /// Declaration of the qualifier: after `as`, or in the toolbox.
     pub span: Span,
     pub toolbox: Arc<Toolbox>,
-    /// Its place among those that the files of the compilation use.
+    /// Its index among the compilation's toolboxes.
     pub id: ToolboxId,
 }
 
-/// Resolves the `use` lines of a plan file that name toolboxes, and says whether one of them failed.
-/// What no other file used joins `linked`.
+/// Resolves the `use` lines for toolboxes; returns whether one failed. New toolboxes are added to
+/// `linked`.
 pub(crate) fn read(
     file: &File,
     toolboxes: &Toolboxes,
@@ -70,8 +69,8 @@ pub(crate) fn read(
     (imports.into_iter().map(|(import, _)| import).collect(), failed)
 }
 
-/// Reports the devices of a toolbox that one before it declares, too. What the robot's own toolbox declares is what the
-/// robot has: it may have devices of another toolbox, for whose templates it does what they ask.
+/// Reports devices that an earlier toolbox also declares. The robot's own toolbox is exempt, since
+/// it may have devices of another toolbox for that toolbox's templates.
 fn devices_of_two(
     name: &Name,
     toolbox: &Arc<Toolbox>,
@@ -114,7 +113,7 @@ fn one(
             Some(definition) => record.definition(name.span, definition),
             None => record.unknown(name.span),
         }
-        // A toolbox with errors of its own has been reported with them.
+        // A toolbox with errors has been reported.
         if toolboxes.broken(&name.text).is_none() {
             let known: Vec<_> = toolboxes.iter().map(|toolbox| toolbox.name.as_str()).collect();
             let message = message!("there is no toolbox '{}'", name.text);
@@ -139,7 +138,7 @@ fn one(
     })
 }
 
-/// Reports items in places where they cannot stand: `use` below others, plans in a toolbox.
+/// Reports misplaced items: `use` after other items, plans in a toolbox.
 pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
     let items = file.items();
     let toolbox = items.iter().find_map(|item| match item {
@@ -150,7 +149,7 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
     for item in &items {
         let (span, what) = match item {
             Item::Use(line) => {
-                // One that stands in a plan has been reported.
+                // A `use` in a plan has been reported.
                 if others && line.is_in_place() {
                     diags.push(
                         Diagnostic::new(
@@ -192,7 +191,7 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
     }
 }
 
-/// Reports templates, object types and devices in a file that is no toolbox.
+/// Reports templates, object types and devices in a plan file.
 pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
     let items = file.items();
     if items.iter().any(|item| matches!(item, Item::Toolbox(_))) {
@@ -216,7 +215,7 @@ pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
     }
 }
 
-/// Reports a version of the language that this compiler does not know.
+/// Reports an unknown language version.
 pub(crate) fn check_version(file: &File, diags: &mut Diagnostics) {
     if let Some(version) = file.version().filter(|version| version.text != "1") {
         let message = message!("version {} of the language is not known", Words(version.text));

@@ -1,4 +1,4 @@
-//! Names of one scope: each is used once, can be spelled in Rust, and differs in more than case.
+//! Names of one scope: each is unique, valid in Rust, and differs in more than case.
 
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words, list, words};
@@ -7,22 +7,19 @@ use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 use rustc_hash::FxHashMap;
 
-/// How many names a help lists at most.
+/// Maximum number of names in a help.
 const MOST_LISTED: usize = 12;
 
-/// Names that Rust has no raw spelling for, or that mean something else wherever they stand.
+/// Names without a raw spelling in Rust, or with a fixed meaning.
 const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
 
-/// The names declared in one scope so far.
 #[derive(Default)]
 pub(crate) struct DeclaredNames {
     declared: FxHashMap<String, Name>,
 }
 
 impl DeclaredNames {
-    /// Takes a name into the scope and reports what is wrong with it.
-    ///
-    /// Returns whether the name is new.
+    /// Declares a name and reports its errors. Returns whether the name is new.
     pub fn declare(&mut self, name: &Name, diags: &mut Diagnostics) -> bool {
         let key = key(&name.text);
         if REFUSED.contains(&name.text.as_str()) || !key.starts_with(|c: char| c.is_alphabetic()) {
@@ -46,12 +43,12 @@ impl DeclaredNames {
     }
 }
 
-/// The indices of names in a list. Of names that occur twice the first counts.
+/// Indices of names in a list; the first of duplicates counts.
 #[derive(Default)]
 pub(crate) struct Indices(FxHashMap<String, usize>);
 
 impl Indices {
-    /// The indices in a list, in which there may be holes.
+    /// The indices in a list, which may have gaps.
     pub fn of<'a>(names: impl IntoIterator<Item = Option<&'a str>>) -> Indices {
         let mut indices = FxHashMap::default();
         for (index, name) in names.into_iter().enumerate() {
@@ -62,25 +59,24 @@ impl Indices {
         Indices(indices)
     }
 
-    /// The index of a name.
     pub fn find(&self, name: &str) -> Option<usize> {
         self.0.get(name).copied()
     }
 }
 
-/// Reports an element whose name means something else behind `->`.
+/// Reports an element with a reserved name.
 pub(crate) fn element(name: &Name, diags: &mut Diagnostics) {
     if is_word(&name.text) {
         refuse(name, diags);
     }
 }
 
-/// Whether a name means something behind `->` that is no element.
+/// Whether a name is a keyword after `->`.
 pub(crate) fn is_word(name: &str) -> bool {
     matches!(name, "terminate" | "fail" | "ignore" | "resume")
 }
 
-/// Warns of an entry that reads like a unit behind a number.
+/// Warns of an entry that looks like a unit after a number.
 pub(crate) fn entry(name: &Name, diags: &mut Diagnostics) {
     if Unit::parse(&name.text).is_some() {
         let message = message!("'{}' is also a unit", name.text);
@@ -90,8 +86,8 @@ pub(crate) fn entry(name: &Name, diags: &mut Diagnostics) {
     }
 }
 
-/// Reports a name that several toolboxes and files declare. `found` has what qualifies each, which
-/// is nothing in files, and where it is declared.
+/// Reports a name that several toolboxes and files declare. `found` has the qualifier of each,
+/// empty for files, and its declaration.
 pub(crate) fn ambiguous(
     what: &str,
     name: &str,
@@ -117,7 +113,7 @@ fn refuse(name: &Name, diags: &mut Diagnostics) {
     diags.push(Diagnostic::new(Code::E0213, name.span, message).help("choose another name"));
 }
 
-/// What is left of a name in every spelling of it.
+/// The normalised form of a name.
 pub(crate) fn key(name: &str) -> String {
     match name.is_ascii() {
         true => {
@@ -130,8 +126,7 @@ pub(crate) fn key(name: &str) -> String {
     }
 }
 
-/// Builds the diagnostic for a name that is not there: says what was probably meant, or what there
-/// is.
+/// Reports an unknown name, with the likely name or the available ones.
 pub(crate) fn unknown<'a>(
     code: Code,
     span: Span,
@@ -143,7 +138,7 @@ pub(crate) fn unknown<'a>(
     offer(Diagnostic::new(code, span, message), name, known, none)
 }
 
-/// Adds to a diagnostic for such a name what was probably meant, or what there is.
+/// Adds the likely name, or the available ones, to a diagnostic.
 pub(crate) fn offer<'a>(
     diagnostic: Diagnostic,
     name: &str,
@@ -154,7 +149,7 @@ pub(crate) fn offer<'a>(
     match once(words::all_nearest(name, known.clone()), usize::MAX).as_slice() {
         [] => {}
         [meant] => return diagnostic.write(*meant),
-        // Which one is meant nobody knows.
+        // The intended name is ambiguous.
         several => {
             let some = several.iter().copied().take(MOST_LISTED);
             return diagnostic.help(message!("write {}", list(some, "or")));
@@ -171,7 +166,7 @@ pub(crate) fn offer<'a>(
     }
 }
 
-/// The first so many names, each of them once.
+/// The first distinct names, at most `most`.
 fn once<'a>(names: impl IntoIterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
     let mut some = Vec::new();
     for name in names {

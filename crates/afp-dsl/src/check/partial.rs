@@ -1,7 +1,7 @@
-//! A plan with errors, as far as what is said of time needs it: flow, templates and times.
+//! Plans with errors, as far as needed for timing: flow, templates and times.
 //!
-//! Editors go on telling the bounds of what is without errors. What is wrong takes no time itself and may lead to
-//! anything, so that nothing else of the plan is lost.
+//! Editors keep showing the bounds of valid supervisors. Invalid parts take no time and may lead
+//! anywhere, so that no other part of the plan is lost.
 
 use std::sync::Arc;
 
@@ -19,25 +19,25 @@ use crate::toolbox::{Template, Toolbox};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 
-/// A plan of which something may be missing. It is no plan to run.
+/// A possibly incomplete plan; it cannot run.
 #[derive(Clone, Debug)]
 pub(crate) struct Partial {
-    /// Its graph, without rows; elements with errors have no inputs, and none has outputs.
+    /// Its graph without rows; elements with errors have no inputs, and none has outputs.
     pub graph: Graph,
-    /// The names of the supervisors with errors, of which nothing can be said.
+    /// Names of supervisors with errors, whose bounds are unknown.
     pub wrong: Vec<Span>,
 }
 
-/// What of a plan has been checked.
+/// The checked parts of a plan.
 pub(super) struct Parts {
-    /// The plan, where it has no holes.
+    /// The plan, if it is complete.
     pub plan: Option<graph::Plan>,
-    /// Where it has, the inputs of each element, as far as they are right.
+    /// Otherwise the valid inputs of each element.
     pub inputs: Vec<Vec<Formula>>,
 }
 
-/// The plan `main` with all that it uses; `order` has sub-plans before their users. `None` where there are more
-/// elements than there can be.
+/// The plan `main` with its sub-plans; `order` has sub-plans before their users. `None` if there
+/// are too many elements.
 pub(super) fn partial(
     program: &Program<'_>,
     mut plans: Vec<Parts>,
@@ -70,7 +70,7 @@ pub(super) fn partial(
     Some(Partial { graph, wrong: reader.wrong })
 }
 
-/// A toolbox of one template, which takes no time: what stands for those that are not known.
+/// A toolbox with one template that takes no time, for unknown templates.
 fn nothing_known() -> Toolbox {
     let template =
         Template { every: DEFAULT_EVERY, budget: Some(0), stop: Some(0), ..Template::default() };
@@ -80,15 +80,15 @@ fn nothing_known() -> Toolbox {
 /// Reads plans from the outline.
 struct Reader {
     toolboxes: Vec<Arc<Toolbox>>,
-    /// The template for what is not known.
+    /// The template for unknown ones.
     unknown: TemplateId,
-    /// The plans read so far, by their place in the program.
+    /// Plans read so far, by their index in the program.
     ids: Vec<Option<PlanId>>,
     wrong: Vec<Span>,
 }
 
 impl Reader {
-    /// A plan without holes: its sub-plans get their numbers.
+    /// A complete plan with the numbers of its sub-plans.
     fn whole(&self, mut plan: graph::Plan) -> graph::Plan {
         for element in &mut plan.elements {
             if let graph::Component::SubPlan(place) = element.component {
@@ -98,7 +98,7 @@ impl Reader {
         plan
     }
 
-    /// A plan; an element that stands for anything that edges with errors may lead to comes last.
+    /// A plan; its last element stands for all targets of invalid edges.
     fn plan(
         &mut self,
         head: &PlanHead,
@@ -145,7 +145,7 @@ impl Reader {
         })
     }
 
-    /// What may lead to every element of a plan.
+    /// An element that may lead to every element of a plan.
     fn anything(&self, own: ElementId, span: Span) -> Element {
         let states = (0..own.0).map(|id| Some(graph::Target::Element(ElementId(id)))).collect();
         Element { states, ..element(String::new(), graph::Component::Actor(self.unknown), span) }
@@ -198,7 +198,6 @@ impl Reader {
         }
     }
 
-    /// What an element is made from.
     fn component(&mut self, node: &Component) -> graph::Component {
         match (node.kind, node.sub_plan(), self.template(node)) {
             (ComponentKind::SubPlan, Some(plan), _) => self.sub_plan(plan.index()),
@@ -207,7 +206,7 @@ impl Reader {
         }
     }
 
-    /// A plan by its place in the program; one that is part of itself is not known.
+    /// A plan by its index in the program; a recursive plan is unknown.
     fn sub_plan(&self, index: usize) -> graph::Component {
         let id = self.ids.get(index).copied().flatten();
         id.map_or(graph::Component::Actor(self.unknown), graph::Component::SubPlan)
@@ -227,7 +226,7 @@ impl Reader {
         Some(TemplateId { toolbox, index: u16::try_from(*index).ok()? })
     }
 
-    /// Notes the supervisors of a plan with errors, and those of elements that are made from nothing known.
+    /// Records supervisors with errors, and those of elements with unknown templates.
     fn note_wrong(&mut self, plan: &Plan, diags: &Diagnostics) {
         let elements = plan.elements.iter().flat_map(|element| {
             let is_known = element.template().is_some() || element.sub_plan().is_some();
@@ -243,15 +242,15 @@ impl Reader {
     }
 }
 
-/// Where the edges of a plan lead.
+/// Targets of a plan's edges.
 #[derive(Clone, Copy)]
 struct Leads {
-    /// The element that stands for anything.
+    /// The element for invalid targets.
     anything: ElementId,
 }
 
 impl Leads {
-    /// `None` where nothing leads, and nothing need.
+    /// `None` for an optional unconnected exit.
     fn target(self, exit: &Exit) -> Option<graph::Target> {
         match &exit.edge {
             Some(edge) => Some(self.edge(edge)),
@@ -269,7 +268,7 @@ impl Leads {
         u16::try_from(id.index()).map_or(self.anything, ElementId)
     }
 
-    /// The reactions of an element to supervisors that are there.
+    /// The reactions of an element to existing supervisors.
     fn reactions(self, element: &Component, globals: &[Component]) -> Vec<Reactions> {
         if element.kind == ComponentKind::Computation {
             return Vec::new();
@@ -292,12 +291,12 @@ impl Leads {
     }
 }
 
-/// The events of a supervisor, and what is written as one.
+/// Events of a supervisor, including undeclared ones.
 fn events(supervisor: &Component) -> impl Iterator<Item = &Exit> {
     supervisor.exits.iter().filter(|exit| exit.kind == ExitKind::Event)
 }
 
-/// An element that leads nowhere.
+/// An element without edges.
 fn element(name: String, component: graph::Component, span: Span) -> Element {
     Element {
         name,
@@ -315,7 +314,7 @@ fn element(name: String, component: graph::Component, span: Span) -> Element {
     }
 }
 
-/// A name with its place, or that of what has none.
+/// A name and its place, or the whole place without a name.
 fn named(name: Option<&afp_syntax::ast::Name>, whole: Span) -> (String, Span) {
     name.map_or((String::new(), whole), |name| (name.text.clone(), name.span))
 }

@@ -1,5 +1,5 @@
-//! Places in files, asked for by lines and by what lies around them, each in a few steps: a file may be wrong at every
-//! token.
+//! Queries of places by line and enclosing range, each in a few steps, since a file may have an
+//! error at every token.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,12 +16,11 @@ impl<'f> Lines<'f> {
         Lines(tables.collect())
     }
 
-    /// The line of a place, in bytes of its file. The line break belongs to it.
+    /// The byte range of a place's line, including its line break.
     pub(crate) fn of(&self, place: Span) -> Range<usize> {
         self.0.get(&place.file).map_or(0..0, |table| table.line(place.start as usize))
     }
 
-    /// A line of a file.
     pub(crate) fn text(&self, file: u16, line: &Range<usize>) -> &'f str {
         let text = self.0.get(&file).and_then(|table| table.text().get(line.clone()));
         text.unwrap_or_default()
@@ -41,26 +40,25 @@ impl ByLine {
         ByLine(by_line)
     }
 
-    /// The lines, each with its file.
     pub(crate) fn lines(&self) -> impl Iterator<Item = (u16, &Range<usize>)> {
         self.0.iter().map(|((file, _), (line, _))| (*file, line))
     }
 
-    /// The line of another place, with those of the places that are on it.
+    /// The line of another place, with the places on it.
     pub(crate) fn beside(&self, lines: &Lines<'_>, place: Span) -> Option<(usize, &[Span])> {
         let (line, here) = self.0.get(&(place.file, lines.of(place).start))?;
         line.contains(&(place.start as usize)).then_some((line.start, here))
     }
 }
 
-/// Places that may lie in something.
+/// Places for containment queries.
 pub(crate) struct Within(Vec<(Span, u32)>);
 
 impl Within {
     pub(crate) fn new(places: &[Span]) -> Within {
         let mut sorted: Vec<(Span, u32)> = places.iter().map(|place| (*place, place.end)).collect();
         sorted.sort_unstable();
-        // Beside each one the least end of it and of those behind it in its file.
+        // Store the minimum end of each place and its successors in the file.
         for at in (1..sorted.len()).rev() {
             let ((before, least), (next, end)) = (sorted[at - 1], sorted[at]);
             if before.file == next.file {
@@ -70,7 +68,7 @@ impl Within {
         Within(sorted)
     }
 
-    /// Whether one of them lies in a range.
+    /// Whether a range contains one of the places.
     pub(crate) fn any(&self, range: Span) -> bool {
         let from = (range.file, range.start);
         let first = self.0.partition_point(|(place, _)| (place.file, place.start) < from);
@@ -79,7 +77,7 @@ impl Within {
     }
 }
 
-/// Ranges of which none lies in another one.
+/// Ranges that do not contain each other.
 pub(crate) struct Ranges(Vec<Span>);
 
 impl Ranges {
@@ -88,7 +86,7 @@ impl Ranges {
         Ranges(ranges)
     }
 
-    /// Whether a place lies in one of them.
+    /// Whether one of the ranges contains a place.
     pub(crate) fn any(&self, place: Span) -> bool {
         let from = (place.file, place.start);
         let behind = self.0.partition_point(|range| (range.file, range.start) <= from);

@@ -30,25 +30,25 @@ use faults::Owner;
 
 /// A plan, as far as it could be checked.
 pub(crate) struct CheckedPlan {
-    /// What the graph has of it; `None` when that would have holes. [`graph::Component::SubPlan`]
-    /// carries the place in [`Program::plans`] for now.
+    /// The plan for the graph; `None` if it is incomplete. [`graph::Component::SubPlan`] still has
+    /// the index in [`Program::plans`].
     pub plan: Option<graph::Plan>,
-    /// Where there is none, the inputs of each element, as far as they are right.
+    /// For an incomplete plan, the valid inputs of each element.
     pub inputs: Vec<Vec<Formula>>,
     pub users: Users,
-    /// What its components are called and made from.
+    /// Names and templates of its components.
     pub members: Members,
 }
 
-/// What the components of a plan are called and made from, all as written.
+/// Names and templates of a plan's components, as written.
 #[derive(Default)]
 pub(crate) struct Members {
     pub globals: Vec<Component>,
     /// The elements, each with its supervisors and reactions.
     pub elements: Vec<Component>,
-    /// What each supervisor is made from: the global ones, then those of each element.
+    /// Signature of each supervisor: global ones, then those of each element.
     pub of_supervisors: Vec<Option<Rc<Signature>>>,
-    /// What each element is made from.
+    /// Signature of each element.
     pub of_elements: Vec<Option<Rc<Signature>>>,
     pub indices: Indices,
 }
@@ -64,7 +64,7 @@ pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics
     let mut members = Members::default();
     members.elements.reserve(elements.len());
     members.of_elements.reserve(elements.len());
-    // Most elements have one.
+    // Most elements have one supervisor.
     let mut supervisors = Vec::with_capacity(elements.len());
     for guard in head.node.guards() {
         let checked = components.supervisor(&guard, None, diags);
@@ -119,13 +119,13 @@ pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics
     }
 }
 
-/// Entries, elements and supervisors of a plan must fit into the tables of a run.
+/// Checks that entries, elements and supervisors fit into the tables.
 fn sized(head: &PlanHead, rows: [usize; 3], diags: &mut Diagnostics) {
     let tables = [Table::Entries, Table::Elements, Table::Supervisors];
     size::too_many_rows(head.name.as_ref(), tables.into_iter().zip(rows), diags);
 }
 
-/// What formulas of a plan can name.
+/// The scope of a plan's formulas.
 fn scope<'a>(context: Context<'a>, head: &'a PlanHead) -> Scope<'a> {
     Scope {
         types: &context.file.types,
@@ -143,17 +143,17 @@ fn id(index: usize) -> Option<u16> {
     u16::try_from(index).ok()
 }
 
-/// The element with the supervisors that stand in it.
+/// The element with its own supervisors.
 fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
     let ids: Option<Vec<_>> = (first..end).map(|place| id(place).map(SupervisorId)).collect();
     element.supervisors = ids?;
     Some(element)
 }
 
-/// Elements, supervisors, and the texts behind `fail`.
+/// Elements, supervisors, and the texts after `fail`.
 type Parts = (Vec<Option<Element>>, Vec<Option<Supervisor>>, Vec<String>);
 
-/// The plan, or, where it would have holes, the inputs of its elements.
+/// The plan or, if incomplete, the inputs of its elements.
 fn finish(
     context: Context<'_>,
     head: &PlanHead,
@@ -190,7 +190,7 @@ fn finish(
     })
 }
 
-/// An entry; one of an unknown type, which no plan has that is whole, is a truth value.
+/// An entry. An unknown type, which occurs only in an incomplete plan, becomes `bool`.
 pub(super) fn entry(draft: &EntryDraft) -> graph::Entry {
     graph::Entry {
         name: draft.name.text.clone(),
@@ -206,7 +206,7 @@ pub(super) fn entry(draft: &EntryDraft) -> graph::Entry {
     }
 }
 
-/// Checks the names of the plan's scope and gives the elements.
+/// Checks the names of the plan's scope and returns the elements.
 fn declare<'a>(
     head: &PlanHead,
     elements: &[ast::Element],
@@ -275,7 +275,7 @@ fn start(
     Some((edges::find(&target, Leads::Start, elements, diags)?, target.span))
 }
 
-/// Whether an item of the plan itself, not of an element in it, could not be read.
+/// Whether an item of the plan itself, outside of elements, could not be parsed.
 fn half_typed(plan: &ast::Plan, diags: &Diagnostics) -> bool {
     let inner: Vec<Span> = plan
         .elements()

@@ -1,5 +1,5 @@
-//! What each plan file can name: its toolboxes, its own plans, enums and tables, and those of the files
-//! that it uses, but not of the files that those use.
+//! Names visible in each plan file: its toolboxes, its own plans, enums and tables, and those of
+//! directly used files.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 use rustc_hash::FxHashMap;
 
-/// Reads what all files declare.
+/// Reads the declarations of all files.
 pub(super) fn program<'a>(
     files: &'a [PlanFile],
     toolboxes: &'a Toolboxes,
@@ -106,7 +106,7 @@ fn scope<'a>(
     }
 }
 
-/// The enums of the files that a file does not use itself, each with the `use` line that is missing, and its place.
+/// Enums of indirectly used files, each with the missing `use` line and its place.
 fn hidden_enums(
     files: &[PlanFile],
     place: usize,
@@ -126,7 +126,6 @@ fn hidden_enums(
     found
 }
 
-/// The enums that a file declares.
 fn own_enums(file: &PlanFile, diags: &mut Diagnostics) -> Vec<Arc<Enum>> {
     let mut found = Vec::new();
     let mut names = DeclaredNames::default();
@@ -143,7 +142,7 @@ fn own_enums(file: &PlanFile, diags: &mut Diagnostics) -> Vec<Arc<Enum>> {
     found
 }
 
-/// The plans of a file, without what they are made of.
+/// The plans of a file, without their components.
 fn heads(
     file: &PlanFile,
     index: usize,
@@ -169,7 +168,7 @@ fn heads(
     heads
 }
 
-/// The place below the version of the language.
+/// The place after the language version.
 fn top(file: &PlanFile) -> Span {
     let Some(version) = file.tree.version() else { return file.whole().before() };
     let text = &file.source.text;

@@ -1,4 +1,4 @@
-//! Ranges of ports and entries: `from 0 cm/s to 1 m/s`, both ends belong to it.
+//! Ranges of ports and entries, with inclusive ends: `from 0 cm/s to 1 m/s`.
 
 use crate::types::text;
 use crate::types::{Constant, Type};
@@ -7,14 +7,14 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Least and greatest value as written, and the place of both.
+/// Minimum and maximum as written, with their place.
 pub(crate) type Written = (Formula, Formula, Span);
 
-/// Gives the value of one end, of that type where it is told.
+/// Evaluates one end, optionally with its type.
 pub(crate) type Constants<'c> =
     dyn FnMut(&Formula, Option<&Type>, &mut Diagnostics) -> Option<Constant> + 'c;
 
-/// Least and greatest value of what has type `ty`, in SI units.
+/// Minimum and maximum of a range of type `ty`, in SI units.
 pub(crate) fn read(
     (least, greatest, span): &Written,
     ty: &Type,
@@ -47,7 +47,7 @@ pub(crate) fn read(
     Some((from, to))
 }
 
-/// One end of a range. Ends are floats, so that not every large int can be one.
+/// One end of a range. Ends are floats, so some large ints are invalid.
 fn end(written: &Formula, value: &Constant, diags: &mut Diagnostics) -> Option<f64> {
     let end = number(value)?;
     match *value {
@@ -64,7 +64,7 @@ fn end(written: &Formula, value: &Constant, diags: &mut Diagnostics) -> Option<f
     }
 }
 
-/// The number that a value is.
+/// The numeric value.
 pub(crate) fn number(value: &Constant) -> Option<f64> {
     match value {
         Constant::Int(value) => Some(*value as f64),
@@ -73,7 +73,7 @@ pub(crate) fn number(value: &Constant) -> Option<f64> {
     }
 }
 
-/// Whether a value lies in a range, ints compared with ints, as when a plan runs.
+/// Whether a value is in a range, with ints compared as ints, like at run time.
 fn contains((least, greatest): (f64, f64), value: &Constant) -> bool {
     match value {
         Constant::Int(value) => (least as i64..=greatest as i64).contains(value),
@@ -82,7 +82,7 @@ fn contains((least, greatest): (f64, f64), value: &Constant) -> bool {
     }
 }
 
-/// A number as people write it.
+/// A number in a readable unit.
 pub(crate) fn shown(value: &Constant, ty: &Type) -> Option<String> {
     match value {
         Constant::Int(value) => Some(value.to_string()),
@@ -91,8 +91,7 @@ pub(crate) fn shown(value: &Constant, ty: &Type) -> Option<String> {
     }
 }
 
-/// What a value is told that is out of the range of what it is for; `None` where it fits. `message`
-/// gets the value as people write it.
+/// The diagnostic of a value outside a range; `None` if it fits. `message` gets the readable value.
 pub(crate) fn outside(
     value: &Constant,
     range: (f64, f64),

@@ -1,6 +1,6 @@
 //! `on`: edges of global supervisors that an element replaces.
 //!
-//! Only the edges that are written are replaced, so nothing can be missing.
+//! Only written edges are replaced, so nothing can be missing.
 
 use std::rc::Rc;
 
@@ -15,21 +15,19 @@ use afp_syntax::ast::{self, ElementKind, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Sought};
 use afp_syntax::message;
 
-/// What the reactions of a plan are checked against.
+/// The context of a plan's reactions.
 pub(super) struct Watchers<'a> {
-    /// Its global supervisors, as written.
+    /// The global supervisors, as written.
     pub globals: &'a [Component],
-    /// What these are made from.
+    /// Their signatures.
     pub signatures: &'a [Option<Rc<Signature>>],
     pub elements: &'a Elements<'a>,
-    /// The text of the file.
     pub text: &'a str,
-    /// What is found out about names.
     pub record: &'a Recorder,
 }
 
 impl Watchers<'_> {
-    /// The reactions of an element, and what of them is written.
+    /// The reactions of an element, for graph and outline.
     pub fn check(
         &self,
         element: &ast::Element,
@@ -92,7 +90,7 @@ impl Watchers<'_> {
         (reactions, draft(head, node.frame(), &Made::default(), parts, self.text))
     }
 
-    /// The place of a global supervisor.
+    /// The index of a global supervisor.
     fn find(&self, element: &ast::Element, name: &Name, diags: &mut Diagnostics) -> Option<usize> {
         let names = self.globals.iter().map(|global| global.name.as_ref());
         let found = names.clone().position(|known| known.is_some_and(|it| it.text == name.text));
@@ -129,7 +127,7 @@ fn twice(node: &ast::Reactions) -> Message {
     message!("the element has two 'on {}'", name)
 }
 
-/// Reports edges that lead to the element itself, which is active already.
+/// Reports edges to the element itself, which is already active.
 fn to_itself(
     element: &ast::Element,
     watcher: &Origin<'_>,

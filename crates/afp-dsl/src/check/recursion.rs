@@ -1,5 +1,4 @@
-//! Plans that contain themselves, directly or through others: the graph is static, so there can be
-//! none.
+//! Recursive plans, direct or indirect, which a static graph cannot have.
 
 use crate::check::scope::FileScope;
 use crate::check::{PlanHead, Program};
@@ -8,8 +7,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Reports each cycle once and gives the plans in an order in which sub-plans come before the plans
-/// that use them.
+/// Reports each cycle once; returns the plans with sub-plans before their users.
 pub(crate) fn order(program: &Program<'_>, diags: &mut Diagnostics) -> Vec<usize> {
     let plans = &program.plans;
     let mut search = Search {
@@ -25,7 +23,7 @@ pub(crate) fn order(program: &Program<'_>, diags: &mut Diagnostics) -> Vec<usize
     search.order
 }
 
-/// The plans that a plan uses, each with the place where it does.
+/// The sub-plans of a plan, each with the place of its use.
 pub(crate) fn sub_plans(head: &PlanHead, files: &[FileScope<'_>]) -> Vec<(usize, Span)> {
     let sub_plans = head.node.elements().into_iter().filter(|e| e.kind() == ElementKind::SubPlan);
     let known = &files[head.file].plans;
@@ -38,7 +36,7 @@ pub(crate) fn sub_plans(head: &PlanHead, files: &[FileScope<'_>]) -> Vec<(usize,
         .collect()
 }
 
-/// Greatest number of steps of a cycle that are shown at their places.
+/// Maximum number of steps of a cycle with notes.
 const MAX_NOTES: usize = 8;
 
 #[derive(Clone, Copy, PartialEq)]
@@ -57,7 +55,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Depth first with a stack of its own, since a file may hold any number of plans.
+    /// Depth-first search with an explicit stack, since a file may have any number of plans.
     fn run(&mut self, root: usize) {
         if self.state[root] != State::New {
             return;

@@ -1,25 +1,25 @@
 //! Resources that two components would command at the same time.
 //!
-//! Active together are an element, its supervisors, and all global supervisors outward; of a
-//! sub-plan everything inside.
+//! An element, its supervisors, and all enclosing global supervisors are active together; in a
+//! sub-plan everything is.
 
 use crate::check::PlanHead;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// A component and what it commands.
+/// A component and its resources.
 #[derive(Clone, Debug)]
 pub(crate) struct User {
     /// Its name in the plan.
     pub name: String,
     pub span: Span,
     pub uses: Vec<String>,
-    /// The plan that it contains.
+    /// Its sub-plan.
     pub plan: Option<usize>,
 }
 
-/// The components of a plan that command something.
+/// The components of a plan that command resources.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Users {
     pub globals: Vec<User>,
@@ -27,10 +27,10 @@ pub(crate) struct Users {
     pub elements: Vec<(User, Vec<User>)>,
 }
 
-/// Greatest number of other places that one diagnostic shows.
+/// Maximum number of notes.
 const MAX_NOTES: usize = 3;
 
-/// A resource, the place of a component that commands it, and that component's name.
+/// A resource, and place and name of a component that commands it.
 type Command<'a> = (&'a str, Span, &'a str);
 
 /// Reports every pair once, at the later supervisor; `order` has sub-plans before their users.
@@ -59,7 +59,7 @@ pub(crate) fn check(plans: &[PlanHead], users: &[Users], order: &[usize], diags:
     }
 }
 
-/// What a component commands, with a place for each.
+/// The resources of a component, each with a place.
 fn own<'a>(
     user: &'a User,
     inside: &[Vec<Command<'a>>],

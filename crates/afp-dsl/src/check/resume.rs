@@ -1,18 +1,18 @@
-//! Where nothing is active that could be resumed.
+//! `resume` without an active element.
 
 use crate::graph::{Component, Element, ElementId, Target, resuming};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// An edge to `resume` of what ends by it.
+/// Reports an edge to `resume` from a component that has ended.
 pub(crate) fn nothing_active(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0247, span, "an element that has ended cannot be resumed")
         .help("name an element of the plan, or lead an event to 'resume'")
 }
 
-/// Reports edges of actors and sub-plans, and a `start`, that lead to a computation which can
-/// resume: nothing is active then. Elements with errors are holes.
+/// Reports edges of actors and sub-plans, and a `start`, to a computation that can resume: no
+/// element is active then. Elements with errors are `None`.
 pub(super) fn check(
     elements: &[Option<Element>],
     start: Option<(ElementId, Span)>,

@@ -1,7 +1,7 @@
-//! Scenarios: names are resolved in their plan, values typed, times put in order.
+//! Scenarios: resolves names in their plan, checks types of values, orders times.
 //!
-//! A scenario is checked against the finished graph of its plan, so only when that has no errors
-//! that keep it from being built. One kind of line, one submodule.
+//! A scenario is checked against the complete graph of its plan, so only if that has no errors.
+//! Each kind of line has a submodule.
 
 mod actions;
 mod claims;
@@ -44,15 +44,15 @@ use times::Stretch;
 
 /// The plans of a program, as far as they could be checked.
 pub(super) struct Plans<'a> {
-    /// By place in [`Program::plans`].
+    /// By index in [`Program::plans`].
     pub plans: &'a [Option<graph::Plan>],
     /// Sub-plans before their users.
     pub order: &'a [usize],
-    /// The components of each plan, whole or not.
+    /// The components of each plan, complete or not.
     pub members: &'a [Members],
 }
 
-/// Checks the scenarios of all files and gives those of the first one.
+/// Checks the scenarios of all files and returns those of the first one.
 pub(super) fn check(
     program: &Program<'_>,
     files: &[PlanFile],
@@ -75,16 +75,15 @@ pub(super) fn check(
     checked
 }
 
-/// The connected outputs that come with a declared outcome of a component, named by its path: each by its
-/// position among the template's, with its name and the type of its value. None where there is no such
-/// component.
+/// The connected outputs of a declared outcome of a component, named by its path: each with its
+/// position in the template, its name and its value's type. Empty for an unknown component.
 pub fn outputs(graph: &graph::Graph, component: &str, outcome: u16) -> Vec<(u16, String, Type)> {
     let Some((plan, part)) = paths::by_path(graph, component) else { return Vec::new() };
     let outputs = paths::outputs(graph, plan, part, outcome).into_iter();
     outputs.map(|(index, port, ty)| (index, port.name.clone(), ty)).collect()
 }
 
-/// The plan that the first scenario of a file with a plan that is there is for: what runs where the file has no plan.
+/// The plan of a file's first scenario with a known plan: the main plan if the file has none.
 pub(super) fn first_plan(program: &Program<'_>, file: &PlanFile) -> Option<usize> {
     let known = &program.files.first()?.plans;
     let plan = |node: &ast::Scenario| known.get(&node.plan()?.name()?.text)?.first().copied();
@@ -110,10 +109,9 @@ fn twice(name: &Name, named: &mut Vec<Name>, diags: &mut Diagnostics) {
     }
 }
 
-/// The graphs of the plans that scenarios are for, by their places; all scenarios of one plan share its graph.
+/// Graphs of the scenarios' plans, by index; scenarios of one plan share its graph.
 type Graphs = BTreeMap<usize, Option<Arc<graph::Graph>>>;
 
-/// A scenario in the making.
 struct Checker<'a> {
     context: Context<'a>,
     paths: Paths<'a>,
@@ -162,7 +160,7 @@ fn scenario(
     Some(over.runs(scenario))
 }
 
-/// The plan that a scenario is for, by its place.
+/// The index of a scenario's plan.
 fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> Option<usize> {
     let name = reference.name()?;
     let known = &context.file.plans;
@@ -223,7 +221,7 @@ impl Checker<'_> {
         Some(Start { x: x?, y: y?, heading: heading? })
     }
 
-    /// A value of type `ty`, which may be made of constants of the plan.
+    /// A value of type `ty`, which may use constants of the plan.
     fn constant(
         &self,
         formula: &ast::Formula,
@@ -233,7 +231,7 @@ impl Checker<'_> {
         self.constant_as(formula, |_| ty.clone(), diags)
     }
 
-    /// The same of the type that is wanted in place of its own.
+    /// Like [`Self::constant`], with the wanted type instead of its own.
     fn constant_as(
         &self,
         formula: &ast::Formula,
@@ -309,7 +307,7 @@ impl Checker<'_> {
         Some((id.0, value))
     }
 
-    /// Reports `in` entries that nobody gives a value.
+    /// Reports `in` entries without a value.
     fn inputs(
         &self,
         scenario: &Scenario,
@@ -319,7 +317,7 @@ impl Checker<'_> {
     ) {
         let plan = self.paths.graph.main();
         let drafts = &self.paths.names.program.plans[self.paths.main].entries;
-        // A default that is wrong has been reported.
+        // An invalid default has been reported.
         let has_default =
             |index: &u16| drafts.get(usize::from(*index)).is_some_and(|it| it.has_init);
         let missing = (0..).zip(&plan.entries).filter(|(index, entry)| {

@@ -1,4 +1,4 @@
-//! What plans can name: in all files, and in one file.
+//! Visible names: in all files, and in one file.
 
 use std::sync::Arc;
 
@@ -16,23 +16,22 @@ use rustc_hash::FxHashMap;
 
 /// Everything that a compilation has read.
 pub(crate) struct Program<'a> {
-    /// All toolboxes that could be used.
+    /// All available toolboxes.
     pub toolboxes: &'a Toolboxes,
-    /// Those that some file uses; [`crate::graph::ToolboxId`] is an index into them.
+    /// The used toolboxes; [`crate::graph::ToolboxId`] is an index.
     pub linked: Vec<Arc<Toolbox>>,
-    /// What each plan file can name.
+    /// The scope of each plan file.
     pub files: Vec<FileScope<'a>>,
     /// The plans of all files, file by file.
     pub plans: Vec<PlanHead>,
-    /// For each plan the plans that it uses, each with the place where it does.
+    /// The sub-plans of each plan, with the places of their uses.
     pub sub_plans: Vec<Vec<(usize, Span)>>,
-    /// The ports and outcomes of all that plans can use.
+    /// Ports and outcomes of everything that plans can use.
     pub signatures: Signatures,
-    /// What is found out about names.
     pub record: &'a Recorder,
 }
 
-/// A compilation as one of its files sees it.
+/// A compilation as seen by one file.
 #[derive(Clone, Copy)]
 pub(crate) struct Context<'a> {
     pub program: &'a Program<'a>,
@@ -40,33 +39,32 @@ pub(crate) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The file, seen from the folder of the compiled one; `None` when it is that one.
+    /// The file, relative to the main file's folder; `None` for the main file.
     pub fn file_from_main(&self) -> Option<String> {
         let (main, own) = (self.program.files.first()?.path, self.file.path);
         (own != main).then(|| relative(main, own).unwrap_or_else(|| own.to_owned()))
     }
 }
 
-/// What the plans of one file can name.
+/// The visible names of one file.
 pub(crate) struct FileScope<'a> {
     /// Its normalised path.
     pub path: &'a str,
     pub text: &'a str,
     /// The file with its index among the sources.
     pub source: (u16, &'a Arc<Source>),
-    /// The toolboxes that it uses.
+    /// Used toolboxes.
     pub imports: Vec<Import>,
-    /// The computations that plan files declare for it, as toolboxes without a name: its own first.
+    /// Computations from plan files, as nameless toolboxes: its own first.
     pub computations: Vec<Import>,
-    /// The types that it can name.
     pub types: Types,
-    /// The tables that it can name: its own first.
+    /// Visible tables: its own first.
     pub tables: Vec<Arc<Table>>,
-    /// Whether a file that it wants to use is missing.
+    /// Whether a used file is missing.
     pub incomplete: bool,
-    /// The plans that it can name, by name and by place in [`Program::plans`]: its own first, of
-    /// each file the first one.
+    /// Visible plans by name, as indices in [`Program::plans`]: its own first, the first one of
+    /// each file.
     pub plans: FxHashMap<String, Vec<usize>>,
-    /// Where a `use` line can be added.
+    /// The place for a new `use` line.
     pub top: Span,
 }

@@ -1,5 +1,4 @@
-//! What a component is made from, in the one shape that bindings and edges need: a template, or a
-//! plan used as an actor.
+//! Signatures of components for bindings and edges: of a template, or of a plan used as an actor.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -15,60 +14,53 @@ use afp_syntax::source::Span;
 pub(crate) struct Signature {
     pub name: String,
     pub kind: SignatureKind,
-    /// Input ports in order.
     pub inputs: Vec<Input>,
-    /// Output ports in order.
     pub outputs: Vec<OutputPort>,
-    /// Entries of a plan that are no ports: its `var`s and `const`s.
+    /// Entries of a plan that are not ports: its `var`s and `const`s.
     pub inner: Vec<(String, EntryKind, Span)>,
-    /// States or events in order.
     pub outcomes: Vec<Arc<str>>,
     /// The template, unless it is a plan.
     pub template: Option<(TemplateId, Arc<Toolbox>)>,
-    /// The edge of a plan that can end it as `Interrupted`.
+    /// An edge that can end the plan as `Interrupted`.
     pub interrupting: Option<Span>,
 }
 
-/// What a signature belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SignatureKind {
     Template(TemplateKind),
-    /// A plan, by its place in [`crate::check::Program::plans`].
+    /// A plan, by its index in [`crate::check::Program::plans`].
     Plan(usize),
 }
 
 pub(crate) struct Input {
-    /// Its name, which the outline has at each of its uses.
+    /// Its name, shared with the outline.
     pub name: Arc<str>,
-    /// Its type; `None` when its declaration is broken.
+    /// Its type; `None` for an invalid declaration.
     pub ty: Option<Type>,
-    /// Whether it may be left unbound.
+    /// Whether it may be unbound.
     pub optional: bool,
-    /// Its value when it is left unbound.
+    /// Its default.
     pub default: Option<Constant>,
-    /// Least and greatest value.
+    /// Minimum and maximum.
     pub range: Option<(f64, f64)>,
-    /// Its declaration.
     pub span: Span,
 }
 
 pub(crate) struct OutputPort {
     pub name: Arc<str>,
-    /// Its type; `None` when its declaration is broken.
+    /// Its type; `None` for an invalid declaration.
     pub ty: Option<Type>,
-    /// Its declaration.
     pub span: Span,
 }
 
-/// The signatures of all that plans can use, made once.
+/// The signatures of everything that plans can use, made once.
 pub(crate) struct Signatures {
     templates: Vec<Vec<Rc<Signature>>>,
-    /// By place in [`crate::check::Program::plans`].
+    /// By index in [`crate::check::Program::plans`].
     plans: Vec<Rc<Signature>>,
 }
 
 impl Signatures {
-    /// Those of the templates of toolboxes and of plans.
     pub fn of(toolboxes: &[Arc<Toolbox>], plans: &[PlanHead]) -> Signatures {
         let templates = |(place, toolbox): (usize, &Arc<Toolbox>)| {
             let Ok(id) = u16::try_from(place).map(ToolboxId) else { return Vec::new() };
@@ -85,12 +77,12 @@ impl Signatures {
         }
     }
 
-    /// That of a template, by toolbox and place in it.
+    /// The signature of a template, by toolbox and index.
     pub fn template(&self, toolbox: ToolboxId, index: usize) -> Option<&Rc<Signature>> {
         self.templates.get(toolbox.index())?.get(index)
     }
 
-    /// That of the template of a name whose states are the values of an enum.
+    /// The signature of a template with an enum's values as states.
     pub fn of_enum(&self, toolbox: ToolboxId, name: &str, home: &Enum) -> Option<Rc<Signature>> {
         let is_it = |signature: &&Rc<Signature>| {
             let states = signature.template().and_then(|template| template.states_of.as_ref());
@@ -100,7 +92,7 @@ impl Signatures {
         self.templates.get(toolbox.index())?.iter().find(is_it).cloned()
     }
 
-    /// That of the template of a name that reads a table.
+    /// The signature of a template that reads a table.
     pub fn of_table(
         &self,
         toolbox: ToolboxId,
@@ -121,7 +113,6 @@ impl Signatures {
 }
 
 impl Signature {
-    /// The signature of a template.
     fn of_template(toolbox: Arc<Toolbox>, id: TemplateId) -> Signature {
         let template = &toolbox.templates[usize::from(id.index)];
         Signature {
@@ -140,7 +131,6 @@ impl Signature {
         }
     }
 
-    /// The signature of a plan that is used as an actor.
     fn of_plan(index: usize, head: &PlanHead) -> Signature {
         let of_kind = |kind| head.entries.iter().filter(move |entry| entry.kind == kind);
         Signature {
@@ -174,18 +164,18 @@ impl Signature {
         }
     }
 
-    /// The template itself, unless it is a plan.
+    /// The template, unless it is a plan.
     pub fn template(&self) -> Option<&Template> {
         let (id, toolbox) = self.template.as_ref()?;
         toolbox.templates.get(usize::from(id.index))
     }
 
-    /// Where a state or event is declared, by its place; `None` for those that every plan has.
+    /// The declaration of a state or event, by index; `None` for implicit ones.
     pub fn outcome_span(&self, outcome: usize) -> Option<Span> {
         self.template()?.outcomes.get(outcome).map(|outcome| outcome.span)
     }
 
-    /// The states or events that have to be connected.
+    /// The states or events that must be connected.
     pub fn required(&self) -> impl Iterator<Item = &str> {
         let is_plan = matches!(self.kind, SignatureKind::Plan(_));
         let optional = is_plan && self.interrupting.is_none();
@@ -193,7 +183,7 @@ impl Signature {
         outcomes.filter(move |outcome| !(optional && *outcome == "Interrupted"))
     }
 
-    /// What an element made from it is; `None` for a supervisor.
+    /// The component of an element; `None` for a supervisor.
     pub fn component(&self) -> Option<Component> {
         match self.kind {
             SignatureKind::Plan(index) => {
@@ -212,7 +202,7 @@ impl Signature {
 }
 
 impl SignatureKind {
-    /// What it is, with an article.
+    /// A description with an article.
     pub fn describe(self) -> &'static str {
         match self {
             SignatureKind::Plan(_) => "a plan",
@@ -222,7 +212,7 @@ impl SignatureKind {
         }
     }
 
-    /// The keyword that puts it into a plan.
+    /// Its keyword in a plan.
     pub fn keyword(self) -> &'static str {
         match self {
             SignatureKind::Plan(_) => "subplan",

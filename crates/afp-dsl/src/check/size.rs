@@ -1,8 +1,7 @@
-//! How large a plan is: the tables of a plan, and what it comes to when it runs.
+//! Sizes of plans: their tables, and their components at run time.
 //!
-//! Rows are numbered with 16 bits. When a plan runs, every use of a sub-plan is a sub-plan of its own:
-//! a few plans that use each other twice are a million elements, and whatever unfolds them would run
-//! out of memory or stack.
+//! Rows have 16-bit numbers. At run time every use of a sub-plan is a separate instance: a few
+//! plans that use each other twice make a million elements, which would exhaust memory or stack.
 
 use crate::check::Program;
 use crate::graph::{Component, Plan};
@@ -12,12 +11,12 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Greatest number of elements and supervisors of a running plan.
+/// Maximum number of elements and supervisors at run time.
 const MAX_COMPONENTS: u64 = 100_000;
-/// Greatest depth of sub-plans in sub-plans.
+/// Maximum nesting of sub-plans.
 const MAX_DEPTH: u32 = 1_000;
 
-/// What a plan comes to when it runs.
+/// Size of a plan at run time.
 #[derive(Clone, Copy)]
 struct Size {
     components: u64,
@@ -25,8 +24,7 @@ struct Size {
     depth: u32,
 }
 
-/// Reports the plans that grow too large, but not those that contain them; `order` has sub-plans
-/// before their users.
+/// Reports plans that are too large, but not their users; `order` has sub-plans before their users.
 pub(super) fn check(
     program: &Program<'_>,
     plans: &[Option<Plan>],
@@ -37,7 +35,7 @@ pub(super) fn check(
     let mut sizes = vec![None; plans.len()];
     for place in order {
         if let Some(plan) = &plans[*place] {
-            // What people can count in the text is reported also for a plan without a graph.
+            // Limits visible in the source are also reported without a graph.
             let derived =
                 |table| !matches!(table, Table::Entries | Table::Elements | Table::Supervisors);
             let rows = tables(plan).into_iter().filter(|(table, _)| derived(*table));
@@ -57,7 +55,7 @@ pub(super) fn check(
     }
 }
 
-/// Reports the first item beyond the greatest number that there may be.
+/// Reports the first item beyond a limit.
 pub(crate) fn at_most(
     limit: usize,
     (owner, what): (&str, &str),
@@ -71,7 +69,7 @@ pub(crate) fn at_most(
     }
 }
 
-/// Reports each table of a plan that has too many rows.
+/// Reports each table of a plan with too many rows.
 pub(super) fn too_many_rows(
     name: Option<&Name>,
     rows: impl IntoIterator<Item = (Table, usize)>,
@@ -111,7 +109,7 @@ fn too_many_plans(program: &Program<'_>, diags: &mut Diagnostics) {
     at_most(MAX_ROWS, ("a plan with the files that it uses", "plans"), names, help, diags);
 }
 
-/// `None` for a plan that contains one which is too large or has errors.
+/// `None` for a plan that contains a plan which is too large or has errors.
 fn size(plan: &Plan, sizes: &[Option<Size>]) -> Option<Size> {
     let mut size = Size {
         components: (plan.elements.len() + plan.supervisors.len()) as u64,

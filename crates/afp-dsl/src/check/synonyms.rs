@@ -1,23 +1,22 @@
-//! Words that other languages have for ours.
+//! Words of other languages.
 
 use afp_syntax::habits::{ENDS, REACTIONS, TYPES, ours};
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Leads {
-    /// The start of the plan.
     Start,
-    /// A state, or what is not known to be an event.
+    /// A state, or an unknown outcome.
     Edge,
     Event,
 }
 
-/// The word behind `->` that was meant by a name.
+/// The likely keyword after `->`.
 pub(super) fn target(name: &str, leads: Leads) -> Option<&'static str> {
     let of_ends = ours(ENDS, name).filter(|_| leads != Leads::Start);
     of_ends.or_else(|| ours(REACTIONS, name).filter(|_| leads == Leads::Event))
 }
 
-/// The type that was meant by a name.
+/// The likely type.
 pub(super) fn ty(name: &str) -> Option<&'static str> {
     ours(TYPES, name)
 }

@@ -61,7 +61,6 @@ pub(super) fn own(
     tables.collect()
 }
 
-/// The names of the plans and enums of a file.
 pub(super) fn other_names(items: &[Item]) -> DeclaredNames {
     let mut names = DeclaredNames::default();
     for item in items {
@@ -71,7 +70,7 @@ pub(super) fn other_names(items: &[Item]) -> DeclaredNames {
             _ => None,
         };
         if let Some(name) = other {
-            // What is wrong with these is said elsewhere.
+            // Their errors are reported elsewhere.
             names.declare(&name, &mut Diagnostics::default());
         }
     }
@@ -120,7 +119,7 @@ fn columns(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Vec
     found
 }
 
-/// The values of a row; `None` where something is wrong with it.
+/// The values of a row; `None` if it has an error.
 fn row(
     row: &ast::Row,
     table: &ast::Table,
@@ -129,12 +128,12 @@ fn row(
     diags: &mut Diagnostics,
 ) -> Option<Vec<Cell>> {
     let cells = row.cells();
-    // What could not be read may have been the values.
+    // The unparsed part may be the values.
     let whole = diags.syntax_errors_within(table.span()).next().is_none();
     let misfits = whole && cells.len() != columns.len() && !columns.is_empty();
     let comma =
         decimal_comma(cells.iter().flatten()).filter(|_| misfits && cells.len() > columns.len());
-    // Halves of numbers say nothing of the other values.
+    // Parts of decimal numbers do not determine other values.
     let known = if comma.is_some() { &[] } else { columns };
     if misfits {
         diags.push(misfit(row, &cells, columns, comma));
@@ -157,7 +156,7 @@ fn row(
     values.filter(|values| values.len() == columns.len())
 }
 
-/// A row with more or fewer values than there are columns.
+/// A row with too many or too few values.
 fn misfit(
     row: &ast::Row,
     cells: &[Option<ast::Formula>],
@@ -229,7 +228,7 @@ fn of_table(template: &Template, table: &Arc<Table>) -> Template {
     let output = |column: &Column| OutPort {
         name: column.name.clone(),
         doc: column.doc.clone(),
-        // An unknown type is none of the signature either.
+        // An unknown type is unknown in the signature, too.
         ty: column.ty.clone().unwrap_or(Type::FLOAT),
         on: vec![0],
         span: column.span,

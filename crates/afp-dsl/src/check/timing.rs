@@ -1,4 +1,4 @@
-//! Times that are written in the text: `every`, `deadline`, `budget`, `stop`.
+//! Times in the source: `every`, `deadline`, `budget`, `stop`.
 
 use crate::check::convert;
 use crate::check::formula::Scope;
@@ -10,13 +10,13 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::literal::Literal;
 use afp_syntax::message;
 
-/// Poll period where none is written, in nanoseconds.
+/// Default poll period, nanoseconds.
 pub(crate) const DEFAULT_EVERY: u64 = 10_000_000;
 
 /// One hour.
 const LONGEST: u64 = 3_600_000_000_000;
 
-/// The written time in nanoseconds, 1 ns to 1 h; reports what is none.
+/// A time in nanoseconds, 1 ns to 1 h; reports other values.
 pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u64> {
     let value = timing.value()?;
     above_zero(&value, value.kind(), diags)
@@ -29,7 +29,7 @@ fn above_zero(value: &Formula, kind: FormulaKind, diags: &mut Diagnostics) -> Op
     }
 }
 
-/// As [`nanoseconds`] for the times of a supervisor, which constants of the plan may be.
+/// [`nanoseconds`] for the times of a supervisor, which may be constants of the plan.
 pub(crate) fn of_supervisor(
     timing: &Timing,
     scope: &Scope<'_>,
@@ -49,15 +49,15 @@ pub(crate) fn of_supervisor(
         );
         return None;
     };
-    // To the nearest nanosecond, as everywhere; what is far out of range stays so.
+    // To the nearest nanosecond; far values stay out of range.
     match (seconds * 1e9).round() {
         nanos if (1.0..=LONGEST as f64).contains(&nanos) => Some(nanos as u64),
         _ => refuse(&value, "a time is longer than nothing and at most one hour", diags),
     }
 }
 
-/// The written time in nanoseconds, 0 to 1 h; reports what is none. People write such times in one of the `usual`
-/// units; without any, that depends on the number.
+/// A time in nanoseconds, 0 to 1 h; reports other values. `usual` are its likely units; if empty,
+/// they depend on the number.
 pub(crate) fn time(value: &Formula, usual: &[&str], diags: &mut Diagnostics) -> Option<u64> {
     time_of(value, value.kind(), usual, diags)
 }
@@ -97,7 +97,7 @@ fn time_of(
     }
 }
 
-/// A quantity that is no duration. Of a rate the period is known.
+/// Reports a quantity that is not a duration. A rate suggests its period.
 fn no_duration(value: &Formula, unit: &Name, literal: &Literal) -> Diagnostic {
     let dimension = literal.dimension();
     let message = message!("expected a duration, found {}", Words(a_dimension(dimension)));
@@ -124,7 +124,7 @@ fn refuse(value: &Formula, message: &'static str, diags: &mut Diagnostics) -> Op
     None
 }
 
-/// Reports a deadline that lies behind the next release.
+/// Reports a deadline after the next release.
 pub(crate) fn deadline_fits(
     deadline: u64,
     every: u64,

@@ -1,4 +1,4 @@
-//! What the words of a type mean.
+//! Meanings of types.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -13,25 +13,25 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
-/// The types that a text can name: the built-in ones and these.
+/// The visible types, in addition to built-in ones.
 #[derive(Clone, Default)]
 pub(crate) struct Types {
-    /// Enums, with the name that qualifies them.
+    /// Enums with their qualifiers.
     pub enums: Vec<(Option<String>, Arc<Enum>)>,
-    /// Object types, with the name that qualifies them.
+    /// Object types with their qualifiers.
     pub objects: Vec<(Option<String>, Arc<Object>)>,
-    /// Whether `any`, `number` and `discrete` can be written.
+    /// Whether `any`, `number` and `discrete` are valid.
     pub generic: bool,
-    /// What qualifies them, with the name that each means.
+    /// The qualifiers and their declarations.
     pub homes: Vec<(String, Span)>,
-    /// Enums of files that are used by used files only: each with the `use` line that is missing, and where that goes.
+    /// Enums of indirectly used files, each with the missing `use` line and its place.
     pub hidden: Vec<(String, String, Span)>,
-    /// Whether a toolbox is missing, so that an unknown name may be one of its.
+    /// Whether a toolbox is missing, which may have unknown names.
     pub incomplete: bool,
 }
 
 impl Types {
-    /// The meaning of a written type; reports what has none.
+    /// The meaning of a type; reports an unknown one.
     pub fn resolve(
         &self,
         ty: &ast::Type,
@@ -78,7 +78,7 @@ impl Types {
         product.map(Type::Quantity)
     }
 
-    /// `m/s` in the place of a type, none of whose factors is one.
+    /// Reports `m/s` in place of a type, if no factor is a type.
     fn unit_for_a_type(&self, ty: &ast::Type, factors: &[Factor]) -> Option<Diagnostic> {
         let mut unit = String::new();
         for factor in factors {
@@ -133,7 +133,7 @@ impl Types {
         self.declared(reference, &name, home.as_ref(), record, diags)
     }
 
-    /// Says what qualifies a name.
+    /// Records a qualifier.
     pub fn qualifier(&self, home: &ast::Name, record: &Recorder) {
         match self.homes.iter().find(|(known, _)| *known == home.text) {
             Some((_, definition)) => record.definition(home.span, *definition),
@@ -141,7 +141,6 @@ impl Types {
         }
     }
 
-    /// An enum or object type.
     fn declared(
         &self,
         reference: &ast::Ref,
@@ -188,14 +187,14 @@ impl Types {
         }
     }
 
-    /// Reports a name that no type has; `qualified` tells whether something stands before it.
+    /// Reports an unknown type; `qualified` if it has a qualifier.
     fn unknown(&self, reference: &ast::Ref, name: &ast::Name, qualified: bool) -> Diagnostic {
         let message = message!("there is no type '{}'", name.text);
         let error = Diagnostic::new(Code::E0232, reference.span(), message);
         if let (false, Some(error)) = (qualified, self.hidden(&name.text, &error)) {
             return error;
         }
-        // The name that other languages have for a type.
+        // A type's name in other languages.
         if let Some(ty) = synonyms::ty(&name.text) {
             return error.write(ty);
         }
@@ -215,14 +214,14 @@ impl Types {
         offer(error, &name.text, known, "")
     }
 
-    /// What is said of the name of an enum that only a file has which is used by a used one.
+    /// Explains that an enum is in an indirectly used file.
     pub fn hidden(&self, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
         let (_, line, top) = self.hidden.iter().find(|(known, ..)| known == name)?;
         let help = message!("add '{}' at the top of the file", line);
         Some(error.bare().help(help).fix(*top, format!("{line}\n")))
     }
 
-    /// A factor of a product: a dimension, or a number without one.
+    /// A factor of a product: a dimension, or a plain number.
     fn factor(
         &self,
         factor: &Factor,
@@ -278,7 +277,7 @@ fn too_high(factor: &Factor, diags: &mut Diagnostics) {
     );
 }
 
-/// Reports a unit in the place of a type.
+/// Reports a unit in place of a type.
 fn of_unit(span: Span, unit: &str, dimension: Dimension) -> Diagnostic {
     let ours = dimension.name();
     let message = message!("there is no type '{}', which is a unit", unit);

@@ -1,6 +1,6 @@
-//! Formulas about a plan that runs: what somebody asks who watches it.
+//! Watches: formulas about a running plan.
 //!
-//! A watch is a formula of the language, typed as if it stood in the plan, or two formulas that are compared:
+//! A watch is a formula of the language, typed as in the plan, or a comparison of two formulas:
 //! `walldist - 5 cm`, `left % 2 == 0`. Debuggers stop on them and show them.
 
 use std::fmt;
@@ -18,39 +18,38 @@ use crate::types::{Constant, Enum, Type};
 use afp_syntax::ast::{self, Item};
 use afp_syntax::diagnostics::{Aim, Code, Diagnostic, Diagnostics};
 
-/// What comes before a formula so that it can be read like any other.
+/// A prefix that makes a formula parsable.
 const BEFORE: &str = "plan Watched { var watched: float = ";
-/// What comes behind it.
+/// The matching suffix.
 const BEHIND: &str = "\n}";
 
-/// What can be watched.
 const WATCHED: &str =
     "write an entry by its name, or a formula of entries; two formulas may be compared";
 
-/// The signs of comparisons; of two that begin alike the longer one comes first.
+/// Comparison operators; longer ones first.
 const SIGNS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
 
-/// A formula, or two that are compared.
+/// A formula, or a comparison.
 #[derive(Clone, Debug)]
 pub struct Watch {
     left: Formula,
     right: Option<(Comparison, Formula)>,
 }
 
-/// Why a text cannot be watched, and what to do.
+/// Why a watch is invalid, and a help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WatchError {
-    /// What is wrong.
+    /// The error.
     pub message: String,
-    /// What to do; empty where nothing is known.
+    /// The help; empty if unknown.
     pub help: String,
 }
 
 impl Watch {
-    /// The formula that a text is inside a plan.
+    /// Parses a watch in the scope of a plan.
     ///
     /// # Errors
-    /// The first thing that is wrong with it.
+    /// The first error.
     pub fn new(graph: &Graph, plan: PlanId, text: &str) -> Result<Watch, WatchError> {
         let inside = Inside::new(graph, graph.plan(plan));
         let Some((left, sign, right)) = compared(text) else {
@@ -74,7 +73,6 @@ impl Watch {
         Ok(Watch { left, right: Some((sign, right)) })
     }
 
-    /// The type of its value.
     pub fn ty(&self) -> &Type {
         match &self.right {
             Some(_) => &Type::Bool,
@@ -82,10 +80,10 @@ impl Watch {
         }
     }
 
-    /// Its value; none while an entry in it has none. `entry` gives those of the plan's entries.
+    /// Its value; `None` if an entry in it has none. `entry` returns values of the plan's entries.
     ///
     /// # Errors
-    /// It cannot be computed, say because it divides by zero.
+    /// It cannot be computed, for example after a division by zero.
     pub fn value(
         &self,
         entry: &dyn Fn(EntryId) -> Option<Constant>,
@@ -99,7 +97,7 @@ impl Watch {
     }
 }
 
-/// What formulas in a plan can name.
+/// The scope of a plan's formulas.
 struct Inside {
     entries: Vec<EntryDraft>,
     indices: Indices,
@@ -122,7 +120,7 @@ impl Inside {
         Inside { entries: entries.collect(), indices: Indices::of(names), types }
     }
 
-    /// A formula as one of the type that is wanted in place of its own; of whatever type without one.
+    /// A formula of the wanted type, or of any type.
     fn formula(
         &self,
         text: &str,
@@ -142,7 +140,7 @@ impl Inside {
             text: &whole,
             record: &record,
         };
-        // A text that ends the plan around it is none.
+        // A text that closes the surrounding plan is invalid.
         let end = BEFORE.len() + text.trim_end().len();
         let ends = read.as_ref().map(|read| read.span().end as usize);
         let whole_text = |read: &ast::Formula| read.span().end as usize == end;
@@ -156,7 +154,7 @@ impl Inside {
     }
 }
 
-/// What is wrong with a text of which a formula that ends there was read.
+/// The error of a text with a formula that ends too early.
 fn refused(text: &str, ends: Option<usize>, diags: &Diagnostics) -> WatchError {
     let first = diags.iter().next();
     let from = |first: &Diagnostic| (first.span.start as usize).saturating_sub(BEFORE.len());
@@ -172,7 +170,7 @@ fn refused(text: &str, ends: Option<usize>, diags: &Diagnostics) -> WatchError {
             message: format!("'{rest}' stands behind the formula"),
             help: WATCHED.to_owned(),
         },
-        // The bracket that ends the text is not the reader's.
+        // The closing brace of the suffix is not the user's.
         Some(first) => {
             WatchError { message: first.message_without(BEHIND.trim()), help: help(text, first) }
         }
@@ -183,13 +181,13 @@ fn refused(text: &str, ends: Option<usize>, diags: &Diagnostics) -> WatchError {
     }
 }
 
-/// What to do about a mistake in a formula. Who watches cannot change the plan around it.
+/// The help for an error in a formula. A watch cannot change the plan.
 fn help(text: &str, mistake: &Diagnostic) -> String {
     use Code::{E0101, E0102, E0109, E0209, E0239};
 
     let of_names = matches!(mistake.code, E0101 | E0102 | E0109 | E0209 | E0239);
     let behind = (mistake.span.end as usize).saturating_sub(BEFORE.len());
-    // Of 'Plan.entry' the first name is no enum that is written wrong.
+    // In 'Plan.entry' the first name is not a misspelled enum.
     let is_home = text.get(behind..).is_some_and(|behind| behind.starts_with('.'));
     let of_formula = mistake.fix.is_some() || mistake.aim == Aim::Write && !is_home;
     match of_names && !of_formula {
@@ -208,7 +206,7 @@ fn init(whole: &str, diags: &mut Diagnostics) -> Option<ast::Formula> {
     plan.entries().first()?.init()
 }
 
-/// The enums of plan files, as far as entries are of them.
+/// Enums of plan files in the types of entries.
 fn own_enums(graph: &Graph) -> Vec<Arc<Enum>> {
     let mut all: Vec<Arc<Enum>> = Vec::new();
     for entry in graph.plans.iter().flat_map(|plan| &plan.entries) {
@@ -222,7 +220,7 @@ fn own_enums(graph: &Graph) -> Vec<Arc<Enum>> {
     all
 }
 
-/// The two sides of a comparison, taken apart outside of texts.
+/// Splits a comparison outside of string literals.
 fn compared(text: &str) -> Option<(&str, Comparison, &str)> {
     let mut quoted = false;
     for (at, letter) in text.char_indices() {

@@ -1,5 +1,4 @@
-//! Values that are known to be written: the cells of a table, and what `Assign` is given. The entry that takes one must
-//! let it pass.
+//! Known written values: cells of a table, and inputs of `Assign`. Their entries must accept them.
 
 use afp_types::{Error, Op};
 
@@ -16,7 +15,7 @@ use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Message};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Reports the first value of each output that its entry does not take.
+/// Reports the first rejected value of each output.
 pub(super) fn fits(
     scope: &Scope<'_>,
     signature: &Signature,
@@ -36,7 +35,7 @@ pub(super) fn fits(
     }
 }
 
-/// The input that an output is a copy of, in a computation with one state.
+/// The input that a computation with one state copies to an output.
 fn copied<'f>(
     signature: &Signature,
     inputs: &'f [Formula],
@@ -64,7 +63,7 @@ fn cell(entry: &EntryDraft, output: &Output, table: &Table) -> Option<Diagnostic
     })
 }
 
-/// What a computation such as `Assign` is given, where that is known and can never be written.
+/// Reports an input of a computation such as `Assign` that can never be written.
 fn assigned(
     scope: &Scope<'_>,
     entry: &EntryDraft,
@@ -80,7 +79,7 @@ fn assigned(
     outside(entry, output, (&value, &formula.ty), formula.span, message)
 }
 
-/// What is told of a value whose conversion is out of the range of an entry; `message` gets the value before it.
+/// Reports a converted value outside of an entry's range; `message` gets the unconverted value.
 fn outside(
     entry: &EntryDraft,
     output: &Output,
@@ -94,7 +93,7 @@ fn outside(
     range::outside(&written, range, entry_ty, place, |own| message(shown.unwrap_or(own)))
 }
 
-/// What an output makes of a value.
+/// The converted value of an output.
 fn converted(output: &Output, value: &Constant) -> Result<Constant, Error> {
     match &output.conversion {
         Some(conversion) => convert(conversion, value.clone()),

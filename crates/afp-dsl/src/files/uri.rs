@@ -1,28 +1,26 @@
-//! Addresses of documents and paths of files.
+//! Document addresses and file paths.
 //!
-//! A document has one path however a client writes its address: `file:` addresses lose their percent
-//! signs, others are paths as they are written, under which no file is found.
+//! A document has one path for every spelling of its address: `file:` addresses are
+//! percent-decoded, others are used as paths that match no file.
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 
 use super::normalised;
 
-/// The characters that an address escapes.
 const ESCAPED: &AsciiSet =
     &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'_').remove(b'.').remove(b'~');
 
-/// The path that an address stands for.
+/// The path of an address.
 pub fn path_of(uri: &str) -> String {
     let Some(rest) = uri.strip_prefix("file://") else { return uri.to_owned() };
-    // A host is not looked at: it is this machine.
+    // The host is ignored: it is this machine.
     let rest = &rest[rest.find('/').unwrap_or(0)..];
     let path = percent_decode_str(rest).decode_utf8_lossy();
-    // `/C:/x` is `C:/x` there.
+    // `/C:/x` is `C:/x` on Windows.
     let drive = path.as_bytes().get(2) == Some(&b':') && path.as_bytes()[1].is_ascii_alphabetic();
     normalised(if drive { &path[1..] } else { &path })
 }
 
-/// The address of a path.
 pub fn uri_of(path: &str) -> String {
     let is_address = path.split_once(':').is_some_and(|(scheme, _)| scheme.len() > 1);
     if is_address && !path.starts_with('/') {

@@ -1,8 +1,8 @@
-//! Entries that may be read before anything has written them.
+//! Entries that may be read before they are written.
 //!
-//! A forward search over all ways from `start`, asked the other way round: which entries can reach
-//! an element without a value? An interrupted element writes nothing; a global supervisor can fire
-//! from the very first look on; a sub-plan writes what its ending surely has.
+//! A forward search over all paths from `start` finds, in reverse, the entries that can reach an
+//! element without a value. An interrupted element writes nothing, a global supervisor can fire
+//! from the first look on, and a sub-plan writes the certain outputs of its ending.
 
 mod reads;
 mod report;
@@ -16,8 +16,8 @@ use afp_syntax::diagnostics::Diagnostics;
 use reads::Reads;
 use report::Report;
 
-/// Reports each entry once, at the first place in the text that reads it too early; tells for each
-/// ending which `out` entries may have no value, and on which way.
+/// Reports each entry once, at the first early read in the source; returns for each ending the
+/// `out` entries that may lack a value, with a path.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [Vec<Option<String>>; 2] {
     let outs = view.plan.entries.iter().filter(|entry| entry.kind == EntryKind::Out).count();
     let mut unset = [vec![None; outs], vec![None; outs]];
@@ -51,7 +51,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [Vec<Option<Str
     unset
 }
 
-/// The entries that have no value when the plan starts.
+/// The entries without a value at the plan's start.
 fn unsure(entries: &[Entry]) -> Vec<EntryId> {
     let unsure = |entry: &Entry| {
         matches!(entry.kind, EntryKind::Var | EntryKind::Out) && entry.init.is_none()
@@ -61,7 +61,7 @@ fn unsure(entries: &[Entry]) -> Vec<EntryId> {
     unsure.filter_map(|(index, _)| u16::try_from(index).ok().map(EntryId)).collect()
 }
 
-/// For each entry the edges that surely write it, in ascending order.
+/// For each entry the edges that certainly write it, in ascending order.
 fn writes(view: &View<'_>) -> Vec<Vec<u32>> {
     let mut writes: Vec<Vec<u32>> = vec![Vec::new(); view.plan.entries.len()];
     for (at, edge) in view.edges.iter().enumerate() {

@@ -1,16 +1,16 @@
-//! A forward dataflow analysis over sets of bits: which of 64 questions reach which node, when edges
-//! stop some of them.
+//! A forward dataflow analysis on bit sets: which of 64 questions reach each node, if edges stop
+//! some of them.
 //!
 //! "Can this be reached without passing that?" is asked for every entry and for every event of a
-//! global supervisor. One bit for each question answers 64 of them in one search.
+//! global supervisor. With one bit per question, a search answers 64 of them.
 
 use crate::flow::view::{Node, View};
 
-/// How many questions one search answers.
+/// Number of questions per search.
 pub(super) const WIDTH: usize = 64;
 
-/// The bits that reach each node when `bits` begin at `start`; `stops` has for each edge the bits that
-/// do not pass it.
+/// The bits that reach each node if `bits` begin at `start`; `stops` has the stopped bits of each
+/// edge.
 pub(super) fn propagate(view: &View<'_>, bits: u64, stops: &[u64]) -> Vec<u64> {
     let mut reached = vec![0u64; view.nodes()];
     let mut waiting = vec![false; view.nodes()];
@@ -35,8 +35,8 @@ pub(super) fn propagate(view: &View<'_>, bits: u64, stops: &[u64]) -> Vec<u64> {
     reached
 }
 
-/// A shortest path from `start` to `goal` that takes only edges which `passes` allows, as the indices
-/// of its edges; `None` when there is none.
+/// A shortest path from `start` to `goal` along edges that `passes` accepts, as edge indices;
+/// `None` if there is none.
 pub(super) fn path(
     view: &View<'_>,
     goal: Node,

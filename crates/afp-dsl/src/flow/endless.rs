@@ -1,4 +1,4 @@
-//! Plans that never end, and elements that none of their endings can be reached from.
+//! Plans that never end, and elements that cannot reach an ending.
 
 use crate::flow::view::{Cause, Node, View};
 use crate::flow::{FAILED, INTERRUPTED, OK, lasting};
@@ -6,8 +6,8 @@ use crate::graph::{Element, ElementId, Target, chain, resuming};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
-/// Warns of a plan that cannot end, notes elements from which it cannot; tells which endings can
-/// come.
+/// Warns of a plan that cannot end, notes the elements that cannot reach an ending; returns the
+/// possible endings.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     let forth = forward(view);
     let ends = ends(view, &forth);
@@ -26,7 +26,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     }
     let back = backward(view);
     for (node, element) in view.elements() {
-        // Of one that lasts it is said that nothing can end it.
+        // A lasting actor gets a separate message.
         if !back[node] && forth[node] && !lasting::lasts(view, node, element) {
             let message = message!("once '{}' is reached, the plan cannot end", element.name);
             diags.push(
@@ -38,7 +38,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     ends
 }
 
-/// Warns where a plan that is meant to run for ever ends although nothing has happened to it.
+/// Warns of a plan that should run permanently but ends without an event.
 fn by_itself(view: &View<'_>, forth: &[bool], diags: &mut Diagnostics) {
     let ending = [view.end(OK), view.end(INTERRUPTED), view.end(FAILED)];
     for edge in view.edges.iter().filter(|edge| ending.contains(&edge.to) && forth[edge.from]) {
@@ -53,7 +53,7 @@ fn by_itself(view: &View<'_>, forth: &[bool], diags: &mut Diagnostics) {
     }
 }
 
-/// Which endings can come.
+/// The possible endings.
 pub(super) fn endings(view: &View<'_>) -> [bool; 3] {
     ends(view, &forward(view))
 }
@@ -64,7 +64,7 @@ fn ends(view: &View<'_>, forth: &[bool]) -> [bool; 3] {
     ends
 }
 
-/// The sub-plans that can fail and, without an `Error` edge, end the plan with them.
+/// Sub-plans that can fail without an `Error` edge, which ends the plan.
 fn failing<'v>(view: &'v View<'_>) -> impl Iterator<Item = Node> + 'v {
     let fails = |element| view.summary(element).is_some_and(|inner| inner.ends[FAILED]);
     let elements = view.plan.elements.iter().enumerate();
@@ -82,7 +82,7 @@ fn forward(view: &View<'_>) -> Vec<bool> {
     seen
 }
 
-/// The nodes from which an ending can be reached.
+/// The nodes that can reach an ending.
 fn backward(view: &View<'_>) -> Vec<bool> {
     let mut first = vec![0u32; view.nodes() + 1];
     for edge in view.edges.iter().filter(|edge| edge.possible) {
@@ -109,7 +109,7 @@ fn backward(view: &View<'_>) -> Vec<bool> {
     seen
 }
 
-/// Adds the computations at whose `resume` an element goes on from which an ending can be reached.
+/// Adds the computations at whose `resume` an element continues that can reach an ending.
 fn resumed(view: &View<'_>, seen: &mut [bool]) {
     let elements = &view.plan.elements;
     let resuming = resuming(elements.iter().map(Some));

@@ -1,4 +1,4 @@
-//! Sub-plans that fail where nobody takes it.
+//! Unhandled failures of sub-plans.
 
 use crate::flow::FAILED;
 use crate::flow::view::View;
@@ -6,8 +6,8 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Warns of each sub-plan without an `Error` edge whose plan leads to `fail` itself; gives an edge
-/// of this plan that does so.
+/// Warns of each sub-plan without an `Error` edge whose plan leads to `fail`; returns such an edge
+/// of this plan.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> Option<Span> {
     for (_, element) in view.elements() {
         let fails = view.summary(element).and_then(|inner| inner.fails);
@@ -23,7 +23,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> Option<Span> {
     edge(view)
 }
 
-/// An edge to `fail` that can be reached.
+/// A reachable edge to `fail`.
 pub(super) fn edge(view: &View<'_>) -> Option<Span> {
     let fail = view.end(FAILED);
     let mut edges = view.edges.iter().filter(|edge| edge.to == fail && view.reached[edge.from]);

@@ -1,11 +1,11 @@
-//! Inputs of global supervisors that are read once, at the start of the plan, from entries that
-//! change afterwards.
+//! Inputs of global supervisors that are read once at the plan's start, from entries that change
+//! later.
 
 use crate::flow::view::View;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
-/// Warns of every such input, at the entry that it reads.
+/// Warns of every such input, at the entry.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let globals = &view.plan.supervisors[..usize::from(view.plan.globals)];
     if globals.is_empty() {

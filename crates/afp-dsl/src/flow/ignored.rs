@@ -1,4 +1,4 @@
-//! Supervisors that are asked for nothing: all of their events are ignored.
+//! Supervisors whose events are all ignored.
 
 use crate::flow::view::View;
 use crate::graph::Target;

@@ -5,7 +5,8 @@ use crate::graph::{Component, Element};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
-/// Warns of each, at its name, unless the plan is to run for ever. What the plans around it watch for does not count.
+/// Warns of each, at its name, unless the plan should run permanently. Supervisors of outer plans
+/// do not count.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     if view.plan.forever {
         return;
@@ -29,7 +30,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// Whether an element is an actor without a state that no event ends. What an event resumes goes on.
+/// Whether an element is an actor without a state that no event ends. A resumed actor continues.
 pub(super) fn lasts(view: &View<'_>, node: Node, element: &Element) -> bool {
     let leads_on = |edge: &Edge| {
         matches!(edge.cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..))

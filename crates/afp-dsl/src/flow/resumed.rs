@@ -1,7 +1,7 @@
-//! What events write that lead to `resume`, and who sees it.
+//! Writes of events that lead to `resume`, and their readers.
 //!
-//! The element that goes on was started with its inputs, and so were its supervisors: only `live`
-//! ports see what is written meanwhile.
+//! The continuing element and its supervisors were started with their inputs, so only `live` ports
+//! see later writes.
 
 use std::collections::BTreeSet;
 
@@ -14,8 +14,8 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Warns of events that resume with nothing written, and of inputs read once from entries that are
-/// written while the element goes on.
+/// Warns of resuming events without writes, and of inputs read once from entries that are written
+/// while the element continues.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let globals = || (0..view.plan.globals).map(SupervisorId);
     let of_all = written(view, globals().flat_map(|id| own(view, id)), diags);
@@ -27,7 +27,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         } else {
             changed.extend(written(view, replacing(node, element), diags));
             let kept = globals().flat_map(|id| kept(view, element, id));
-            // What is wrong with these is said once.
+            // Errors of these are reported once.
             changed.extend(written(view, kept, &mut Diagnostics::default()));
         }
         if changed.is_empty() {
@@ -45,7 +45,6 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// The edges of a supervisor.
 fn own(view: &View<'_>, id: SupervisorId) -> Vec<(Cause, Target)> {
     let supervisor = view.supervisor(id);
     let events = (0..).zip(&supervisor.events);
@@ -53,7 +52,7 @@ fn own(view: &View<'_>, id: SupervisorId) -> Vec<(Cause, Target)> {
     events.chain(supervisor.on_miss.map(|to| (Cause::Miss(id), to))).collect()
 }
 
-/// The edges of a global supervisor that hold while an element is active.
+/// Edges of a global supervisor that are effective while an element is active.
 fn kept(view: &View<'_>, element: &Element, id: SupervisorId) -> Vec<(Cause, Target)> {
     let mut edges = own(view, id);
     if let Some(table) = element.reactions_to(id) {
@@ -65,7 +64,7 @@ fn kept(view: &View<'_>, element: &Element, id: SupervisorId) -> Vec<(Cause, Tar
     edges
 }
 
-/// The edges by which an element replaces those of global supervisors.
+/// The edges by which an element replaces global ones.
 fn replacing(node: Node, element: &Element) -> impl Iterator<Item = (Cause, Target)> {
     let tables = element.reactions.iter().flat_map(|table| {
         let events = (0..).map(Some).take(table.events.len()).chain([None]);
@@ -75,7 +74,7 @@ fn replacing(node: Node, element: &Element) -> impl Iterator<Item = (Cause, Targ
     tables.filter_map(move |(supervisor, event, to)| Some((Cause::On(id?, supervisor, event), to)))
 }
 
-/// The entries that edges write without interrupting; warns of those that write nothing.
+/// Entries that edges write without interrupting; warns of edges without writes.
 fn written(
     view: &View<'_>,
     edges: impl Iterator<Item = (Cause, Target)>,
@@ -104,7 +103,7 @@ fn written(
     written
 }
 
-/// The inputs that an element reads once, at its start, and where their ports are declared.
+/// The inputs that an element reads once, at its start, with the declarations of their ports.
 fn once<'a>(view: &View<'a>, element: &'a Element) -> Vec<(&'a Formula, Span)> {
     match element.component {
         Component::Actor(id) | Component::Computation(id) => {

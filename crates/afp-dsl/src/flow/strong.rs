@@ -1,7 +1,7 @@
-//! Strongly connected components, after Tarjan (1972), with a stack of its own.
+//! Strongly connected components (Tarjan, 1972), with an explicit stack.
 
-/// Numbers the components of the graph in which `edges[first[n]..first[n + 1]]` are the nodes behind
-/// `n`. A component's number is less than those of the components that lead to it.
+/// Numbers the components of the graph in which `edges[first[n]..first[n + 1]]` are the successors
+/// of `n`. A component's number is less than those of its predecessors.
 pub(crate) fn components(first: &[u32], edges: &[u32]) -> Vec<u32> {
     let count = first.len().saturating_sub(1);
     let mut search = Search {
@@ -23,8 +23,8 @@ pub(crate) fn components(first: &[u32], edges: &[u32]) -> Vec<u32> {
     search.component
 }
 
-/// For each node where its edges begin in a list that stands in the order of the nodes; behind them its length. `from`
-/// are the nodes at which the edges begin.
+/// For each node the start of its edges in a sorted list, followed by the list's length. `from` are
+/// the origins of the edges.
 pub(crate) fn first(nodes: usize, from: impl Iterator<Item = usize>) -> Vec<u32> {
     let mut first = vec![0; nodes + 1];
     from.for_each(|node| first[node + 1] += 1);
@@ -42,7 +42,7 @@ struct Search<'a> {
     low: Vec<u32>,
     component: Vec<u32>,
     stack: Vec<usize>,
-    /// The nodes on the way to the one at hand, each with its next edge.
+    /// The nodes on the current path, each with its next edge.
     path: Vec<(usize, u32)>,
     next: u32,
     found: u32,

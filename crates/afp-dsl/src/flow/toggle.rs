@@ -1,7 +1,7 @@
-//! Toggles by an event that lasts: the element that it leads to leaves by the same event at the next poll.
+//! Toggles by a lasting event: the target element is left by the same event at the next poll.
 //!
-//! A press of a button lasts for many polls. Of some templates there is another one that reports the same once, so that each
-//! press leads on by one element.
+//! A button press lasts for many polls. Some templates have a variant that reports a press once, so
+//! that each press advances by one element.
 
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{SupervisorId, TemplateId};
@@ -9,7 +9,7 @@ use crate::toolbox::{Template, TemplateKind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use afp_syntax::message;
 
-/// Warns of each such event of a global supervisor once, at the edge that leads back.
+/// Warns of each such event of a global supervisor once, at the edge back.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     for id in (0..view.plan.globals).map(SupervisorId) {
         let template = view.supervisor(id).template;
@@ -40,7 +40,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// The edge of an event while an element is active, and the element that it leads to, at once or through computations.
+/// The edge of an event while an element is active, and its target, possibly through computations.
 fn leads<'v>(
     view: &'v View<'_>,
     node: Node,
@@ -57,8 +57,8 @@ fn leads<'v>(
     view.element(*only).map(|_| (edge, *only))
 }
 
-/// What to use instead of a template whose event lasts, if its toolbox has a template that reports the same once: its name
-/// begins like that of the first one.
+/// The alternative to a template with a lasting event: a template of the same toolbox that reports
+/// it once, whose name begins with the first one's.
 pub(super) fn once_instead(view: &View<'_>, id: TemplateId) -> Option<Message> {
     let lasting = view.model.template(id);
     let is_once = |it: &&Template| {

@@ -1,4 +1,4 @@
-//! Elements that no way from `start` leads to.
+//! Elements that are unreachable from `start`.
 
 use crate::flow::view::View;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};

@@ -1,4 +1,4 @@
-//! Entries that nothing reads. The results of a plan are read by whoever started it.
+//! Unread entries. The results of a plan are read by its caller.
 
 use std::cell::OnceCell;
 
@@ -28,7 +28,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// Which entries some elements and supervisors read, or the declarations of others.
+/// The entries that elements, supervisors or declarations read.
 fn read<'a>(
     view: &View<'_>,
     elements: impl IntoIterator<Item = &'a Element>,

@@ -1,9 +1,9 @@
-//! A plan as a plain graph of nodes and edges, which is what searches need.
+//! A plan as a plain graph of nodes and edges, for searches.
 //!
-//! Beside the elements there are four nodes: "anywhere", which stands for every actor and sub-plan
-//! at once and is where the events of global supervisors begin, the two endings, and `fail`. An event
-//! that some element replaces (`on`) has a node of its own, which stands for the others. Edges to
-//! `ignore` and `resume` are left out: what goes on is where it was.
+//! In addition to the elements there are four nodes: "anywhere", which stands for all actors and
+//! sub-plans and is the origin of global events, the two endings, and `fail`. An event that some
+//! element replaces (`on`) has its own node, for the other elements. Edges to `ignore` and `resume`
+//! are omitted, since the flow stays.
 
 mod counter;
 
@@ -20,57 +20,47 @@ use afp_syntax::source::Span;
 
 pub(crate) use counter::{Counter, Counters};
 
-/// A node of a [`View`].
 pub(crate) type Node = usize;
 
-/// What makes the flow go along an edge.
+/// The cause of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cause {
-    /// An element ends in a state.
     State(ElementId, u16),
-    /// An element ends in a fault.
     Error(ElementId),
-    /// A supervisor reports an event.
     Event(SupervisorId, u16),
-    /// A supervisor misses its deadline.
     Miss(SupervisorId),
-    /// A global supervisor reports an event, or misses its deadline, to which an element reacts by itself.
+    /// An element's own reaction to an event or missed deadline of a global supervisor.
     On(ElementId, SupervisorId, Option<u16>),
-    /// An actor or sub-plan is active, so global supervisors are asked.
+    /// An actor or sub-plan is active, so global supervisors are polled.
     Active(ElementId),
 }
 
-/// An edge of a [`View`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
-    /// What takes it.
     pub cause: Cause,
     pub from: Node,
-    /// Where it leads.
     pub to: Node,
-    /// Whether it can be taken at all: the ending of a sub-plan may never come.
+    /// Whether it can be taken: a sub-plan's ending may be impossible.
     pub possible: bool,
 }
 
-/// A plan as a graph.
 pub(crate) struct View<'a> {
     pub plan: &'a Plan,
-    /// What it is part of.
     pub model: &'a Model<'a>,
-    /// All edges, grouped by the node where they begin.
+    /// All edges, grouped by origin.
     pub edges: Vec<Edge>,
-    /// Which nodes can be reached from `start`, by node.
+    /// Reachable nodes, by node.
     pub reached: Vec<bool>,
-    /// The events, or missed deadlines, that some element replaces.
+    /// Events, or missed deadlines, that some element replaces.
     replaced: Vec<(SupervisorId, Option<u16>)>,
     summaries: &'a [Option<Summary>],
     first: Vec<u32>,
-    /// The counters of the plan, once something has asked for them.
+    /// The counters of the plan, computed on demand.
     pub counters: OnceCell<Counters>,
 }
 
 impl<'a> View<'a> {
-    /// Looks at a plan; `summaries` holds those of its sub-plans, as far as they are known.
+    /// The view of a plan; `summaries` has those of its sub-plans, as far as known.
     pub fn new(model: &'a Model<'a>, plan: &'a Plan, summaries: &'a [Option<Summary>]) -> View<'a> {
         let replaced = replaced(plan);
         let count = plan.elements.len() + 4 + replaced.len();
@@ -146,7 +136,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The edge of an event, or of a missed deadline.
+    /// Adds the edge of an event or missed deadline.
     fn add_outcome(&mut self, from: Node, id: SupervisorId, event: Option<u16>) {
         let supervisor = &self.plan.supervisors[id.index()];
         let (cause, target) = match event {
@@ -180,33 +170,29 @@ impl<'a> View<'a> {
         }
     }
 
-    /// How many nodes there are.
     pub fn nodes(&self) -> usize {
         self.reached.len()
     }
 
-    /// The node of the first element.
     pub fn start(&self) -> Node {
         self.plan.start.index()
     }
 
-    /// The node that stands for every actor and sub-plan.
     pub fn anywhere(&self) -> Node {
         self.plan.elements.len()
     }
 
-    /// The node of a replaced event, which stands for all that keep the supervisor's own edge.
+    /// The node of a replaced event, for elements that keep the supervisor's edge.
     fn kept_by_some(&self, at: usize) -> Node {
         self.plan.elements.len() + 4 + at
     }
 
-    /// Whether a node stands for several actors and sub-plans, so that edges of global supervisors
-    /// begin there.
+    /// Whether a node stands for several actors and sub-plans, so that global edges begin there.
     pub fn is_shared(&self, node: Node) -> bool {
         node == self.anywhere() || node >= self.kept_by_some(0)
     }
 
-    /// The edges of global supervisors that hold while an element is active.
+    /// The global edges that are effective while an element is active.
     pub fn of_globals(&self, node: Node) -> impl Iterator<Item = &Edge> {
         let own = self.from(node).iter();
         own.flat_map(move |edge| match edge.cause {
@@ -216,7 +202,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// All edges of global supervisors that are taken from somewhere.
+    /// All global edges that are taken from somewhere.
     pub fn of_all_globals(&self) -> impl Iterator<Item = &Edge> {
         let reached = self.edges.iter().filter(|edge| self.reached[edge.from]);
         reached.filter(|edge| self.is_shared(edge.from) || matches!(edge.cause, Cause::On(..)))
@@ -227,12 +213,10 @@ impl<'a> View<'a> {
         self.plan.elements.len() + 1 + ending
     }
 
-    /// The edges that begin at a node.
     pub fn from(&self, node: Node) -> &[Edge] {
         &self.edges[self.range(node)]
     }
 
-    /// The indices of the edges that begin at a node.
     pub fn range(&self, node: Node) -> std::ops::Range<usize> {
         self.first[node] as usize..self.first[node + 1] as usize
     }
@@ -245,7 +229,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// Where the flow rests that comes to a node: elements that take time, and endings. Computations lead on at once.
+    /// The nodes at which a flow through a node rests: elements that take time, and endings.
     pub fn rests(&self, node: Node) -> BTreeSet<Node> {
         let (mut open, mut seen, mut rests) = (vec![node], BTreeSet::new(), BTreeSet::new());
         while let Some(node) = open.pop() {
@@ -259,7 +243,7 @@ impl<'a> View<'a> {
         rests
     }
 
-    /// The element of a node, unless it is one of the others.
+    /// The element of a node, if it has one.
     pub fn element(&self, node: Node) -> Option<&'a Element> {
         self.plan.elements.get(node)
     }
@@ -268,7 +252,6 @@ impl<'a> View<'a> {
         &self.plan.supervisors[id.index()]
     }
 
-    /// The template of a supervisor.
     pub fn template(&self, supervisor: &Supervisor) -> &'a Template {
         self.model.template(supervisor.template)
     }
@@ -278,7 +261,6 @@ impl<'a> View<'a> {
         self.numbered_supervisors().map(|(_, supervisor)| supervisor)
     }
 
-    /// The same with their numbers.
     pub fn numbered_supervisors(&self) -> impl Iterator<Item = (SupervisorId, &'a Supervisor)> {
         let all = (0..).map(SupervisorId).zip(&self.plan.supervisors);
         all.filter(|(_, supervisor)| match supervisor.owner {
@@ -287,18 +269,17 @@ impl<'a> View<'a> {
         })
     }
 
-    /// The elements that can be reached, with their nodes.
+    /// Reachable elements with their nodes.
     pub fn elements(&self) -> impl Iterator<Item = (Node, &'a Element)> {
         let plan = self.plan;
         plan.elements.iter().enumerate().filter(|(node, _)| self.reached[*node])
     }
 
-    /// The value of a formula of constants.
+    /// The value of a constant formula.
     pub fn constant(&self, formula: &Formula) -> Option<Constant> {
         self.plan.constant(formula)
     }
 
-    /// What is known of the flow of a sub-plan.
     pub fn summary(&self, element: &Element) -> Option<&'a Summary> {
         match element.component {
             Component::SubPlan(id) => self.summaries.get(id.index())?.as_ref(),
@@ -306,13 +287,13 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Whether an event happens once, so that it does not still hold a moment later.
+    /// Whether an event is momentary.
     pub fn is_once(&self, id: SupervisorId, event: u16) -> bool {
         let template = self.template(self.supervisor(id));
         template.outcomes.get(usize::from(event)).is_some_and(|event| event.once)
     }
 
-    /// The outputs that may be committed when an edge is taken.
+    /// The outputs that an edge may commit.
     pub fn may_write(&self, cause: Cause) -> &'a [Output] {
         match cause {
             Cause::State(id, _) => &self.plan.elements[id.index()].outputs,
@@ -321,7 +302,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The outputs that surely are committed when an edge is taken.
+    /// The outputs that an edge certainly commits.
     pub fn writes(&self, cause: Cause) -> impl Iterator<Item = &'a Output> {
         let carried = match cause {
             Cause::State(id, state) => self.carried(&self.plan.elements[id.index()], state),
@@ -336,7 +317,7 @@ impl<'a> View<'a> {
         self.may_write(cause).iter().filter(is_carried)
     }
 
-    /// Which output ports of an element surely carry a value in a state.
+    /// The output ports of an element that certainly have a value in a state.
     fn carried(&self, element: &Element, state: u16) -> Vec<bool> {
         match element.component {
             Component::Actor(id) | Component::Computation(id) => {
@@ -349,7 +330,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Where the text says that an edge is there.
+    /// The source of an edge.
     pub fn span(&self, cause: Cause) -> Span {
         let (edges, own) = match cause {
             Cause::State(id, _) | Cause::Error(id) | Cause::Active(id) => {
@@ -376,7 +357,7 @@ impl<'a> View<'a> {
         written.unwrap_or(own)
     }
 
-    /// What takes an edge, as a path such as `searchFirstWall.touch.TouchSensorPressed`.
+    /// The cause of an edge, as a path such as `searchFirstWall.touch.TouchSensorPressed`.
     pub fn label(&self, cause: Cause) -> String {
         match cause {
             Cause::State(id, state) => {
@@ -407,7 +388,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// `touch` of a global supervisor, `searchFirstWall.touch` of a local one.
+    /// `touch` for a global supervisor, `searchFirstWall.touch` for a local one.
     pub fn supervisor_path(&self, id: SupervisorId) -> String {
         let supervisor = self.supervisor(id);
         match supervisor.owner {
@@ -418,14 +399,14 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The name of a node behind an arrow.
+    /// The name of a node as a target.
     pub fn node_name(&self, node: Node) -> &str {
         let end = if node == self.end(FAILED) { "fail" } else { "terminate" };
         self.element(node).map_or(end, |element| &element.name)
     }
 }
 
-/// The events of global supervisors, and missed deadlines, that some element replaces.
+/// Global events and missed deadlines that some element replaces.
 fn replaced(plan: &Plan) -> Vec<(SupervisorId, Option<u16>)> {
     let mut replaced = Vec::new();
     for table in plan.elements.iter().flat_map(|element| &element.reactions) {

@@ -1,4 +1,4 @@
-//! The toolboxes that a compilation can use.
+//! The available toolboxes of a compilation.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use afp_syntax::source::{Source, Sources, Span};
 
 /// Toolboxes by name, with their texts.
 ///
-/// The compiler reads no files: whoever calls it adds the toolboxes, built-in ones included.
+/// The compiler reads no files: its caller adds the toolboxes, including built-in ones.
 #[derive(Clone, Debug, Default)]
 pub struct Toolboxes {
     list: Vec<Arc<Toolbox>>,
@@ -22,26 +22,24 @@ pub struct Toolboxes {
     declared: Vec<Declared>,
 }
 
-/// What a toolbox file comes to.
+/// Result of reading a toolbox file.
 pub(crate) struct ToolboxFile {
-    /// The toolbox, unless there are errors.
     pub toolbox: Option<Toolbox>,
-    /// What it is called, however broken the rest of it is.
+    /// Its name, if known despite errors.
     pub name: Option<Name>,
-    /// Everything there is to say about it.
     pub diags: Diagnostics,
     pub meanings: Meanings,
     pub declared: Vec<Declared>,
 }
 
 impl Toolboxes {
-    /// Adds a text and returns its index among [`Toolboxes::sources`]; `None` if spans could no longer tell so many
-    /// files apart.
+    /// Adds a text and returns its index among [`Toolboxes::sources`]; `None` if there are too many
+    /// files for spans.
     pub(crate) fn add_source(&mut self, source: Arc<Source>) -> Option<u16> {
         self.sources.add(source)
     }
 
-    /// Adds what was read from a file. A toolbox replaces an earlier one of the same name.
+    /// Adds a toolbox file; replaces an earlier toolbox with the same name.
     pub(crate) fn add_read(&mut self, read: ToolboxFile) {
         match read.toolbox {
             Some(toolbox) => {
@@ -55,24 +53,24 @@ impl Toolboxes {
         self.declared.extend(read.declared);
     }
 
-    /// The toolbox of that name; `None` when there is none or it has errors.
+    /// The toolbox with that name; `None` if it is missing or has errors.
     pub fn get(&self, name: &str) -> Option<&Arc<Toolbox>> {
         self.list.iter().find(|toolbox| toolbox.name == name)
     }
 
-    /// Says which toolbox declares the devices of the robot that plans run on. Scenarios know its words whatever
-    /// their plans use.
+    /// Sets the toolbox with the robot's devices. Scenarios can use its names, independent of their
+    /// plans.
     pub fn set_robot(&mut self, toolbox: &str) {
         self.robot = Some(toolbox.to_owned());
     }
 
-    /// The toolbox that was said to declare the robot's devices.
+    /// The toolbox set by [`Self::set_robot`].
     pub(crate) fn said_robot(&self) -> Option<&Arc<Toolbox>> {
         self.get(self.robot.as_ref()?)
     }
 
-    /// The toolbox that declares the robot's devices: the one that was said to; else one of those in use that declares
-    /// a robot; else the first that does.
+    /// The toolbox with the robot's devices: the one set; else the first used one that declares a
+    /// robot; else the first that does.
     pub fn robot<'a>(&'a self, used: &'a [Arc<Toolbox>]) -> Option<&'a Arc<Toolbox>> {
         let is_robot = |toolbox: &&Arc<Toolbox>| toolbox.declares_robot();
         match &self.robot {
@@ -81,13 +79,13 @@ impl Toolboxes {
         }
     }
 
-    /// Whether a toolbox is that of a robot, and of another one than was said.
+    /// Whether a toolbox declares another robot than the set one.
     pub fn is_of_another_robot(&self, toolbox: &Toolbox) -> bool {
         toolbox.declares_robot()
             && self.said_robot().is_some_and(|robot| robot.name != toolbox.name)
     }
 
-    /// The devices of the robot's toolbox, then of all others in use; of one name the first.
+    /// Devices of the robot's toolbox, then of other used ones; the first of equal names.
     pub fn devices<'a>(&'a self, used: &'a [Arc<Toolbox>]) -> Vec<&'a Device> {
         let mut devices: Vec<&Device> = Vec::new();
         for toolbox in self.robot(used).into_iter().chain(used) {
@@ -100,22 +98,20 @@ impl Toolboxes {
         devices
     }
 
-    /// All toolboxes without errors.
     pub fn iter(&self) -> impl Iterator<Item = &Arc<Toolbox>> {
         self.list.iter()
     }
 
-    /// What there is to say about the toolboxes themselves.
+    /// Diagnostics of the toolboxes.
     pub fn diagnostics(&self) -> &Diagnostics {
         &self.diags
     }
 
-    /// The texts of the toolboxes; spans of [`Toolboxes::diagnostics`] belong to them.
+    /// The texts of the toolboxes, for spans of [`Toolboxes::diagnostics`].
     pub fn sources(&self) -> &Sources {
         &self.sources
     }
 
-    /// What the names in the toolboxes mean.
     pub(crate) fn meanings(&self) -> &Meanings {
         &self.meanings
     }
@@ -124,7 +120,7 @@ impl Toolboxes {
         &self.declared
     }
 
-    /// Where a toolbox that was added under that name and has errors says its name.
+    /// The name of a toolbox that was added under that name and has errors.
     pub(crate) fn broken(&self, name: &str) -> Option<Span> {
         self.broken.iter().find(|known| known.text == name).map(|known| known.span)
     }
@@ -153,7 +149,7 @@ mod tests {
         files.map(|(name, text)| (name, text, name)).into_iter().collect()
     }
 
-    /// The codes of what is wrong, and the devices that there are.
+    /// The error codes, and the known devices.
     fn told(robot: Option<&str>) -> (Vec<String>, Vec<String>) {
         let mut toolboxes = toolboxes();
         if let Some(robot) = robot {

@@ -1,7 +1,7 @@
-//! Values of formulas that are known when the plan is compiled.
+//! Compile-time evaluation of formulas.
 //!
-//! The arithmetic is the run time's (`afp-types`): left to right, no fused operations, overflow and a
-//! non-finite result are errors. A part that fails is an error even if the other parts are not known yet.
+//! The arithmetic is the run time's (`afp-types`): left to right, no fused operations; overflow and
+//! non-finite results are errors. A failing part is an error even if other parts are unknown.
 
 use afp_syntax::source::Span;
 use afp_types::{EntryId, Error, Source, Value};
@@ -10,12 +10,12 @@ use crate::graph::{Formula, Part};
 use crate::types::converter::Converter;
 use crate::types::{Constant, Conversion};
 
-/// The value of a formula; `Ok(None)` when it depends on what is known at run time only.
+/// The value of a formula; `Ok(None)` if it depends on run-time values.
 ///
-/// `entry` gives the values of entries that are known.
+/// `entry` returns known values of entries.
 ///
 /// # Errors
-/// What the formula would fail with whenever it is read.
+/// The error of every evaluation.
 pub(crate) fn evaluate(
     formula: &Formula,
     entry: &dyn Fn(u16) -> Option<Constant>,
@@ -23,7 +23,7 @@ pub(crate) fn evaluate(
     part(formula.part(), entry)
 }
 
-/// The place where a formula fails: the first operation that does, operands first.
+/// The place of a formula's first failing operation, operands first.
 pub(crate) fn fails_at(formula: &Formula, entry: &dyn Fn(u16) -> Option<Constant>) -> Span {
     let failed = formula.parts().find(|each| part(*each, entry).is_err());
     failed.map_or(formula.span, |part| part.span)
@@ -40,7 +40,7 @@ fn part(
     }
 }
 
-/// The entries whose values are known.
+/// Known values of entries.
 pub(crate) struct Known<'a>(pub &'a dyn Fn(u16) -> Option<Constant>);
 
 impl Source<Conversion> for Known<'_> {
@@ -55,10 +55,10 @@ impl Source<Conversion> for Known<'_> {
     }
 }
 
-/// The value that a conversion makes of another one.
+/// Converts a value.
 ///
 /// # Errors
-/// What the conversion would fail with.
+/// The error of the conversion.
 pub(crate) fn convert(conversion: &Conversion, value: Constant) -> Result<Constant, Error> {
     Converter::new(conversion).convert(value)
 }

@@ -1,4 +1,4 @@
-//! Typed formulas: the nodes of `afp-types` with types and places.
+//! Typed formulas: nodes of `afp-types` with types and places.
 
 use std::ops::Deref;
 
@@ -7,12 +7,11 @@ use afp_types::{EntryId, Op, Shape};
 use crate::types::{Conversion, Type};
 use afp_syntax::source::Span;
 
-/// A node of a formula.
 pub type Node = afp_types::Node<Conversion, Note>;
-/// A formula or a part of one; its fields are those of [`Note`].
+/// A formula or a part of it, with the fields of [`Note`].
 pub type Part<'a> = afp_types::Part<'a, Conversion, Note>;
 
-/// A typed formula; its fields are those of [`Note`].
+/// A typed formula, with the fields of [`Note`].
 #[derive(Clone, Debug)]
 pub struct Formula {
     root: Node,
@@ -23,14 +22,13 @@ pub struct Formula {
 /// Type and place of a part of a formula.
 #[derive(Clone, Debug)]
 pub struct Note {
-    /// The type of its value.
     pub ty: Type,
-    /// Where it stands; the port's declaration for a default.
+    /// Its place; for a default, the port's declaration.
     pub span: Span,
 }
 
 impl Formula {
-    /// A formula of operands. The check bounds the number of nodes.
+    /// A formula of operands. The checker limits the number of nodes.
     pub(crate) fn new(
         op: Op<Conversion>,
         operands: impl IntoIterator<Item = Formula>,
@@ -50,34 +48,32 @@ impl Formula {
         Formula { root: Node { op, shape: shape(&ty), len, note: Note { ty, span } }, below }
     }
 
-    /// The same formula at another place.
     pub(crate) fn at(mut self, span: Span) -> Formula {
         self.root.note.span = span;
         self
     }
 
-    /// The formula as the part that is the whole of it.
+    /// The whole formula as a part.
     pub fn part(&self) -> Part<'_> {
         Part { root: &self.root, below: &self.below }
     }
 
-    /// The operation of its root.
     pub fn op(&self) -> &Op<Conversion> {
         &self.root.op
     }
 
-    /// All parts, operands before the parts that use them.
+    /// All parts, operands before their users.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Part<'_>> {
         let below = (1..=self.below.len()).filter_map(|end| Part::last(self.below.get(..end)?));
         below.chain([self.part()])
     }
 
-    /// All nodes, operands before the nodes that use them.
+    /// All nodes, operands before their users.
     pub fn nodes(&self) -> impl Iterator<Item = &Node> {
         self.below.iter().chain([&self.root])
     }
 
-    /// Every entry that it reads, and the place.
+    /// The entries that it reads, with places.
     pub fn entries(&self) -> impl Iterator<Item = (EntryId, Span)> {
         self.nodes().filter_map(|node| match node.op {
             Op::Entry(id) => Some((id, node.note.span)),

@@ -1,6 +1,7 @@
-//! What elements do instead where a supervisor of their plan reports something.
+//! Reactions of elements to global supervisors.
 //!
-//! There is one supervisor, whoever is active; only where its events lead depends on that.
+//! There is one supervisor for all elements; only the targets of its events depend on the active
+//! element.
 
 use crate::graph::{EdgeSpans, Element, ElementId, Plan, SupervisorId, Target};
 use afp_syntax::source::Span;
@@ -8,20 +9,18 @@ use afp_syntax::source::Span;
 /// The edges of a global supervisor that an element replaces while it is active or being entered.
 #[derive(Clone, Debug)]
 pub struct Reactions {
-    /// The global supervisor.
     pub supervisor: SupervisorId,
-    /// One target for each event of the template; `None` where the supervisor's own holds.
+    /// A target for each event of the template; `None` for the supervisor's own.
     pub events: Vec<Option<Target>>,
-    /// Where `DeadlineMissed` leads; `None` where the supervisor's own edge holds.
+    /// Target of `DeadlineMissed`; `None` for the supervisor's own.
     pub on_miss: Option<Target>,
-    /// The supervisor's name behind `on`.
+    /// The supervisor's name after `on`.
     pub span: Span,
-    /// Where the edges stand in the text.
     pub edges: EdgeSpans,
 }
 
 impl Reactions {
-    /// Where an event, or a missed deadline, leads; `None` where the supervisor's own edge holds.
+    /// The target of an event or missed deadline; `None` for the supervisor's own.
     pub fn target(&self, event: Option<u16>) -> Option<Target> {
         match event {
             Some(event) => self.events.get(usize::from(event)).copied().flatten(),
@@ -29,21 +28,18 @@ impl Reactions {
         }
     }
 
-    /// Where its edges lead.
     pub fn targets(&self) -> impl Iterator<Item = Target> {
         self.events.iter().copied().chain([self.on_miss]).flatten()
     }
 }
 
 impl Element {
-    /// Its reactions to a global supervisor.
     pub fn reactions_to(&self, supervisor: SupervisorId) -> Option<&Reactions> {
         self.reactions.iter().find(|each| each.supervisor == supervisor)
     }
 }
 
 impl Plan {
-    /// The elements with reactions to a global supervisor.
     pub fn reacting(
         &self,
         supervisor: SupervisorId,
@@ -54,14 +50,14 @@ impl Plan {
         elements.filter_map(move |(id, each)| Some((id, each.reactions_to(supervisor)?)))
     }
 
-    /// Where the edges of a supervisor lead, wherever it watches.
+    /// All possible targets of a supervisor's edges.
     pub fn targets(&self, supervisor: SupervisorId) -> impl Iterator<Item = Target> {
         let own = &self.supervisors[supervisor.index()];
         let others = self.reacting(supervisor).flat_map(|(_, table)| table.targets());
         own.events.iter().copied().chain(own.on_miss).chain(others)
     }
 
-    /// Where the events of a supervisor lead while an element is active or being entered.
+    /// Targets of a supervisor's events while an element is active or being entered.
     pub fn events_at(&self, supervisor: SupervisorId, element: ElementId) -> Vec<Target> {
         let own = &self.supervisors[supervisor.index()].events;
         match self.elements[element.index()].reactions_to(supervisor) {
@@ -73,7 +69,7 @@ impl Plan {
         }
     }
 
-    /// Where `DeadlineMissed` of a supervisor leads then.
+    /// Target of a supervisor's `DeadlineMissed` at that element.
     pub fn miss_at(&self, supervisor: SupervisorId, element: ElementId) -> Option<Target> {
         let table = self.elements[element.index()].reactions_to(supervisor);
         let own = self.supervisors[supervisor.index()].on_miss;

@@ -1,10 +1,10 @@
-//! Computations from which computations alone lead to `resume`: an event that leads to one of them
-//! interrupts nothing until it is known where it ends.
+//! Computations that reach `resume` through computations only: an event that leads to one does not
+//! interrupt until the end of the chain is known.
 
 use crate::graph::{Component, Element, ElementId, Target};
 use rustc_hash::FxHashSet;
 
-/// Where the states of an element and its `Error` lead.
+/// Targets of an element's states and of its `Error`.
 fn targets(element: &Element) -> impl Iterator<Item = Target> {
     element.states.iter().flatten().copied().chain(element.on_error)
 }
@@ -13,7 +13,7 @@ fn is_computation(element: &Element) -> bool {
     matches!(element.component, Component::Computation(_))
 }
 
-/// Which elements of a plan can resume; elements with errors are holes.
+/// The elements of a plan that can resume; elements with errors are `None`.
 pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element>>) -> Vec<bool> {
     let elements: Vec<_> = elements.into_iter().collect();
     let mut before: Vec<Vec<usize>> = vec![Vec::new(); elements.len()];
@@ -39,10 +39,10 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
     resuming
 }
 
-/// The computations that an edge may run before it resumes or leads elsewhere, none twice; and
-/// whether any of their edges leads elsewhere.
+/// The computations that an edge may run before it resumes or leads elsewhere, without duplicates;
+/// and whether any of their edges leads elsewhere.
 pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, bool) {
-    // Most edges lead to what takes time, and cost no allocation.
+    // Most edges lead to elements that take time, and need no allocation.
     let (mut run, mut elsewhere, mut open) = (Vec::new(), false, Vec::new());
     let mut seen = FxHashSet::default();
     let mut next = Some(first);

@@ -1,11 +1,11 @@
-//! Values that are known when a plan is compiled, and the order in which entries get their first ones.
+//! Compile-time values, and the order of initialisation.
 
 use super::constant::evaluate;
 use crate::graph::{Entry, EntryId, EntryKind, Formula, Plan};
 use crate::types::Constant;
 
 impl Plan {
-    /// The entries with an initial value, in the order in which these may refer to one another: `const`, `in`, the rest.
+    /// The entries with initial values, in the order of possible references: `const`, `in`, others.
     pub fn initial(&self) -> impl Iterator<Item = (EntryId, &Entry, &Formula)> {
         let of_kinds = |kinds: &'static [EntryKind]| {
             let all = (0..).map(EntryId).zip(&self.entries);
@@ -15,7 +15,7 @@ impl Plan {
         all.filter_map(|(id, entry)| Some((id, entry, entry.init.as_ref()?)))
     }
 
-    /// The value of a formula of constants.
+    /// The value of a constant formula.
     pub(crate) fn constant(&self, formula: &Formula) -> Option<Constant> {
         let known = |entry: u16| {
             let entry = self.entries.get(usize::from(entry))?;

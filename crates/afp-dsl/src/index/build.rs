@@ -1,4 +1,4 @@
-//! Puts together what was declared and what was recorded.
+//! Builds the index from declarations and recorded names.
 
 use super::declare::{self, Declared};
 use super::record::{Found, Meanings, key};
@@ -7,7 +7,7 @@ use crate::outline::Outline;
 use afp_syntax::source::Span;
 use rustc_hash::FxHashMap;
 
-/// The index of a compilation. `all` has what toolboxes declare, the outline has the rest.
+/// The index of a compilation. `all` has the toolboxes' declarations, the outline the others.
 pub(crate) fn build(outline: &Outline, meanings: &Meanings, mut all: Vec<Declared>) -> Index {
     declare::of_outline(outline, meanings, &mut all);
     all.sort_by_key(|each| key(each.name));
@@ -35,7 +35,7 @@ fn ids() -> impl Iterator<Item = DefinitionId> {
     (0..).map(DefinitionId)
 }
 
-/// The places of the names that refer to each definition, and where those of each definition begin.
+/// The references of each definition, and the start of each definition's list.
 fn uses(names: &[Name], definitions: usize) -> (Vec<u32>, Vec<u32>) {
     let of = |(at, name): (u32, &Name)| name.meaning.referred().map(move |id| (id.index(), at));
     let referring = || (0..).zip(names).flat_map(of);
@@ -53,7 +53,7 @@ fn uses(names: &[Name], definitions: usize) -> (Vec<u32>, Vec<u32>) {
     (uses, first)
 }
 
-/// Joins the names that declare with those that were recorded; both are in order.
+/// Merges declaring and recorded names, both sorted.
 fn names(
     own: &[Span],
     meanings: &Meanings,
@@ -68,7 +68,7 @@ fn names(
         while let Some((id, name)) = declared.next_if(|(_, name)| *name <= span) {
             names.push(Name { span: *name, meaning: Meaning::Declares(id) });
         }
-        // What declares something is no reference, whatever else was found about it.
+        // A declaration is not a reference.
         if names.last().is_some_and(|last| last.span == *span) {
             continue;
         }

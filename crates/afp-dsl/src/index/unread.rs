@@ -1,11 +1,11 @@
-//! Names in text that could not be read: skipped by the parser, so that nothing resolves them.
+//! Names in text that could not be parsed, which are never resolved.
 
 use super::record::{Found, Meanings, key};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
 
-/// Adds the names of a tree about which nothing was found.
+/// Adds the names of a tree without a meaning.
 pub(crate) fn unread(root: &Node, file: u16, meanings: &mut Meanings) {
     let mut missing = Vec::new();
     for token in root.descendants_with_tokens().filter_map(|each| each.into_token()) {

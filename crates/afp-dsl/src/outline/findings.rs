@@ -1,4 +1,4 @@
-//! Gives each diagnostic to the smallest part of a plan that it lies in.
+//! Attaches each diagnostic to the smallest enclosing part of a plan.
 
 use super::{Component, Findings, Found, Outline};
 use afp_syntax::diagnostics::Diagnostics;
@@ -6,13 +6,13 @@ use afp_syntax::source::Span;
 use rustc_hash::FxHashMap;
 
 impl Outline {
-    /// Gives each item and part what there is to say about it. The diagnostics must be sorted, as
-    /// those of a compilation are; whoever adds some to them calls this again.
+    /// Attaches diagnostics to items and parts. They must be sorted, as in a compilation; call this
+    /// again after adding some.
     pub fn attach(&mut self, diags: &Diagnostics) {
         if diags.is_empty() || self.files.is_empty() {
             return;
         }
-        // Most parts have nothing to do with any of them.
+        // Most parts have no diagnostics.
         let mut spans: Vec<(Span, usize)> = Vec::new();
         let mut at = 0;
         self.visit(&mut |span, _| {
@@ -21,7 +21,7 @@ impl Outline {
             }
             at += 1;
         });
-        // An outer part comes before what it holds.
+        // Outer parts before inner ones.
         spans.sort_by_key(|(span, at)| (span.file, span.start, u32::MAX - span.end, *at));
         let mut given: FxHashMap<usize, Vec<u32>> = FxHashMap::default();
         let mut loose: Vec<u32> = Vec::new();
@@ -51,7 +51,7 @@ impl Outline {
         }
     }
 
-    /// Shows every item and part with its place.
+    /// Visits every item and part with its place.
     fn visit(&mut self, see: &mut dyn FnMut(Span, &mut Findings)) {
         for file in &mut self.files {
             for each in &mut file.enums {

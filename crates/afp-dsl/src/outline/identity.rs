@@ -1,46 +1,45 @@
-//! From places in the text to items and parts of them, and back.
+//! Maps source places to items and their parts, and back.
 
 use super::{Component, File, Outline, Plan};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
-/// An item of a file, or a part of one.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Identity {
-    /// The file, as [`Span::file`] says it.
+    /// The file, as in [`Span::file`].
     pub file: u16,
     pub item: Item,
     pub part: Part,
 }
 
-/// What of an item is meant.
+/// A part of an item.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Part {
     Whole,
-    /// The `start` line of a plan, the first or another one.
+    /// The `n`-th `start` line of a plan.
     Start(u16),
-    /// What an input is bound to.
+    /// The binding of an input.
     Input {
         name: String,
-        /// Which binding of it, from 1.
+        /// Number of its binding, from 1.
         nth: u16,
     },
-    /// What an output is bound to.
+    /// The binding of an output.
     Output {
         name: String,
-        /// Which binding of it, from 1.
+        /// Number of its binding, from 1.
         nth: u16,
     },
     /// The edge of a state or event.
     Exit {
         name: String,
-        /// Which edge of it, from 1.
+        /// Number of its edge, from 1.
         nth: u16,
     },
 }
 
 impl Outline {
-    /// The smallest item or part that covers a byte, its last border included.
+    /// The smallest item or part that covers a byte, including its end.
     pub fn identity_at(&self, file: u16, offset: u32) -> Option<Identity> {
         let place = Span { file, start: offset, end: offset };
         let covers = |span: Span| span.contains(place);
@@ -50,7 +49,7 @@ impl Outline {
         if let Some((item, _)) = outer.find(|(_, span)| covers(*span)) {
             return Some(made((item, Part::Whole)));
         }
-        // One that stands in another one, where it has no place, begins behind it.
+        // A misplaced inner plan begins after the outer one.
         let around = self.plans.iter().filter(|plan| covers(plan.span));
         let plan = around.max_by_key(|plan| plan.span.start)?;
         let starts = (1..).zip(&plan.starts).find(|(_, start)| covers(start.span));
@@ -60,7 +59,7 @@ impl Outline {
         if let Some(entry) = plan.entries.iter().find(|entry| covers(entry.span)) {
             return Some(made((&entry.item, Part::Whole)));
         }
-        // A supervisor of an element comes behind it, so the last one is the smallest.
+        // A local supervisor comes after its element, so the last one is the smallest.
         let components: Vec<_> = plan.components().filter(|each| covers(each.span)).collect();
         let found = match components.last() {
             Some(component) => (&component.item, part_at(component, covers)),
@@ -69,7 +68,7 @@ impl Outline {
         Some(made(found))
     }
 
-    /// The place of an item or part: of the whole of it, without comments around it.
+    /// The place of an item or part, without surrounding comments.
     pub fn span_of(&self, identity: &Identity) -> Option<Span> {
         let Identity { file, item, part } = identity;
         if let Item::Enum { .. } | Item::Table { .. } = item {
@@ -92,7 +91,7 @@ impl Outline {
         }
     }
 
-    /// The plan that an item of a file is or is in.
+    /// The plan of an item, or the item itself if it is a plan.
     pub fn plan_of(&self, file: u16, item: &Item) -> Option<&Plan> {
         let name = item.plan_name();
         self.plans.iter().find(|plan| plan.file() == file && plan.item.name() == name)
@@ -100,7 +99,7 @@ impl Outline {
 }
 
 impl File {
-    /// The enums and tables, each with its place.
+    /// Enums and tables with their places.
     fn outer_items(&self) -> impl Iterator<Item = (&Item, Span)> {
         let enums = self.enums.iter().map(|each| (&each.item, each.span));
         enums.chain(self.tables.iter().map(|each| (&each.item, each.span)))

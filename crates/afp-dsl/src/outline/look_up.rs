@@ -1,4 +1,4 @@
-//! Questions that an outline answers.
+//! Queries of an outline.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ impl Outline {
         &self.plans[id.index()]
     }
 
-    /// Whether every error lies in a scenario, so that the plans are sound.
+    /// Whether all errors are in scenarios, so that the plans are valid.
     pub(crate) fn excuses(&self, diags: &Diagnostics) -> bool {
         let scenarios = || self.files.iter().flat_map(|file| &file.scenarios);
         let mut errors = diags.iter().filter(|each| each.severity == Severity::Error);
@@ -21,12 +21,12 @@ impl Outline {
 }
 
 impl Plan {
-    /// The file that it stands in, as [`Span::file`](afp_syntax::source::Span::file) says it.
+    /// Its file, as in [`Span::file`](afp_syntax::source::Span::file).
     pub fn file(&self) -> u16 {
         self.span.file
     }
 
-    /// Elements and supervisors: the global supervisors, then each element with its own ones and its
+    /// Elements and supervisors: global supervisors, then each element with its own ones and its
     /// reactions.
     pub fn components(&self) -> impl Iterator<Item = &Component> {
         let elements = self.elements.iter();
@@ -34,20 +34,19 @@ impl Plan {
         self.supervisors.iter().chain(elements)
     }
 
-    /// The global supervisors, then the local ones, element by element: the order of those of a
-    /// graph.
+    /// Global supervisors, then the local ones, element by element, as in a graph.
     pub fn all_supervisors(&self) -> impl Iterator<Item = &Component> {
         self.supervisors.iter().chain(self.elements.iter().flat_map(|one| &one.supervisors))
     }
 }
 
 impl Component {
-    /// What stands in its braces besides edges: supervisors and reactions.
+    /// Its supervisors and reactions.
     pub fn inner(&self) -> impl Iterator<Item = &Component> {
         self.supervisors.iter().chain(&self.reactions)
     }
 
-    /// The template that it is made from, unless it is a plan or unknown.
+    /// Its template; `None` for a plan or an unknown template.
     pub fn template(&self) -> Option<&Template> {
         match self.template.as_ref()?.made_from.as_ref()? {
             MadeFrom::Template { toolbox, index } => toolbox.templates.get(*index),
@@ -55,7 +54,6 @@ impl Component {
         }
     }
 
-    /// The toolbox of its template.
     pub fn toolbox(&self) -> Option<&Arc<Toolbox>> {
         match self.template.as_ref()?.made_from.as_ref()? {
             MadeFrom::Template { toolbox, .. } => Some(toolbox),
@@ -63,7 +61,6 @@ impl Component {
         }
     }
 
-    /// The plan that it is made from.
     pub fn sub_plan(&self) -> Option<PlanId> {
         match self.template.as_ref()?.made_from.as_ref()? {
             MadeFrom::Template { .. } => None,
@@ -73,7 +70,6 @@ impl Component {
 }
 
 impl ComponentKind {
-    /// What the keyword of an element says.
     pub(crate) fn of(kind: ElementKind) -> ComponentKind {
         match kind {
             ElementKind::Actor => ComponentKind::Actor,
@@ -82,7 +78,7 @@ impl ComponentKind {
         }
     }
 
-    /// The keyword that puts it into a plan.
+    /// Its keyword in a plan.
     pub fn keyword(self) -> &'static str {
         match self {
             ComponentKind::Actor => "actor",

@@ -1,23 +1,22 @@
-//! Where the numbers of sub-plans begin.
+//! First numbers of sub-plans.
 //!
-//! A running plan is unfolded (`crate::unfold`): the elements and supervisors of a plan are followed by
-//! the blocks of its sub-plans, element by element, laid out alike; entries likewise.
+//! In an unfolded plan (`crate::unfold`), a plan's elements and supervisors are followed by the
+//! blocks of its sub-plans, element by element, with the same layout; entries likewise.
 
 use crate::graph::{Component, Plan};
 use afp_types::Child;
 
-/// How many numbers a plan takes, and where those of its sub-plans begin.
+/// The size of a plan's block, and the first numbers of its sub-plans.
 pub(super) struct Block {
-    /// Components, those of sub-plans included, itself excluded.
+    /// Number of components, with sub-plans, without itself.
     components: u32,
-    /// Entries, those of sub-plans included.
+    /// Number of entries, with sub-plans.
     entries: u32,
-    /// For each element that is a sub-plan, where its numbers begin; zero for the others.
+    /// First numbers of each element that is a sub-plan; zero for others.
     pub(super) children: Vec<Child>,
 }
 
-/// The block of each plan, sub-plans before the plans that use them; `None` when there are more
-/// components or entries than numbers.
+/// The block of each plan, sub-plans first; `None` if numbers overflow.
 pub(super) fn blocks(plans: &[Plan]) -> Option<Vec<Block>> {
     let mut blocks: Vec<Block> = Vec::with_capacity(plans.len());
     for plan in plans {

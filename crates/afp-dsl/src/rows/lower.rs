@@ -1,5 +1,3 @@
-//! From plans to tables.
-
 use std::sync::Arc;
 
 use crate::graph::{
@@ -10,8 +8,8 @@ use crate::rows::wanted::{elsewhere, wanted};
 use crate::rows::{Rows, polling_order};
 use afp_types::{Child, Duration, ElementKind, ElementRow, Range, SupervisorRow};
 
-/// The tables of all plans of a graph, in their order; `None` when a table would have too many rows,
-/// which the check has reported.
+/// The tables of all plans of a graph, in order; `None` if a table has too many rows, which the
+/// check has reported.
 pub(crate) fn lower(graph: &Graph) -> Option<Vec<Arc<Rows>>> {
     let blocks = blocks(&graph.plans)?;
     let plans = graph.plans.iter().zip(&blocks);
@@ -66,7 +64,7 @@ fn row_at(
     Some(SupervisorRow { events, on_miss: plan.miss_at(supervisor, there), ..row })
 }
 
-/// The row of an element, without what the whole plan decides.
+/// The row of an element, without plan-wide parts.
 fn add_element(
     rows: &mut Rows,
     graph: &Graph,
@@ -93,7 +91,7 @@ fn add_element(
     })
 }
 
-/// The rows of the supervisors that are polled while an element is active: its own and the global ones.
+/// Rows of the supervisors that are polled while an element is active: its own and the global ones.
 fn polled(
     plan: &Plan,
     elsewhere: &[(SupervisorId, ElementId)],
@@ -138,7 +136,7 @@ fn add_supervisor(
     })
 }
 
-/// Adds rows to a shared table and says where they stand.
+/// Appends rows to a shared table and returns their range.
 fn append<T>(table: &mut Vec<T>, rows: impl IntoIterator<Item = T>) -> Option<Range> {
     let first = table.len();
     table.extend(rows);

@@ -1,9 +1,9 @@
-//! In which order supervisors are polled.
+//! The polling order of supervisors.
 
 use crate::graph::{Plan, SupervisorId};
 
-/// Supervisors of a plan in polling order: shorter declared deadline first, then global before local,
-/// then as written. `ids` has the global ones first, each group as written.
+/// Sorts supervisors by polling order: shorter declared deadline first, then global before local,
+/// then source order. `ids` has the global ones first, each group in source order.
 pub(crate) fn polling_order(
     plan: &Plan,
     ids: impl Iterator<Item = SupervisorId>,

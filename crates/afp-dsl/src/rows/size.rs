@@ -1,35 +1,35 @@
-//! How many rows the tables of a plan have.
+//! Numbers of rows in a plan's tables.
 
 use crate::graph::Plan;
 use crate::rows::wanted::elsewhere;
 
-/// Greatest number of rows of one table.
+/// Maximum number of rows of one table.
 pub(crate) const MAX_ROWS: usize = u16::MAX as usize;
 
-/// Greatest number of events of a supervisor: those that lead somewhere are a set of bits.
+/// Maximum number of events of a supervisor, since wanted events are a bit set.
 pub(crate) const MAX_EVENTS: usize = 64;
-/// Greatest number of states of an actor or computation: the two numbers above stand for `Error` and
+/// Maximum number of states of an actor or computation: the two greater numbers are `Error` and
 /// `DeadlineMissed`.
 pub(crate) const MAX_STATES: usize = MAX_ROWS - 1;
 
-/// A table of a plan, as people count it.
+/// A table of a plan, in source terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Table {
     Entries,
     Elements,
     Supervisors,
-    /// Supervisors, the global ones once more for each element that their events lead to or that
+    /// Supervisors, with global ones again for each element that their events lead to or that
     /// reacts to them.
     Watches,
     /// States of elements and events of supervisors.
     Edges,
-    /// Texts behind `fail`.
+    /// Texts after `fail`.
     Reasons,
     /// Pairs of an element and a supervisor that is polled while it is active.
     Sweeps,
 }
 
-/// The rows of each table of a plan.
+/// Number of rows of each table.
 pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 7] {
     let states = plan.elements.iter().map(|element| element.states.len());
     let events = plan.supervisors.iter().map(|supervisor| supervisor.events.len());

@@ -1,28 +1,26 @@
-//! The tables of one plan.
-
 use afp_types::{ElementId, ElementRow, PlanTable, Range, SupervisorId, SupervisorRow, Target};
 
 /// The tables of one plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rows {
     pub start: ElementId,
-    /// How many supervisors are global.
+    /// Number of global supervisors.
     pub globals: u16,
-    /// How many entries there are.
+    /// Number of entries.
     pub entries: u16,
     pub elements: Vec<ElementRow>,
     pub supervisors: Vec<SupervisorRow>,
-    /// Why edges to `fail` end the plan.
+    /// Reasons of edges to `fail`.
     pub reasons: Vec<String>,
-    /// Where states and events lead; `None` where a state cannot be reached.
+    /// Targets of states and events; `None` for an unreachable state.
     pub edges: Vec<Option<Target>>,
-    /// For each element, the rows in [`Rows::supervisors`] of its supervisors and of the global ones, in
-    /// polling order.
+    /// For each element, rows in [`Rows::supervisors`] of its supervisors and of the global ones,
+    /// in polling order.
     pub sweeps: Vec<u16>,
 }
 
 impl Rows {
-    /// The rows as the scheduler reads them; `reasons` are the texts in the form that it needs.
+    /// The scheduler's view of the rows; `reasons` are the texts in its own form.
     #[inline]
     pub fn table<'a, R>(&'a self, reasons: &'a [R]) -> PlanTable<'a, R> {
         PlanTable {
@@ -37,7 +35,6 @@ impl Rows {
         }
     }
 
-    /// The edges of an element's states or of a supervisor's events.
     pub fn edges(&self, range: Range) -> &[Option<Target>] {
         self.edges.get(range.indices()).unwrap_or(&[])
     }

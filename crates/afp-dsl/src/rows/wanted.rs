@@ -1,13 +1,13 @@
-//! Which events a poll of a supervisor can take.
+//! Wanted events of supervisors.
 //!
-//! An event of a global supervisor is not taken where it leads to the element that is active already,
-//! nor is in the look one that would start its own element anew.
+//! An event of a global supervisor is not taken if it leads to the active element. In the look, an
+//! element's own event is not taken if it would restart the element.
 
 use crate::graph::{ElementId, Plan, SupervisorId, Target};
 use afp_types::Events;
 
-/// The events that lead to something other than `ignore` and the element `there`; `None` where they are
-/// too many for a set.
+/// The events that do not lead to `ignore` or to the element `there`; `None` if there are too many
+/// for a set.
 pub(super) fn wanted(events: &[Target], there: Option<ElementId>) -> Option<Events> {
     let mut bits = 0;
     let taken = |target: &Target| match target {
@@ -21,8 +21,8 @@ pub(super) fn wanted(events: &[Target], there: Option<ElementId>) -> Option<Even
     Some(Events::from_bits(bits))
 }
 
-/// The global supervisors with each of the elements for which they have a row of their own: those that
-/// their events lead to, since these are not wanted there, and those with reactions to them.
+/// Global supervisors with the elements that need separate rows: targets of their events, which are
+/// not wanted there, and elements with reactions to them.
 pub(super) fn elsewhere(plan: &Plan) -> Vec<(SupervisorId, ElementId)> {
     let mut pairs = Vec::new();
     let globals = plan.supervisors.iter().take(usize::from(plan.globals));
@@ -37,7 +37,7 @@ pub(super) fn elsewhere(plan: &Plan) -> Vec<(SupervisorId, ElementId)> {
     pairs
 }
 
-/// The element behind an edge, unless it is a computation, while which nobody watches.
+/// The target element of an edge, unless it is a computation, during which nothing is polled.
 fn watched(plan: &Plan, target: Target) -> Option<ElementId> {
     let Target::Element(id) = target else { return None };
     plan.elements.get(id.index()).filter(|element| element.takes_time()).map(|_| id)

@@ -1,8 +1,10 @@
-//! What a step does before it asks a supervisor: the polls of others, and what an event of theirs leads to.
+//! Work of a step before the poll of a supervisor: polls of others, and the effects of their
+//! events.
 //!
-//! A global supervisor outlives what an event interrupts. Where one before it takes an event it is not asked in the sweep but
-//! in the look that follows: behind the interruption, the computations in between and the starts of the next element's
-//! supervisors. In a look another global supervisor before it may divert, and so on, each of them once.
+//! A global supervisor survives an interruption. If an earlier one takes an event, it is polled in
+//! the following look: after the interruption, the computations on the path, and the starts of the
+//! next element's supervisors. In a look another earlier global supervisor may divert, each of them
+//! once.
 
 use std::collections::BTreeMap;
 
@@ -15,15 +17,15 @@ use super::held::{interrupts, poll};
 use super::level::Levels;
 use super::step::until_look;
 
-/// What comes before the poll of a supervisor in its step, on the level of its plan.
+/// Work before the poll of a supervisor in its step, in its plan.
 #[derive(Clone)]
 pub(super) struct Before {
     pub polls: Cost,
-    /// What is interrupted and entered before it is asked.
+    /// Interruptions and entries before its poll.
     pub entered: Cost,
 }
 
-/// For each supervisor of a plan the most that comes before it in one step.
+/// For each supervisor of a plan the maximum work before it in one step.
 pub(super) fn before(view: &View<'_>, levels: &Levels, index: usize) -> Vec<Before> {
     let plan = view.plan;
     let led = led(view);
@@ -33,7 +35,7 @@ pub(super) fn before(view: &View<'_>, levels: &Levels, index: usize) -> Vec<Befo
     let mut globals = Cost::ZERO;
     let mut locals = vec![Cost::ZERO; plan.elements.len()];
     let mut most_locals = Cost::ZERO;
-    // The event that interrupts, and what the looks behind it may divert.
+    // The interrupting event, and the diversions in later looks.
     let (mut interrupted, mut diverted) = (Cost::ZERO, Cost::ZERO);
     for id in polling_order(plan, all) {
         let at = id.index();
@@ -67,14 +69,15 @@ pub(super) fn before(view: &View<'_>, levels: &Levels, index: usize) -> Vec<Befo
     before
 }
 
-/// For each supervisor that can make a plan enter another element: the most that comes before the look then.
+/// For each supervisor that can make a plan enter another element: the maximum work before the next
+/// look.
 fn led(view: &View<'_>) -> BTreeMap<u16, Cost> {
     let costs = until_look(view);
     let mut led: BTreeMap<u16, Cost> = BTreeMap::new();
     for edge in view.edges.iter().filter(|edge| view.reached[edge.from]) {
         let by: &[SupervisorId] = match &edge.cause {
             Cause::Event(id, _) | Cause::Miss(id) | Cause::On(_, id, _) => std::slice::from_ref(id),
-            // A local one that fails.
+            // A local supervisor that fails.
             Cause::Error(id) => &view.plan.elements[id.index()].supervisors,
             Cause::State(..) | Cause::Active(_) => continue,
         };

@@ -1,4 +1,4 @@
-//! What is wrong with the timing of a plan, by itself and on a target.
+//! Timing errors of a plan, alone and on a target.
 
 use std::collections::BTreeSet;
 
@@ -12,8 +12,8 @@ use super::contribution::Outside;
 use super::level::Levels;
 use super::{Response, SupervisorTiming, Target, Timing, model, timing};
 
-/// Reports what no target can do: more than all of its processor, and supervisors whose response may be longer than their
-/// deadline.
+/// Reports plans that no target can run: more than the whole processor, and supervisors whose
+/// response may exceed their deadline.
 pub(crate) fn check_everywhere(graph: &Graph, diags: &mut Diagnostics) {
     let known = timing(graph, None);
     if let Ok((share, path)) = known.demand.as_ref().map_err(drop)
@@ -46,7 +46,7 @@ fn late(row: &SupervisorTiming) -> Option<Response> {
         .copied()
 }
 
-/// Says what the response is made of.
+/// Adds the parts of the response.
 fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
     let parts = [
         (response.tick, "of the target's tick"),
@@ -63,9 +63,10 @@ fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
     ))
 }
 
-/// Checks a plan against a target: ticks, demand, and responses that only the target makes too long.
+/// Checks a plan against a target: ticks, demand, and responses that are too long only on the
+/// target.
 ///
-/// What the target does not say is not checked.
+/// Unknown properties of the target are not checked.
 pub fn check_target(graph: &Graph, target: &Target) -> Diagnostics {
     let mut diags = Diagnostics::default();
     if let Some(tick) = target.tick {
@@ -143,7 +144,7 @@ fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
 fn demand(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
     let declared = timing(graph, None).demand;
     let Ok((share, path)) = timing(graph, Some(target)).demand else { return };
-    // More than all of it is an error on every target.
+    // More than the whole is an error on every target.
     if share > target.capacity && !declared.is_ok_and(|(share, _)| share > 1.0) {
         let gives = message!("'{}' gives {}", target.name, Words(percent(target.capacity)));
         diags.push(too_much(graph, share, &path, gives));
@@ -154,7 +155,7 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", share * 100.0)
 }
 
-/// Says that a plan asks for more of the processor than it gets.
+/// Reports that a plan exceeds its share of the processor.
 fn too_much(graph: &Graph, share: f64, path: &str, gives: impl Into<Message>) -> Diagnostic {
     let message = message!(
         "while '{}' is active, the plan asks for {} of the processor; {}",

@@ -1,4 +1,4 @@
-//! What one plan contributes to the plans that use it, and what they contribute to it.
+//! Contributions between a plan and its users.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::level::{Level, Levels};
 use super::step::entering;
 
 impl Levels {
-    /// Works them out; sub-plans stand before the plans that use them.
+    /// Computes the levels; sub-plans come first.
     pub fn of(views: &[View<'_>]) -> Levels {
         let mut all = Vec::with_capacity(views.len());
         for view in views {
@@ -27,7 +27,7 @@ fn level(view: &View<'_>, inner: &[Level]) -> Level {
     let globals = (0..plan.globals).map(SupervisorId);
     let mut level = Level { globals: sum(view, globals.clone()), ..Level::default() };
     let costs = entering(view, inner);
-    // Each global supervisor may divert once what is being entered.
+    // Each global supervisor may divert an entry once.
     let diverted = diverted(view, &costs);
     for (node, element) in view.elements() {
         let own = Own::of(view, element, inner);
@@ -38,7 +38,7 @@ fn level(view: &View<'_>, inner: &[Level]) -> Level {
             let by_event = by_event.or(&behind(view, node, &costs, is_event));
             let step = own.poll.and(&behind(view, node, &costs, is_state));
             let event = own.interrupt.and(&by_event);
-            // A fault that nothing is connected to ends the plan.
+            // An unconnected fault ends the plan.
             let fault = match element.on_error {
                 Some(_) => own.poll.and(&own.interrupt).and(&behind(view, node, &costs, is_error)),
                 None => Cost::ZERO,
@@ -85,7 +85,7 @@ impl Level {
     }
 }
 
-/// What an element costs without its supervisors.
+/// Costs of an element without its supervisors.
 #[derive(Default)]
 struct Own {
     poll: Cost,
@@ -125,7 +125,7 @@ impl Own {
     }
 }
 
-/// The share of the processor that supervisors ask for.
+/// The supervisors' share of the processor.
 fn share(
     view: &View<'_>,
     supervisors: impl Iterator<Item = SupervisorId>,
@@ -149,13 +149,13 @@ fn is_error(cause: Cause) -> bool {
     matches!(cause, Cause::Error(_))
 }
 
-/// The most that is entered behind a node along edges of one kind.
+/// Maximum cost of entries after a node along edges of one kind.
 fn behind(view: &View<'_>, node: Node, costs: &[Cost], kind: fn(Cause) -> bool) -> Cost {
     let edges = view.from(node).iter().filter(|edge| kind(edge.cause));
     edges.fold(Cost::ZERO, |most, edge| most.or(&costs[edge.to]))
 }
 
-/// What the events of all global supervisors may add to one step, each of them once.
+/// Maximum cost of all global events in one step, each of them once.
 fn diverted(view: &View<'_>, costs: &[Cost]) -> Cost {
     let mut most: std::collections::BTreeMap<u16, Cost> = Default::default();
     for edge in view.of_all_globals() {
@@ -167,14 +167,14 @@ fn diverted(view: &View<'_>, costs: &[Cost]) -> Cost {
     most.values().fold(Cost::ZERO, |sum, cost| sum.and(cost))
 }
 
-/// What is polled before anything of a plan, by place, at its worst use.
+/// Polls before any of a plan, by index, at its worst use.
 pub(super) struct Outside {
-    /// `None` where the main plan does not reach it.
+    /// `None` if the main plan does not reach it.
     pub before: Vec<Option<Cost>>,
 }
 
 impl Outside {
-    /// Works it out from the main plan inward.
+    /// Computes it from the main plan inward.
     pub fn of(views: &[View<'_>], levels: &Levels, main: usize) -> Outside {
         let mut before: Vec<Option<Cost>> = vec![None; views.len()];
         before[main] = Some(Cost::ZERO);

@@ -1,10 +1,10 @@
-//! A time that may not be known because a template does not declare it.
+//! A time that may be unknown because of a missing declaration.
 
 use std::sync::Arc;
 
 use crate::toolbox::Template;
 
-/// A bound in nanoseconds, or the reason why there is none.
+/// A bound in nanoseconds, or the reason why it is unknown.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cost {
     time: u64,
@@ -12,10 +12,8 @@ pub(super) struct Cost {
 }
 
 impl Cost {
-    /// Nothing at all.
     pub const ZERO: Cost = Cost { time: 0, unknown: None };
 
-    /// No bound, for this reason.
     pub fn unknown(reason: impl Into<Arc<str>>) -> Cost {
         Cost { time: 0, unknown: Some(reason.into()) }
     }
@@ -36,7 +34,7 @@ impl Cost {
         }
     }
 
-    /// One after the other.
+    /// The sum.
     pub fn and(&self, other: &Cost) -> Cost {
         Cost {
             time: self.time.saturating_add(other.time),
@@ -51,27 +49,24 @@ impl Cost {
         }
     }
 
-    /// So many times.
     pub fn times(&self, count: u64) -> Cost {
         Cost { time: self.time.saturating_mul(count), unknown: self.unknown.clone() }
     }
 
-    /// The bound as far as it is known.
+    /// The known part of the bound.
     pub fn time(&self) -> u64 {
         self.time
     }
 
-    /// Whether it is more than another one, as far as both are known.
+    /// Whether it exceeds another, as far as both are known.
     pub fn exceeds(&self, other: &Cost) -> bool {
         self.time > other.time
     }
 
-    /// Whether both are as much.
     pub fn is_same(&self, other: &Cost) -> bool {
         self.time == other.time
     }
 
-    /// The bound, or the reason why there is none.
     pub fn known(&self) -> Result<u64, String> {
         match &self.unknown {
             None => Ok(self.time),

@@ -1,5 +1,5 @@
-//! What a supervisor may cost without interrupting anything: its poll, and the computations between an
-//! event of it and `resume`.
+//! Cost of a supervisor without an interruption: its poll, and the computations between an event
+//! and `resume`.
 
 use std::collections::BTreeMap;
 
@@ -9,29 +9,27 @@ use crate::graph::{Component, Element, ElementId, SupervisorId, Target, chain};
 
 use super::cost::Cost;
 
-/// One poll of a supervisor with the longest of its chains.
+/// One poll of a supervisor with its longest chain.
 pub(super) fn poll(view: &View<'_>, id: SupervisorId) -> Cost {
     let targets = view.plan.targets(id);
     let chains = targets.fold(Cost::ZERO, |most, target| most.or(&held(view, target)));
     Cost::budget(view.template(view.supervisor(id))).and(&chains)
 }
 
-/// One poll of each supervisor of an element.
 pub(super) fn locals(view: &View<'_>, element: &Element) -> Cost {
     sum(view, element.supervisors.iter().copied())
 }
 
-/// One poll of each supervisor.
 pub(super) fn sum(view: &View<'_>, supervisors: impl Iterator<Item = SupervisorId>) -> Cost {
     supervisors.fold(Cost::ZERO, |sum, id| sum.and(&poll(view, id)))
 }
 
-/// Whether an edge of a supervisor can interrupt what it watches.
+/// Whether an edge of a supervisor can interrupt the active element.
 pub(super) fn interrupts(view: &View<'_>, target: Target) -> bool {
     chain(&view.plan.elements, target).1
 }
 
-/// All computations of a chain, as often as they may run; nothing where an edge cannot resume.
+/// All computations of a chain, as often as they may run; zero if an edge cannot resume.
 fn held(view: &View<'_>, target: Target) -> Cost {
     let (run, _) = chain(&view.plan.elements, target);
     if !run.iter().any(|id| view.resumes(id.index())) {
@@ -50,7 +48,7 @@ fn held(view: &View<'_>, target: Target) -> Cost {
     })
 }
 
-/// The edges between the computations of a chain, which are numbered as they stand there.
+/// The edges between the computations of a chain, numbered in its order.
 fn within(view: &View<'_>, run: &[ElementId]) -> Vec<Edge> {
     let places: BTreeMap<ElementId, usize> = run.iter().copied().zip(0..).collect();
     let mut edges = Vec::new();

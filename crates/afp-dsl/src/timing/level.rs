@@ -1,5 +1,3 @@
-//! What each plan costs while it is active.
-
 use std::sync::Arc;
 
 use crate::flow::view::{Node, View};
@@ -8,36 +6,36 @@ use crate::graph::{Component, Element};
 use super::StepParts;
 use super::cost::Cost;
 
-/// What a plan costs while it is active.
+/// Costs of a plan while it is active.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Level {
     /// One poll of each global supervisor.
     pub globals: Cost,
     pub entering: Cost,
-    /// The longest step while it is active, the one that ends it included; not the one that starts it.
+    /// Longest step while it is active, including its last but not its first.
     pub longest_step: Cost,
-    /// The element that is active when that step begins, and what the step is made of besides what is entered: the
-    /// supervisors, and the element.
+    /// The active element at the start of that step, and the costs of supervisors and element
+    /// without entries.
     pub longest: Option<(Node, u64, u64)>,
-    /// Interrupting whatever is active in it.
+    /// Maximum interruption of its active elements.
     pub interrupt: Cost,
-    /// From interruption to standstill, whatever is active in it.
+    /// Maximum time from interruption to standstill.
     pub stop: Cost,
-    /// The greatest share of the processor.
+    /// Maximum share of the processor.
     pub demand: f64,
-    /// Why the share is not known.
+    /// Why the share is unknown.
     pub demand_unknown: Option<Arc<str>>,
-    /// The element at which the share is greatest.
+    /// The element with the greatest share.
     pub busiest: Option<Node>,
 }
 
-/// The levels of all plans, by place.
+/// The levels of all plans, by index.
 pub(super) struct Levels {
     pub all: Vec<Level>,
 }
 
 impl Levels {
-    /// The path of the element at which a plan asks for the greatest share.
+    /// Path of the element with a plan's greatest share.
     pub fn busiest(&self, views: &[View<'_>], plan: usize) -> String {
         let mut path = Vec::new();
         let mut plan = Some(plan);
@@ -52,7 +50,7 @@ impl Levels {
         path.join(".")
     }
 
-    /// What it costs to interrupt an element, and until that stands still.
+    /// Costs of interrupting an element, and until its standstill.
     pub fn interrupting(&self, view: &View<'_>, element: &Element) -> (Cost, Cost) {
         match element.component {
             Component::SubPlan(id) => {
@@ -66,7 +64,7 @@ impl Levels {
         }
     }
 
-    /// What the longest step of a plan is made of, which may be the one that starts it.
+    /// Parts of a plan's longest step, possibly its first.
     pub fn step_parts(&self, views: &[View<'_>], plan: usize) -> StepParts {
         let mut parts = StepParts { path: String::new(), supervisors: 0, active: 0, entered: 0 };
         let level = &self.all[plan];
@@ -84,7 +82,7 @@ impl Levels {
             let Some(element) = views[index].element(node) else { break };
             path.push(element.name.as_str());
             match element.component {
-                // What it takes is that of the plan inside.
+                // The cost is the inner plan's.
                 Component::SubPlan(id) if active == self.all[id.index()].longest_step.time() => {
                     next = Some(id.index());
                 }

@@ -1,4 +1,4 @@
-//! The response of every supervisor, and the bound of the interruption that it causes.
+//! The response of every supervisor, and the bound of its interruption.
 
 use crate::flow::view::View;
 use crate::graph::{Supervisor, SupervisorId};
@@ -11,12 +11,12 @@ use super::level::Levels;
 use super::{Interruption, Response, SupervisorTiming, Trust};
 use afp_types::Duration;
 
-/// What holds for every supervisor of the plan that runs.
+/// Values for every supervisor of the main plan.
 pub(super) struct Bounds<'a> {
     pub longest_step: &'a Cost,
-    /// An entry that makes it longer where it is written from outside.
+    /// An entry whose external writes can lengthen steps.
     pub open: Option<&'a str>,
-    /// How late the target notices a release.
+    /// Delay of the target in noticing a release.
     pub tick: u64,
 }
 
@@ -66,7 +66,7 @@ fn response(
 }
 
 impl Interruption {
-    /// The same, assumed at most where an entry may be written from outside that makes steps longer.
+    /// Reduces the trust to assumed if external writes of an entry can lengthen steps.
     fn unless_written(mut self, entry: Option<&str>) -> Interruption {
         if let (Some(entry), Trust::Proved) = (entry, self.trust) {
             self.trust = Trust::Assumed;
@@ -76,7 +76,7 @@ impl Interruption {
     }
 }
 
-/// `None` when the supervisor interrupts nothing.
+/// `None` if the supervisor interrupts nothing.
 fn interruption(
     view: &View<'_>,
     levels: &Levels,
@@ -108,7 +108,7 @@ fn interruption(
         (Err(reason), _) => return Some(assumed(reason.clone())),
         (_, Err(reason)) => return Some(assumed(reason)),
     };
-    // Budgets are declared, so a bound without any slack proves nothing.
+    // Budgets are estimates, so a bound without slack proves nothing.
     if response >= deadline {
         let longer = if response == deadline { "as long as" } else { "longer than" };
         return Some(assumed(format!("the response may be {longer} the deadline")));
@@ -117,7 +117,7 @@ fn interruption(
     Some(Interruption { trust: Trust::Proved, terms, reason: String::new() })
 }
 
-/// What it costs to interrupt whatever the supervisor watches, and until that stands still.
+/// Costs of interrupting the watched elements, and until their standstill.
 fn interrupted(
     view: &View<'_>,
     levels: &Levels,

@@ -1,4 +1,4 @@
-//! What entering an element may cost: everything that is entered behind it in the same step.
+//! Costs of entering an element, with everything entered after it in the same step.
 
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::flow::{self, strong};
@@ -8,16 +8,16 @@ use super::cost::Cost;
 use super::held::locals;
 use super::level::Level;
 
-/// For each node the cost of entering it: its supervisors are started and asked, it is started, and
-/// so on along every edge that takes no time.
+/// For each node the cost of entering it: its supervisors are started and polled, it is started,
+/// and so on along every edge that takes no time.
 pub(super) fn entering(view: &View<'_>, levels: &[Level]) -> Vec<Cost> {
     let once =
         |node| Once { look: locals_of(view, node).times(2), itself: itself(view, levels, node) };
     costs(view, once, |edge| flow::is_quick(view, edge))
 }
 
-/// For each node what of that comes before the next look, in which the global supervisors are asked first: computations, and
-/// starts of the supervisors of what is entered.
+/// For each node the part of that before the next look, which begins with the global supervisors:
+/// computations, and starts of the entered elements' supervisors.
 pub(super) fn until_look(view: &View<'_>) -> Vec<Cost> {
     let is_watched = |node| view.element(node).is_some_and(|it| !it.supervisors.is_empty());
     let is_computation = |node| view.element(node).is_some_and(|element| !element.takes_time());
@@ -33,14 +33,14 @@ pub(super) fn until_look(view: &View<'_>) -> Vec<Cost> {
     })
 }
 
-/// What entering one node takes.
+/// Costs of entering one node.
 struct Once {
     look: Cost,
     /// Its own start.
     itself: Cost,
 }
 
-/// For each node what it takes to enter it and all behind it, along the edges that are followed at once.
+/// For each node the cost of entering it and its successors along immediate edges.
 fn costs(
     view: &View<'_>,
     once: impl Fn(Node) -> Once,
@@ -60,7 +60,7 @@ fn costs(
         members.resize(members.len().max(component + 1), Vec::new());
         members[component].push(node);
     }
-    // A component's number is less than those of the components that lead to it.
+    // A component's number is less than those of its predecessors.
     let mut costs: Vec<Cost> = Vec::with_capacity(members.len());
     for (number, nodes) in members.iter().enumerate() {
         let all = || nodes.iter().flat_map(|node| behind(*node));
@@ -70,7 +70,7 @@ fn costs(
             edges.fold(Cost::ZERO, |most, edge| most.or(&costs[to(edge)]))
         };
         let cost = match nodes.as_slice() {
-            // Who is diverted by the look does not start.
+            // An element diverted by the look does not start.
             [node] if !is_cycle => {
                 let once = once(*node);
                 let started = once.itself.and(&most(&mut outer().filter(|edge| !diverts(*edge))));
@@ -84,7 +84,7 @@ fn costs(
     component.iter().map(|component| costs[*component as usize].clone()).collect()
 }
 
-/// What the elements of a cycle may cost in one step, which may enter each of them so many times.
+/// Costs of a cycle's elements in one step, with the maximum number of entries of each.
 fn turns(
     view: &View<'_>,
     once: &impl Fn(Node) -> Once,
@@ -104,7 +104,7 @@ fn turns(
     })
 }
 
-/// One start, or poll, of each supervisor of an element that is entered.
+/// One start, or poll, of each supervisor of an entered element.
 fn locals_of(view: &View<'_>, node: Node) -> Cost {
     let element = view.element(node).filter(|element| element.takes_time());
     element.map_or(Cost::ZERO, |element| locals(view, element))

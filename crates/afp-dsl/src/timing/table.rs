@@ -1,4 +1,4 @@
-//! Timing as a table for people and as JSON for tools.
+//! Timing as a table for users and as JSON for tools.
 
 use std::fmt::{self, Write};
 
@@ -8,11 +8,11 @@ use super::{Basis, Interruption, StepParts, SupervisorTiming, Timing};
 use crate::types::text::duration;
 use afp_types::Duration;
 
-/// What a response is made of, and what not.
 const RESPONSE: &str = "a response has the target's tick in it, not the delay of a sensor";
 
 impl Timing {
-    /// The table, one line for each supervisor, with what it is made of; ends with a line break.
+    /// The table with one line for each supervisor and the parts of its response; ends with a line
+    /// break.
     pub fn text(&self) -> String {
         let head = ["supervisor", "every", "deadline", "response", "slack", "interruption", ""];
         let mut text = aligned(head, self.supervisors.iter().map(|row| self.row(row)));
@@ -47,7 +47,6 @@ impl Timing {
         }
     }
 
-    /// What a response is made of.
     fn response(&self, row: &SupervisorTiming) -> Option<[String; 6]> {
         let it = row.response.as_ref().ok()?;
         let parts = [it.tick, it.step, it.before, it.entered, it.own];
@@ -73,8 +72,9 @@ impl Timing {
         [path, duration(period), duration(deadline), response, slack, bound, terms]
     }
 
-    /// The same as one JSON object: `plan`, `longest_step_ns`, `longest_step_parts`, `demand` (each with `null` and a reason where
-    /// unknown), `slowdown`, `budgets_given` and `supervisors`. Times are in nanoseconds.
+    /// The timing as one JSON object: `plan`, `longest_step_ns`, `longest_step_parts`, `demand`
+    /// (each `null` with a reason if unknown), `slowdown`, `budgets_given` and `supervisors`. Times
+    /// are in nanoseconds.
     pub fn json(&self) -> Value {
         let supervisors: Vec<_> = self.supervisors.iter().map(supervisor).collect();
         json!({
@@ -119,7 +119,7 @@ impl fmt::Display for Basis {
     }
 }
 
-/// Lines of cells, each column as wide as its widest one.
+/// Lines of cells, with aligned columns.
 fn aligned<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
     let rows: Vec<_> = std::iter::once(head.map(str::to_owned)).chain(rows).collect();
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
@@ -151,7 +151,7 @@ fn described(parts: &StepParts) -> String {
 }
 
 impl Interruption {
-    /// What the bound is made of, and why it is not proved: `period 1 ms + stop 300 ms`.
+    /// The parts of the bound, and why it is not proved: `period 1 ms + stop 300 ms`.
     pub fn terms_in_words(&self) -> String {
         let terms = self.terms.iter().map(|(name, time)| format!("{name} {}", duration(*time)));
         let mut terms = terms.collect::<Vec<_>>().join(" + ");

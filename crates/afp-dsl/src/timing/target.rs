@@ -1,33 +1,30 @@
-//! What a plan shall run on: how fine its time is, how much of the processor plans may use, and how long polls take
-//! on it.
+//! Targets: time resolution, available share of the processor, and poll times.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::toolbox::{Template, Toolbox};
 
-/// Share of the processor that plans may use where none is given.
+/// Default share of the processor.
 const DEFAULT_CAPACITY: f64 = 0.7;
 
-/// A machine that runs plans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     pub name: String,
-    /// The grain of its time in nanoseconds: nothing happens more often, and what is due may be
-    /// noticed so much later. `None` where it is not known.
+    /// Time resolution in nanoseconds: the shortest interval between events, and the maximum delay
+    /// of noticing one. `None` if unknown.
     pub tick: Option<u64>,
-    /// The share of the processor that a plan may ask for, more than 0 and at most 1.
+    /// A plan's maximum share of the processor, greater than 0 and at most 1.
     pub capacity: f64,
-    /// How many times as long as the toolboxes declare a poll takes on it, more than 0.
+    /// Factor on the toolboxes' poll times, greater than 0.
     pub slowdown: f64,
-    /// What one poll takes at most on it in nanoseconds, by toolbox and template; in place of what is declared.
+    /// Maximum time of one poll in nanoseconds, by toolbox and template; replaces the declared one.
     pub budgets: Budgets,
 }
 
-/// Budgets in nanoseconds: of templates by name, those by the name of their toolbox.
+/// Budgets in nanoseconds, by toolbox and template.
 pub type Budgets = BTreeMap<String, BTreeMap<String, u64>>;
 
-/// A target that is known everywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct BuiltIn {
     pub name: &'static str,
@@ -35,11 +32,12 @@ pub struct BuiltIn {
     slowdown: f64,
 }
 
-/// The targets that are known everywhere.
+/// The built-in targets.
 ///
-/// On Linux the tick is what a timer of a thread without slack is late by on a machine that is not
-/// overloaded; the microcontroller has a timer of its own. Toolboxes declare what a Raspberry Pi takes. The
-/// microcontroller is one with a tenth of its clock; one that computes 64-bit numbers by software is slower still.
+/// On Linux the tick is the delay of a timer in a thread without slack on a machine that is not
+/// overloaded; the microcontroller has its own timer. Toolboxes declare the times of a Raspberry
+/// Pi. The microcontroller has a tenth of its clock rate; with 64-bit arithmetic in software it is
+/// even slower.
 pub const BUILT_IN: &[BuiltIn] = &[
     BuiltIn { name: "host", tick: 50_000, slowdown: 1.0 },
     BuiltIn { name: "pi", tick: 100_000, slowdown: 1.0 },
@@ -48,7 +46,6 @@ pub const BUILT_IN: &[BuiltIn] = &[
 ];
 
 impl Target {
-    /// The built-in target of that name.
     pub fn built_in(name: &str) -> Option<Target> {
         let known = BUILT_IN.iter().find(|known| known.name == name)?;
         Some(Target {
@@ -58,7 +55,7 @@ impl Target {
         })
     }
 
-    /// The target of that name: the built-in one, or one of which nothing is known.
+    /// The target with that name: built-in, or with unknown properties.
     pub fn named(name: &str) -> Target {
         Target::built_in(name).unwrap_or_else(|| Target::unknown(name))
     }
@@ -73,7 +70,7 @@ impl Target {
         }
     }
 
-    /// The toolbox with the budgets that its templates have on the target.
+    /// The toolbox with its templates' budgets on the target.
     pub(super) fn adapted(&self, toolbox: &Arc<Toolbox>) -> Arc<Toolbox> {
         let mut adapted = Arc::clone(toolbox);
         for template in &mut Arc::make_mut(&mut adapted).templates {
@@ -91,7 +88,7 @@ impl Target {
         self.budgets.get(toolbox)?.get(template).copied()
     }
 
-    /// What budgets are given for: toolbox and template.
+    /// Toolbox and template of each given budget.
     pub fn budgeted(&self) -> impl Iterator<Item = (&str, &str)> {
         self.budgets.iter().flat_map(|(toolbox, templates)| {
             templates.keys().map(|template| (toolbox.as_str(), template.as_str()))

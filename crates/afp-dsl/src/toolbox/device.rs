@@ -1,89 +1,84 @@
-//! The devices that a toolbox declares: what can be pressed, how they fail, what they signal.
+//! The devices of a toolbox: controls, faults, signals.
 //!
-//! Scenarios, generated Rust, and through it command line, logs and Python take a robot's words from here.
+//! Scenarios and generated Rust, and thus command line, logs and Python, use these names.
 
 use crate::types::Dimension;
 use afp_syntax::source::Span;
 
 pub use afp_syntax::ast::DeviceKind;
 
-/// What the robot as a whole is called among devices.
+/// The device name of the whole robot.
 pub const ROBOT: &str = "robot";
 
 #[derive(Clone, Debug)]
 pub struct Device {
     pub kind: DeviceKind,
-    /// Its name; [`ROBOT`] for the robot as a whole.
+    /// Its name; [`ROBOT`] for the whole robot.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// What can be pressed on it, as written.
+    /// Its controls, in source order.
     pub controls: Vec<Control>,
-    /// How it can fail: of a sensor first the ways in which every sensor can, then as written.
+    /// Its faults: for a sensor first those of every sensor, then in source order.
     pub faults: Vec<Fault>,
-    /// What it signals, as written.
+    /// Its signals, in source order.
     pub signals: Vec<Signal>,
-    /// The name in the text; of the robot the word `robot`.
+    /// Its name, or the keyword `robot`.
     pub span: Span,
 }
 
-/// Something that can be held down and let go.
+/// A control that can be pressed and released.
 #[derive(Clone, Debug)]
 pub struct Control {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// Whether it is there to end what runs; the Escape key of a terminal presses it.
+    /// Whether it stops the plan; the Escape key of a terminal presses it.
     pub stops: bool,
-    /// The name in the text.
     pub span: Span,
 }
 
-/// A way in which a device can fail.
 #[derive(Clone, Debug)]
 pub struct Fault {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// How much of it there can be.
     pub amount: Option<Amount>,
-    /// The name in the text; `None` for one that every sensor has.
+    /// Its name; `None` for a fault of every sensor.
     pub span: Option<Span>,
 }
 
-/// How much of a fault there is, in SI units.
+/// The amount of a fault, in SI units.
 #[derive(Clone, Debug)]
 pub struct Amount {
     pub name: String,
     /// Its dimension; none for a plain number.
     pub dimension: Dimension,
-    /// What is taken where nothing is said.
+    /// The default.
     pub default: f64,
-    /// The least; infinite where no bound is written.
+    /// The minimum; infinite if unbounded.
     pub from: f64,
-    /// The greatest; infinite where no bound is written.
+    /// The maximum; infinite if unbounded.
     pub to: f64,
-    /// The name in the text; `None` for a fault that every sensor has.
+    /// Its name; `None` for a fault of every sensor.
     pub span: Option<Span>,
 }
 
-/// Something that a device says.
 #[derive(Clone, Debug)]
 pub struct Signal {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
     pub ty: SignalType,
-    /// Whether only a judge may know it.
+    /// Whether it is ground truth, only for judges.
     pub truth: bool,
-    /// The name in the text.
     pub span: Span,
 }
 
-/// What the values of a signal are.
+/// The type of a signal's values.
 pub type SignalType = afp_types::devices::SignalType<Dimension>;
 
-/// Types of signals that the language has no values of; for logs and pictures.
+/// Types of signals without values in the language; for logs and pictures.
 pub(crate) const SHOWN: &[(&str, SignalType)] = &[
     ("pose", SignalType::Pose),
     ("range", SignalType::Range),
@@ -91,10 +86,10 @@ pub(crate) const SHOWN: &[(&str, SignalType)] = &[
     ("outline", SignalType::Outline),
 ];
 
-/// A day, seconds: no sensor is later than that.
+/// A day in seconds, the maximum delay of a sensor.
 const LATEST: f64 = 86_400.0;
 
-/// How every sensor can fail: the name, the time that is taken where none is said, what happens.
+/// Faults of every sensor: name, default time, effect.
 const EVERY_SENSOR: &[(&str, Option<f64>, &str)] = &[
     ("frozen", None, "It repeats its last value as if it were new."),
     ("lost", None, "It does not answer."),
@@ -103,7 +98,6 @@ const EVERY_SENSOR: &[(&str, Option<f64>, &str)] = &[
     ("slow", Some(0.02), "Each use takes so long."),
 ];
 
-/// The faults that every sensor has.
 pub(crate) fn of_every_sensor() -> Vec<Fault> {
     let time = |default| Amount {
         name: "time".to_owned(),

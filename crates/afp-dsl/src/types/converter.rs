@@ -8,17 +8,17 @@ use afp_types::{
 use super::readable::readable;
 use super::{Conversion, Dimension, Type};
 
-/// A conversion ready to be applied.
+/// A prepared conversion.
 pub enum Converter {
     IntToFloat,
     FloatToInt,
     BoolToInt,
     BoolToFloat,
-    /// A quantity prints with its SI unit.
+    /// Prints a quantity with its SI unit.
     PrintQuantity(String),
-    /// A value of an enum prints its name.
+    /// Prints the name of an enum value.
     PrintChoice(Vec<String>),
-    /// Other values print without a unit.
+    /// Prints other values without a unit.
     Print,
     ReadBool,
     ReadInt,
@@ -26,12 +26,11 @@ pub enum Converter {
     ReadQuantity(Vec<(String, Scale)>),
     ReadChoice(Vec<String>),
     ReadText,
-    /// The checker lets no such conversion pass.
+    /// The checker rejects such a conversion.
     Never,
 }
 
 impl Converter {
-    /// Looks up what the conversion needs.
     pub fn new(conversion: &Conversion) -> Self {
         match conversion {
             Conversion::IntToFloat => Converter::IntToFloat,
@@ -55,7 +54,7 @@ impl Converter {
         }
     }
 
-    /// Applies it.
+    /// Converts a value.
     ///
     /// # Errors
     /// Those of the conversion.
@@ -104,7 +103,7 @@ impl Converter {
     }
 }
 
-/// The units that a text may carry to become a quantity of this dimension.
+/// The accepted units of a string for a quantity of this dimension.
 pub fn spellings(dimension: Dimension) -> Vec<(String, Scale)> {
     readable(dimension).into_iter().map(|unit| (unit.name, unit.scale)).collect()
 }

@@ -1,26 +1,24 @@
-//! The units that a text may carry when it becomes a quantity at run time.
+//! The accepted units of strings for quantities at run time.
 //!
-//! A running plan does not know the grammar of units; for each dimension that it reads it gets a
-//! list of all spellings with a scale. Interpreter and generated code take the same list.
+//! A running plan does not know the grammar of units. For each dimension that it parses, it has a
+//! list of all spellings with scales. Interpreter and generated code use the same list.
 
 use afp_types::Scale;
 
 use crate::types::Dimension;
 use afp_syntax::units::Unit;
 
-/// Above this number of spellings only the SI unit is readable.
+/// Above this number of spellings only the SI unit is accepted.
 const MAX_SPELLINGS: usize = 256;
 
-/// One spelling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadableUnit {
-    /// How the unit is written.
     pub name: String,
-    /// How its numbers become SI.
+    /// The conversion to SI.
     pub scale: Scale,
 }
 
-/// All spellings of units of a dimension; none for a plain number.
+/// All spellings of a dimension's units; empty for a plain number.
 pub fn readable(dimension: Dimension) -> Vec<ReadableUnit> {
     if dimension == Dimension::NONE {
         return Vec::new();

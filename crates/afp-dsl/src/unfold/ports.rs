@@ -1,12 +1,11 @@
-//! The ports of a component with what is bound to them: what a fault says about a value.
+//! The ports of a component with their bindings, for fault messages.
 
 use super::PortNames;
 use crate::graph::{Component, Element, EntryKind, Formula, Graph, Output, Plan};
 use crate::toolbox::Template;
 
-/// The names and ranges of a component's ports.
+/// Names and ranges of a component's ports.
 pub(super) struct Ports<'a> {
-    /// The plan that the component stands in.
     plan: &'a Plan,
     inputs: Vec<(&'a str, Option<(f64, f64)>)>,
     outputs: Vec<&'a str>,
@@ -29,7 +28,6 @@ impl<'a> Ports<'a> {
         }
     }
 
-    /// The ports of a template.
     pub(super) fn of_template(plan: &'a Plan, template: &'a Template) -> Self {
         let inputs = template.inputs.iter().map(|port| (&*port.name, port.range));
         let outputs = template.outputs.iter().map(|port| &*port.name);
@@ -51,7 +49,7 @@ impl Ports<'_> {
         names.collect()
     }
 
-    /// The outputs that are bound, with their positions; paths of entries begin with `prefix`.
+    /// The bound outputs with their positions; paths of entries begin with `prefix`.
     pub(super) fn outputs(&self, outputs: &[Output], prefix: &str) -> Vec<(u16, PortNames)> {
         let bound = outputs.iter().filter_map(|output| {
             let entry = self.plan.entries.get(output.entry.index())?;

@@ -1,4 +1,4 @@
-//! Places in the texts of plans, as people know them.
+//! Source places in plans, as line and column.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -6,26 +6,25 @@ use std::sync::Arc;
 use crate::graph::Graph;
 use afp_syntax::source::{Source, Span};
 
-/// The texts of the plans of a graph. Places are looked up when somebody asks: plans have many, and few are shown.
+/// The sources of a graph's plans. Places are looked up on demand: plans have many, and few are
+/// shown.
 #[derive(Clone, Debug, Default)]
 pub struct PlanTexts {
-    /// The plan files by their numbers.
     files: BTreeMap<u16, File>,
 }
 
 #[derive(Clone, Debug)]
 struct File {
-    /// Its path, seen from the folder of the main plan's file.
+    /// Its path, relative to the main plan's folder.
     name: String,
     source: Arc<Source>,
-    /// Where each line but the first starts.
+    /// Starts of lines, except the first.
     lines: Vec<usize>,
 }
 
-/// A place in the text of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextPlace<'a> {
-    /// The file, seen from the folder of the main plan's file.
+    /// The file, relative to the main plan's folder.
     pub file: &'a str,
     /// The line, from 1.
     pub line: u32,
@@ -46,7 +45,7 @@ impl PlanTexts {
         PlanTexts { files: files.collect() }
     }
 
-    /// Where a span of a plan begins; `None` for one of a toolbox.
+    /// The start of a span; `None` for a toolbox.
     pub fn place(&self, span: Span) -> Option<TextPlace<'_>> {
         let file = self.files.get(&span.file)?;
         let text = &file.source.text;

@@ -1,4 +1,4 @@
-//! Wrong plans and toolboxes, each with the expected diagnostics under the line they mean.
+//! Invalid plans and toolboxes, with the expected diagnostics below their lines.
 //!
 //! `AFP_BLESS=1` rewrites the expectations; read the diff like code.
 
@@ -12,13 +12,12 @@ use afp_syntax::source::Span;
 
 const MARK: &str = "//~ ";
 
-/// The case without its expectations.
 pub fn stripped(case: &str) -> String {
     let lines = case.split_inclusive('\n').filter(|line| !line.trim_start().starts_with("//~"));
     lines.collect()
 }
 
-/// Column and text of a place, with line and file where they are others than those of `here`.
+/// Column and text of a place, with line and file if they differ from `here`.
 fn place(compiled: &Compiled, span: Span, here: (&str, usize)) -> String {
     let source = compiled.sources.get(span.file).unwrap();
     let (line, column) = source.line_column(span.start);
@@ -50,7 +49,7 @@ fn expectation(compiled: &Compiled, diagnostic: &Diagnostic, here: (&str, usize)
     text
 }
 
-/// The case with what the compiler says about it.
+/// The case with the compiler's diagnostics.
 fn annotated(text: &str, compiled: &Compiled) -> String {
     let mut result = String::new();
     let (mut file, mut number) = (support::CASE, 0);

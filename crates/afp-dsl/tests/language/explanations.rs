@@ -1,13 +1,13 @@
-//! The page of every code: its first example breaks that rule alone, its second keeps all.
+//! The page of every code: its first example breaks only that rule, its second breaks none.
 
 use crate::support;
 
 use afp_syntax::diagnostics::Code;
 
-/// What comes with others only: polled too often for the tick is too often for the processor, too.
+/// Codes that never occur alone: polling too often for the tick also needs too much of the
+/// processor.
 const BESIDE_OTHERS: &[Code] = &[Code::E0403, Code::E0404];
 
-/// The code blocks of a page.
 fn blocks(page: &str) -> Vec<String> {
     let mut blocks = Vec::new();
     for rest in page.split("```afp\n").skip(1) {

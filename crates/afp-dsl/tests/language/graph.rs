@@ -1,4 +1,4 @@
-//! Right plans, each with the dump of its graph behind it.
+//! Valid plans, each with the dump of its graph.
 //!
 //! `AFP_BLESS=1` rewrites the dumps; read the diff like code.
 

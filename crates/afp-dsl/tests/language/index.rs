@@ -1,4 +1,4 @@
-//! Texts, many of them broken, each with what its names mean behind it; and what holds for any text.
+//! Texts, many of them invalid, each with the meanings of its names; and properties of any text.
 //!
 //! `AFP_BLESS=1` rewrites the meanings; read the diff like code.
 
@@ -28,7 +28,7 @@ fn every_case_has_the_index_it_should() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Line and column of a place; of a toolbox its name.
+/// Line and column of a place; the name of a toolbox.
 fn place(compiled: &Compiled, span: Span) -> String {
     let files = compiled.plan_files.clone();
     let source = compiled.sources.get(span.file).unwrap();
@@ -40,7 +40,7 @@ fn place(compiled: &Compiled, span: Span) -> String {
     }
 }
 
-/// A definition with what it is declared in.
+/// A definition with its parent.
 fn shown(compiled: &Compiled, definition: &Definition) -> String {
     let mut path = compiled.sources.text(definition.name).to_owned();
     let mut owner = definition.owner;
@@ -107,8 +107,8 @@ fn dump(compiled: &Compiled) -> String {
     text
 }
 
-/// Checks that every name of a text is in its index, once, and that definitions and references
-/// belong together.
+/// Checks that every name of a text is in its index once, and that definitions and references
+/// match.
 pub fn examine(text: &str, compiled: &Compiled) {
     let index = &compiled.index;
     let file = compiled.plan_files.start as u16;
@@ -196,7 +196,7 @@ fn find(compiled: &Compiled, word: &str, nth: usize) -> (u16, u32) {
     (file, text.match_indices(word).nth(nth - 1).unwrap().0 as u32)
 }
 
-/// What the index is for, by example.
+/// Examples of the index's uses.
 #[test]
 fn an_editor_asks_the_index() {
     let compiled = support::compile(PATROL, &support::toolboxes());
@@ -215,27 +215,27 @@ fn an_editor_asks_the_index() {
         (port.kind, place(&compiled, port.name)),
         (DefinitionKind::Input, "carbot.afp".into())
     );
-    // References: everything that leads to it.
+    // References of an element.
     let uses: Vec<_> = index.references(turn).map(|span| place(&compiled, span)).collect();
     assert_eq!(uses, ["11:69", "12:30"]);
-    // Hover: help, and what it is made from.
+    // Hover: help, and its template.
     let go = index.definition(said("go", 1).definition().unwrap());
     assert_eq!(go.doc, "Ahead.");
     let template = index.definition(go.made_from.unwrap());
     assert_eq!(compiled.sources.text(template.name), "Forward");
     assert!(template.doc.starts_with("Drive"), "{}", template.doc);
-    // The short name of a toolbox is declared behind 'as'.
+    // The alias of a toolbox is declared after 'as'.
     let alias = index.definition(said("c.Forward", 1).definition().unwrap());
     assert_eq!((alias.kind, place(&compiled, alias.name)), (DefinitionKind::Alias, "1:15".into()));
-    // Words of the language have no definition.
+    // Keywords have no definition.
     assert_eq!(said("Error", 1), Meaning::Word(Word::Error));
     assert_eq!(said("length", 1), Meaning::Word(Word::Type));
-    // Symbols: what a plan is made of, in order.
+    // Symbols: the members of a plan, in order.
     let plan = said("Patrol", 1).definition().unwrap();
     let members: Vec<_> =
         index.members(plan).map(|(_, each)| compiled.sources.text(each.name)).collect();
     assert_eq!(members, ["side", "gap", "go", "turn"]);
-    // Completion: inside of the plan also what it is made of.
+    // Completion: inside of the plan also its members.
     let names = |offset: u32| {
         let all = index.visible(compiled.plan_files.start as u16, offset, |_| true).into_iter();
         let all = all.map(|id| compiled.sources.text(index.definition(id).name));
@@ -253,7 +253,7 @@ fn an_editor_asks_the_index() {
     let plans = index.visible(compiled.plan_files.start as u16, inside, plans).into_iter();
     let plans: Vec<_> = plans.map(|id| compiled.sources.text(index.definition(id).name)).collect();
     assert_eq!(plans, ["Patrol"]);
-    // Nothing stands between the names.
+    // There is nothing between names.
     let (file, offset) = find(&compiled, "{ left", 1);
     assert_eq!(index.at(file, offset), None);
 }

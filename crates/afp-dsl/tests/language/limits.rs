@@ -1,4 +1,4 @@
-//! Plans at the limit of what the scheduler's tables hold, and one beyond it.
+//! Plans at the limit of the scheduler's tables, and beyond it.
 
 use crate::support;
 
@@ -57,7 +57,7 @@ fn states(wide: usize, narrow: usize) -> String {
     text + "}\n"
 }
 
-/// A plan of `actors`, each with a supervisor of its own, and `globals`.
+/// A plan of `actors`, each with its own supervisor, and `globals`.
 fn watched(globals: usize, actors: usize) -> String {
     let mut text = String::from("plan P {\n    start a0\n");
     for n in 0..globals {

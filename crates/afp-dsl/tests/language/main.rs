@@ -1,4 +1,4 @@
-//! Cases as data: wrong texts with what is said about them, right ones with their graphs.
+//! Cases as data: invalid texts with diagnostics, valid ones with graphs.
 
 use afp_counting::Counting;
 

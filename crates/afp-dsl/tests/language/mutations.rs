@@ -1,7 +1,7 @@
-//! One slip of the pen is one error, where it is: single mutations of the shipped plans and scenarios.
+//! A single mistake gives one error at its place: mutations of the shipped plans and scenarios.
 //!
-//! `AFP_MUTANTS=5000` draws more of them, and shows all that are not answered by one error nearby; `AFP_MUTANTS_SEED=7`
-//! draws others.
+//! `AFP_MUTANTS=5000` draws more of them, and shows all without exactly one error nearby;
+//! `AFP_MUTANTS_SEED=7` draws others.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use crate::support::{self, files, read};
 
-/// Folders of shipped plans and scenarios, and toolboxes that some of them use.
+/// Folders of shipped plans and scenarios, and their toolboxes.
 const FOLDERS: [&str; 6] = [
     "../../plans",
     "../../plans/tests",
@@ -32,10 +32,10 @@ const TOOLBOXES: [&str; 6] = [
     "../../examples/peers/toolboxes/nav.afp",
 ];
 
-/// How many mutants with an error are drawn with each seed.
+/// Number of invalid mutants per seed.
 const MUTANTS: usize = 500;
 
-/// The seeds that are drawn with unless one is asked for: by day the first, and all where `AFP_BY_NIGHT` is set.
+/// The default seeds: the first by day, all with `AFP_BY_NIGHT`.
 const SEEDS: [u8; 5] = [13, 1, 2, 3, 4];
 
 fn seeds() -> &'static [u8] {
@@ -43,20 +43,19 @@ fn seeds() -> &'static [u8] {
     &SEEDS[..count]
 }
 
-/// A file of the corpus: its path, which others are found from, and its text.
+/// A file of the corpus: path and text.
 type File = (String, String);
 
-/// Text that somebody got wrong in one place.
+/// A text with one mistake.
 struct Mutant {
     path: String,
     text: String,
-    /// What was done to it.
+    /// The change.
     what: String,
-    /// The first and the last line that are not as they were, from 0.
+    /// The first and the last changed line, from 0.
     lines: (usize, usize),
 }
 
-/// Numbers below a bound.
 struct Dice(TestRunner);
 
 impl Dice {
@@ -69,7 +68,7 @@ impl Dice {
     }
 }
 
-/// The places of the words and signs of a text.
+/// The places of a text's tokens.
 fn tokens(text: &str) -> Vec<std::ops::Range<usize>> {
     let parse = afp_syntax::parse(text, 0, &mut Diagnostics::default());
     let elements = parse.root().descendants_with_tokens();
@@ -78,7 +77,7 @@ fn tokens(text: &str) -> Vec<std::ops::Range<usize>> {
     solid.map(|token| token.text_range().into()).collect()
 }
 
-/// Changes one thing in a text.
+/// Changes one token of a text.
 fn mutate((path, text): &File, dice: &mut Dice) -> Mutant {
     const SIGNS: [&str; 14] =
         ["{", "}", "(", ")", ",", ":", "=", "=>", "->", ";", ".", "#", "-", "x"];
@@ -113,7 +112,7 @@ fn mutate((path, text): &File, dice: &mut Dice) -> Mutant {
     Mutant { path: path.clone(), text, what, lines }
 }
 
-/// A word with a letter too many, too few, or two swapped.
+/// A word with an extra, missing or swapped letter.
 fn misspelt(word: &str, dice: &mut Dice) -> String {
     let mut letters: Vec<char> = word.chars().collect();
     let at = dice.below(letters.len());
@@ -128,7 +127,7 @@ fn misspelt(word: &str, dice: &mut Dice) -> String {
     letters.into_iter().collect()
 }
 
-/// The shipped plans and scenarios, and what they need.
+/// The shipped plans and scenarios, and their toolboxes.
 fn corpus() -> (Vec<File>, Toolboxes) {
     let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     for path in TOOLBOXES {
@@ -153,7 +152,7 @@ fn errors(compiled: &Compiled) -> Vec<&Diagnostic> {
     compiled.diags.iter().filter(|each| each.severity == Severity::Error).collect()
 }
 
-/// Mutants with an error, each with what is said about it.
+/// Invalid mutants with their compilations.
 fn mutants(
     seed: u8,
     count: usize,
@@ -184,7 +183,7 @@ fn one_slip_is_one_error_where_it_is() {
     }
 }
 
-/// Counts what mutants are answered with.
+/// Counts the kinds of answers.
 fn judge(seed: u8, all: &[(Mutant, Compiled)], show: bool) {
     let (mut numbers, mut far, mut shown) = (BTreeMap::<_, usize>::new(), 0, String::new());
     for (mutant, compiled) in all {
@@ -217,14 +216,14 @@ fn judge(seed: u8, all: &[(Mutant, Compiled)], show: bool) {
     assert!(share(one) >= 95.0 && share(many) <= 2.0 && share(far) <= 5.0, "{account}{shown}");
 }
 
-/// What is left to do after a fix.
+/// The compilation after a fix.
 fn mended(path: &str, before: &Compiled, fix: &Edit, toolboxes: &Toolboxes) -> Compiled {
     let mut text = before.sources.get(fix.span.file).unwrap().text.clone();
     text.replace_range(fix.span.start as usize..fix.span.end as usize, &fix.text);
     compile(path, &text, toolboxes)
 }
 
-/// Notes ask for nothing.
+/// Number of diagnostics, without notes.
 fn to_do(compiled: &Compiled) -> usize {
     compiled.diags.iter().filter(|each| each.severity != Severity::Note).count()
 }
@@ -261,7 +260,7 @@ fn a_fix_of_a_case_mends_what_it_is_for() {
             let Some(fix) = &each.fix else { continue };
             let after = mended(support::CASE, &before, fix, &toolboxes);
             tried += 1;
-            // Other mistakes may be said now that nothing comes before them.
+            // The fix may reveal other errors.
             let same = |other: &Diagnostic| (other.code, other.span) == (each.code, each.span);
             if after.diags.iter().any(same) {
                 wrong += &format!(

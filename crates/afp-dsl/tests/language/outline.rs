@@ -1,4 +1,4 @@
-//! Plans, many of them broken, each with its outline behind it; and what holds for any text.
+//! Plans, many of them invalid, each with its outline; and properties of any text.
 //!
 //! `AFP_BLESS=1` rewrites the outlines; read the diff like code.
 
@@ -30,8 +30,8 @@ fn every_case_has_the_outline_it_should() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Everything that is shipped, cut off behind each of its tokens.
-/// One prefix in so many is looked at by day; `AFP_BY_NIGHT` looks at all.
+/// All shipped files, cut after each token. By day one prefix per step is tested; `AFP_BY_NIGHT`
+/// tests all.
 const STEP: usize = 13;
 
 #[test]
@@ -61,7 +61,7 @@ fn every_prefix_of_every_shipped_plan_keeps_what_parses() {
     assert!(cuts > 5_000 / step, "only {cuts} prefixes");
 }
 
-/// An outline as text: what is wrong stands behind `!`.
+/// An outline as text, with diagnostics after `!`.
 fn dump(compiled: &Compiled) -> String {
     let outline = &compiled.outline;
     let mut text = String::new();
@@ -253,15 +253,14 @@ fn identities(outline: &Outline) -> Vec<Identity> {
     all
 }
 
-/// How many nodes of a kind stand in the plans of a file.
+/// Number of nodes of a kind in the plans of a file.
 fn count(root: &Node, kind: Kind) -> usize {
     nodes(root, kind).count()
 }
 
-/// The nodes of a kind in plans.
 fn nodes(root: &Node, kind: Kind) -> impl Iterator<Item = Node> {
     let of_file = root.children().filter(|node| node.kind() == Kind::Plan);
-    // One that stands in another one is known, too.
+    // A misplaced inner item is also known.
     let all = of_file.flat_map(|plan| {
         let errors = plan.children().filter(|node| node.kind() == Kind::Error);
         let inside = errors.flat_map(|error| error.children());
@@ -279,8 +278,8 @@ fn in_error(node: &Node, plan: &Node) -> bool {
     inside.into_iter().any(|each| each.kind() == Kind::Error)
 }
 
-/// Checks that nothing which parses is missing from an outline, that its identities differ, and
-/// that they and their places belong together.
+/// Checks that an outline has everything that was parsed, that its identities differ, and that they
+/// match their places.
 pub fn examine(text: &str, compiled: &Compiled) {
     let outline = &compiled.outline;
     let Some(first) = outline.files.first() else { return };
@@ -299,7 +298,7 @@ pub fn examine(text: &str, compiled: &Compiled) {
     let named: usize = nodes(&root, Kind::Edge).map(|edge| names(&edge)).sum();
     let has_nameless = nodes(&root, Kind::Edge).any(|edge| names(&edge) == 0);
     let edges = edges.count();
-    // An edge without a name is for every state that has to be connected.
+    // An edge without a name is for every required state.
     assert!(edges == named || (edges > named && has_nameless), "{edges} edges of\n{text}");
     let all = identities(outline);
     let distinct: BTreeSet<_> = all.iter().collect();

@@ -1,4 +1,4 @@
-//! Large plans: deep ones need no deep stack, long ones no more than linear effort.
+//! Large plans: deep ones need no deep stack, long ones need linear time.
 
 use crate::support;
 
@@ -10,7 +10,6 @@ use afp_dsl::Compiled;
 use afp_dsl::timing::timing;
 use afp_syntax::diagnostics::{Code, Severity};
 
-/// Sub-plans in sub-plans.
 fn nested(depth: usize) -> String {
     let mut text = String::from("use carbot\n");
     for level in 0..depth {
@@ -23,7 +22,7 @@ fn nested(depth: usize) -> String {
     )
 }
 
-/// One actor behind the other, each with a supervisor that leads back, and an entry for each.
+/// A sequence of actors, each with a supervisor that leads back, and an entry for each.
 fn long(length: usize) -> String {
     let mut text = String::from(
         "use carbot\nplan P {\n    start a0\n    supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }\n",
@@ -73,7 +72,7 @@ fn plans_that_no_machine_could_unfold_are_refused() {
     assert!(deep.contains("1001 deep; at most 1000"), "{deep}");
 }
 
-/// The least time of two in which a text is compiled and `check` holds of it.
+/// The shorter of two times for compiling a text; `check` asserts the result.
 fn least(text: &str, check: impl Fn(&Compiled)) -> Duration {
     let toolboxes = support::toolboxes();
     let run = || {
@@ -85,8 +84,8 @@ fn least(text: &str, check: impl Fn(&Compiled)) -> Duration {
     (0..2).map(|_| run()).min().unwrap_or(Duration::ZERO)
 }
 
-/// Checks that something long takes less than so many times as long as something short. The machine may be busy while
-/// one of the two runs, so they are tried together several times.
+/// Checks that a long task takes less than this many times as long as a short one. The machine may
+/// be busy during one of them, so both are repeated together.
 fn takes_at_most(most: u32, what: &str, short: impl Fn() -> Duration, long: impl Fn() -> Duration) {
     let fits = |(short, long): &(Duration, Duration)| {
         *long < (*short).max(Duration::from_millis(1)) * most
@@ -107,11 +106,11 @@ fn ten_times_the_plan_takes_about_ten_times_as_long() {
         assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     };
     let time = |length: usize| move || least(&long(length), check);
-    // A quadratic part would show as a hundred times.
+    // A quadratic part would take a hundred times as long.
     takes_at_most(35, "400 and 4000 actors", time(400), time(4000));
 }
 
-/// A chain of elements that conditions lead along and back, none of which hold together.
+/// A chain of elements with conditions forwards and back, which never hold together.
 fn contradicting(length: usize) -> String {
     let mut text = String::from("use std\nplan P {\n    in x: float = 0\n    start a0\n");
     for at in 0..length {
@@ -124,8 +123,8 @@ fn contradicting(length: usize) -> String {
     text + "}\n"
 }
 
-/// A ring of elements that conditions lead round, of which the first and the last never hold together, with as many that
-/// lead from the last to the first.
+/// A ring of elements with conditions, of which the first and the last never hold together, and as
+/// many edges from the last to the first.
 fn ring(length: usize) -> String {
     let mut text = String::from("use std\nplan P {\n    start a0\n    in v0: float = 0\n");
     for at in 0..length {
@@ -145,7 +144,7 @@ fn ring(length: usize) -> String {
     text + "        Elapsed -> terminate\n    }\n}\n"
 }
 
-/// An element with edges for states that it does not have, all of one name, and of a name each.
+/// An element with edges for unknown states, all with one name, and with different names.
 fn undeclared_states(count: usize) -> String {
     let names: String = (0..count).map(|at| format!("A, B{at}, ")).collect();
     format!(
@@ -153,14 +152,14 @@ fn undeclared_states(count: usize) -> String {
     )
 }
 
-/// An element with bindings for ports that it does not have.
+/// An element with bindings for unknown ports.
 fn undeclared_ports(count: usize) -> String {
     let binds: String =
         (0..count).map(|at| format!("p = 1, p{at} = 1, q => x, q{at} => x, ")).collect();
     format!("use std\nplan P {{ start a actor a: Wait({binds}) {{ Elapsed -> terminate }} }}\n")
 }
 
-/// A text with so many of something.
+/// A text with this many items.
 type Text = fn(usize) -> String;
 
 #[test]
@@ -231,8 +230,8 @@ fn one_cause_is_reported_once_however_often_it_is_there() {
     }
 }
 
-/// Files that are one line, wrong at every token, took time by the square of their length; so did many errors, and errors that point
-/// far back, for which the file was read again each time.
+/// One-line files with an error at every token took quadratic time, as well as many errors, and
+/// errors that refer far back, for which the file was read again each time.
 #[test]
 fn sixteen_times_the_junk_takes_about_sixteen_times_as_long() {
     let pieces = [
@@ -263,12 +262,12 @@ fn sixteen_times_the_junk_takes_about_sixteen_times_as_long() {
     let shown = |compiled: &Compiled| assert!(!compiled.render(false).is_empty());
     for piece in pieces {
         let time = |count: usize| move || least(&piece.repeat(count), shown);
-        // By the square it would be 256 times.
+        // Quadratic time would be a factor of 256.
         takes_at_most(90, piece, time(125), time(2000));
     }
 }
 
-/// Each with a graph of its own, thousands of them took gigabytes.
+/// Thousands of scenarios with separate graphs took gigabytes.
 #[test]
 fn scenarios_of_one_plan_share_its_graph() {
     let mut text = long(20);
@@ -294,7 +293,7 @@ fn a_name_that_nothing_has_is_not_looked_for_in_every_copy_of_a_plan() {
         );
     }
     text += "scenario \"s\" for P { at 1 s: fire Nothing  expect end }\n";
-    // What takes twice as long for each level would not end.
+    // Exponential time would not end.
     let compiled = support::compile(&text, &support::toolboxes());
     assert!(compiled.graph.is_none());
 }

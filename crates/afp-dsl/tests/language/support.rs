@@ -1,4 +1,4 @@
-//! What the suites of cases share: toolboxes, the files of a folder, and blessing.
+//! Shared parts of the tests: toolboxes, files of a folder, blessing.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,11 +21,10 @@ pub fn toolboxes() -> Toolboxes {
     toolboxes
 }
 
-/// The name of the first file of a case.
 pub const CASE: &str = "case.afp";
 
-/// Compiles a plan file with those that follow it below lines `// file: PATH`, or reads a toolbox; a
-/// first line `// plan: NAME` chooses the plan, one `// target: NAME` what it shall run on, one `// robot: NAME` the
+/// Compiles a plan file with further files after lines `// file: PATH`, or reads a toolbox. A first
+/// line `// plan: NAME` selects the plan, `// target: NAME` its target, `// robot: NAME` the
 /// toolbox of the project's robot.
 pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
     let (text, files) = &Texts::in_one(text);
@@ -51,12 +50,12 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
     compiled
 }
 
-/// The file that begins with a line of a case, if one does.
+/// The file that begins at a line of a case, if any.
 pub fn head(line: &str) -> Option<&str> {
     line.strip_prefix("// file: ").map(str::trim_end)
 }
 
-/// Where the text of a file begins in its case.
+/// The start of a file's text in its case.
 pub fn offset(case: &str, file: &str) -> usize {
     let mut at = 0;
     for line in case.split_inclusive('\n') {
@@ -81,13 +80,11 @@ pub fn files(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-/// The text of a file.
 pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// Compares a case with what it should be; with `AFP_BLESS=1` rewrites it instead. Gives what
-/// differs.
+/// Compares a case with its expectation, or rewrites it with `AFP_BLESS=1`. Returns the difference.
 pub fn compare(path: &Path, expected: &str, actual: &str) -> Option<String> {
     if expected == actual {
         return None;

@@ -1,4 +1,4 @@
-//! The texts that are kept of a plan find each other again.
+//! Stored sources of a plan find each other again.
 
 use crate::support;
 
@@ -13,7 +13,7 @@ const MAIN: &str = "use \"z.afp\"\nuse \"../lib.afp\"\nplan X { start a subplan 
 const LIB: &str = "use \"plans/z.afp\"\nplan L { start a subplan a: Z { OK -> terminate } }\n";
 const PART: &str = "use std\nplan Z { start a actor a: Wait { Elapsed -> terminate } }\n";
 
-/// The paths of the texts that are kept of `MAIN`, after they have been compiled again.
+/// The paths of the stored sources of `MAIN`, after compiling them again.
 fn kept(files: &dyn Files) -> Vec<String> {
     let toolboxes = support::toolboxes();
     let compiled = compile(&Source::new("x.afp", MAIN), &toolboxes, files);
@@ -39,7 +39,7 @@ fn a_file_that_is_used_by_two_paths_is_found_by_both() {
     assert_eq!(paths, ["plans/x.afp", "plans/z.afp", "lib.afp"]);
 }
 
-/// A disk of which nobody knows where it is.
+/// A disk with an unknown base folder.
 struct Nowhere;
 
 impl Files for Nowhere {

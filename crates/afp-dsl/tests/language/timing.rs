@@ -1,4 +1,4 @@
-//! What is said of time, as tables behind the plans.
+//! Timing results as tables after the plans.
 //!
 //! `AFP_BLESS=1` rewrites the tables; check the sums by hand.
 
@@ -41,7 +41,7 @@ fn the_plan_of_the_paper_is_proved_where_it_has_slack() {
         assert!(found.is_empty(), "{name}: {}", found.render(&compiled.sources, false));
         for row in timing(&graph, Some(&target)).supervisors {
             let bound = row.interruption.unwrap();
-            // A poll each millisecond leaves a Pi, which is late by a tenth of that, no slack.
+            // A poll each millisecond leaves no slack on a Pi, which is late by a tenth of that.
             let no_slack = row.response.unwrap().total() == row.timing.deadline.as_nanos();
             assert_eq!(no_slack, name.starts_with("pi") && row.path == "searchFirstWall.touch");
             let trust = if no_slack { Trust::Assumed } else { Trust::Proved };
@@ -50,7 +50,7 @@ fn the_plan_of_the_paper_is_proved_where_it_has_slack() {
     }
 }
 
-/// A microcontroller takes ten times as long, unless somebody says what it takes.
+/// A microcontroller takes ten times as long, unless its budgets are given.
 #[test]
 fn a_slower_target_is_not_proved_before_its_budgets_are_known() {
     let text = include_str!("../../../../plans/wall_following.afp");

@@ -1,5 +1,5 @@
-//! Whatever the text is: no panic, a graph exactly without errors, and every diagnostic can be
-//! shown and helps.
+//! For any text: no panic, a graph exactly if there are no errors, and every diagnostic can be
+//! shown and has a help.
 
 use std::sync::LazyLock;
 
@@ -12,7 +12,6 @@ use crate::{index, outline, support};
 
 static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(support::toolboxes);
 
-/// Every case and every built-in toolbox.
 static TEXTS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let folders = ["tests/errors", "tests/graph", "tests/toolboxes"];
     let cases = folders.iter().flat_map(|folder| support::files(folder));
@@ -54,7 +53,7 @@ fn every_beginning_of_a_toolbox_is_answered() {
             .unwrap(),
     );
     let carbot = afp_toolboxes::ALL.iter().find(|each| each.name == "carbot").unwrap().text;
-    // The devices stand first.
+    // The devices come first.
     let end = carbot.find("actor Forward").unwrap();
     for text in [&devices, &carbot[..end]] {
         let places = text.char_indices().map(|(at, _)| at).filter(|at| at % 3 == 0);
@@ -68,7 +67,7 @@ proptest! {
         examine(&text);
     }
 
-    /// Cuts a piece out of a text and puts one of another in its place.
+    /// Replaces a piece of a text by a piece of another.
     #[test]
     fn any_patchwork_is_answered(
         base in any::<prop::sample::Index>(),

@@ -1,4 +1,4 @@
-//! Formulas about a plan that runs.
+//! Watches of a running plan.
 
 use afp_dsl::Toolboxes;
 use afp_dsl::compile;

@@ -1,4 +1,4 @@
-//! Nothing is decided by the wording of a message: with codes in place of all texts the same is found.
+//! Messages do not influence results: with codes instead of texts the results are equal.
 
 use afp_dsl::Compiled;
 use afp_syntax::diagnostics::show_only_codes;
@@ -6,7 +6,7 @@ use afp_syntax::diagnostics::show_only_codes;
 use crate::errors::stripped;
 use crate::support;
 
-/// All that tools act on: everything but the texts.
+/// Everything that tools use: all except the texts.
 fn found(compiled: &Compiled) -> Vec<String> {
     let one = |each: &afp_syntax::diagnostics::Diagnostic| {
         let notes: Vec<_> = each.note_texts().map(|(span, _)| span).collect();

@@ -1,4 +1,4 @@
-//! Bindings that are a name alone: `goal` for `goal = goal`, or for `goal => goal` where the port is an output.
+//! Short bindings: `goal` for `goal = goal`, or for `goal => goal` if the port is an output.
 
 use std::borrow::Cow;
 
@@ -9,7 +9,7 @@ use afp_syntax::ast::{Bind, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Message, Sought, list, words};
 use afp_syntax::message;
 
-/// The bindings, those alone for outputs as outputs.
+/// The bindings, with short ones for outputs as outputs.
 pub(crate) fn meant<'b>(signature: &Signature, binds: &'b [Bind]) -> Cow<'b, [Bind]> {
     let is_output = |bind: &Bind| {
         let port = &bind.port().text;
@@ -24,7 +24,7 @@ pub(crate) fn meant<'b>(signature: &Signature, binds: &'b [Bind]) -> Cow<'b, [Bi
     binds.iter().map(meant).collect()
 }
 
-/// Reports a name that is no port. It may be meant for one that has no value yet.
+/// Reports a name that is not a port. It may be meant for an unbound port.
 pub(super) fn without_port(
     scope: &Scope<'_>,
     signature: &Signature,
@@ -61,7 +61,7 @@ pub(super) fn without_port(
     }
 }
 
-/// Reports a port that is bound to an entry of its own name, which is not there.
+/// Reports a short binding without an entry of that name.
 pub(super) fn without_entry(bind: &Bind) -> Diagnostic {
     let Name { text: name, span } = bind.port();
     let message = message!("there is no entry '{}' for the port of that name", name);
@@ -70,7 +70,7 @@ pub(super) fn without_entry(bind: &Bind) -> Diagnostic {
         .help(to_write(name, matches!(bind, Bind::Out { .. })))
 }
 
-/// What a port needs behind its name.
+/// The syntax after a port's name.
 fn to_write(port: &str, is_output: bool) -> Message {
     match is_output {
         false => message!("write '{} = ' and the value", port),

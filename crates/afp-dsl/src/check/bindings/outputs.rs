@@ -1,4 +1,4 @@
-//! Outputs: each goes to an entry of its own that the plan may write.
+//! Outputs: each has its own writable entry.
 
 use crate::check::bindings::Ports;
 use crate::check::bindings::generic::{Generic, actual};
@@ -13,7 +13,7 @@ use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words};
 use afp_syntax::message;
 
-/// The outputs that are bound; `None` when something is wrong with one of them.
+/// The bound outputs; `None` if one has an error.
 pub(super) fn check(
     scope: &Scope<'_>,
     signature: &Signature,

@@ -1,4 +1,4 @@
-//! Bindings of what is no port, and what they were meant for.
+//! Bindings of unknown ports, and their likely meanings.
 
 use crate::check::formula::Scope;
 use crate::check::names::offer;
@@ -69,7 +69,7 @@ pub(super) fn report(
     offer(error, &port.text, known, "remove the binding")
 }
 
-/// What is said of an entry of a sub-plan that is no port, in addition to an error.
+/// Explains that an entry of a sub-plan is not a port, in addition to an error.
 pub(super) fn of_inside(
     signature: &Signature,
     name: &str,
@@ -83,7 +83,7 @@ pub(super) fn of_inside(
     Some(error.bare().note(*place, note).help(help))
 }
 
-/// `Assign(a = 7)`, where `a` is an entry: what writes it.
+/// `Assign(a = 7)` with an entry `a`: the correct assignment.
 fn assignment(
     scope: &Scope<'_>,
     signature: &Signature,

@@ -1,7 +1,7 @@
-//! The unit that a bare number lacks.
+//! Missing units of bare numbers.
 //!
-//! Nobody can tell which one was meant. Where the number or the range of what it is for leaves one alone, that is an edit;
-//! otherwise the likely ones are named, and whoever reads chooses.
+//! The intended unit is unknown. If number and range allow only one, the fix is an edit; otherwise
+//! the message lists the likely units.
 
 use super::bracketed;
 use crate::graph::{Formula, Op};
@@ -13,7 +13,7 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
-/// Units in which people write quantities, each with the least and the greatest number that is likely in it.
+/// Common units, each with its likely minimum and maximum number.
 const UNITS: &[(&str, f64, f64)] = &[
     ("cm", 1.0, f64::INFINITY),
     ("m", 0.0, 15.0),
@@ -27,7 +27,7 @@ const UNITS: &[(&str, f64, f64)] = &[
     ("rad/s", 0.01, 6.3),
 ];
 
-/// The units in which a number is likely to be meant; `range` has the least and the greatest value that fit, in SI units.
+/// Likely units of a number; `range` has the minimum and maximum of valid values, in SI units.
 pub(crate) fn likely(number: &str, dimension: Dimension, range: Option<(f64, f64)>) -> Vec<String> {
     let (sign, digits) = match number.strip_prefix('-') {
         Some(digits) => (-1.0, digits.trim_start()),
@@ -60,7 +60,7 @@ pub(crate) fn likely(number: &str, dimension: Dimension, range: Option<(f64, f64
     }
 }
 
-/// A number without a unit at a place, with what may be written there: the only one as an edit.
+/// Reports a number without a unit, with the likely quantities; a single one as an edit.
 pub(crate) fn bare(span: Span, dimension: Dimension, better: &[String]) -> Diagnostic {
     let message = message!("expected {}, found a bare number", Words(a_dimension(dimension)));
     let list = words::list(better.iter().map(String::as_str), "or");
@@ -72,7 +72,8 @@ pub(crate) fn bare(span: Span, dimension: Dimension, better: &[String]) -> Diagn
     }
 }
 
-/// A bare number where a quantity is needed; `range` is that of what it is for, and `None` for an operand.
+/// Reports a bare number in place of a quantity; `range` is that of its target, or `None` for an
+/// operand.
 pub(crate) fn unit_missing(
     formula: &Formula,
     dimension: Dimension,
@@ -87,7 +88,7 @@ pub(crate) fn unit_missing(
     let better: Vec<_> = match literal {
         true => {
             let mut units = likely(text, dimension, range.flatten());
-            // Where it is no operand, which is a difference.
+            // Only outside of operands, which are differences.
             if range.is_some() && units == ["K"] {
                 units.insert(0, "degC".to_owned());
             }
@@ -100,7 +101,7 @@ pub(crate) fn unit_missing(
         }
     };
     let mut error = bare(formula.span, dimension, &better);
-    // Of two operands either may be the wrong one, so that an entry is left to whoever reads.
+    // Either operand may be wrong, so an entry gets no fix.
     if matches!(formula.op(), Op::Entry(_)) {
         error.fix = None;
     }

@@ -1,4 +1,4 @@
-//! Edges as the file has them; an element without braces has an edge that names no state.
+//! Edges as written; an element without braces has an edge without a state.
 
 use crate::check::signature::Signature;
 use afp_syntax::ast::{Edge, Name};
@@ -8,22 +8,22 @@ use afp_syntax::source::Span;
 
 pub(crate) struct WrittenEdge {
     pub name: Name,
-    /// Where it leads.
     pub target: Option<Name>,
-    /// The text behind `fail`, quotes included.
+    /// The text after `fail`, including quotes.
     pub reason: Option<Name>,
-    /// The name, and, behind the last of several, everything that is there.
+    /// The name; for the last of several, the rest of the edge.
     pub span: Span,
 }
 
 impl WrittenEdge {
-    /// Edges, one for each state or event. An edge without a name has an empty one until [`name`] is called.
+    /// Edges, one for each state or event. An edge without a name has an empty name until [`name`]
+    /// is called.
     pub fn read(edges: Vec<Edge>) -> Vec<WrittenEdge> {
         let mut written = Vec::with_capacity(edges.len());
         for edge in edges {
             let end = edge.end();
             let Edge { mut names, arrow, target, reason } = edge;
-            // An arrow of another language has no span.
+            // A foreign arrow has no span.
             let arrow = arrow.or_else(|| target.as_ref().map(|to| to.span.before()));
             let nameless = arrow.map(|span| Name { text: String::new(), span });
             let Some(last) = names.pop().or(nameless) else { continue };
@@ -44,8 +44,8 @@ impl WrittenEdge {
     }
 }
 
-/// Gives an edge without a name the state that it is for: the only one that has to be connected. If there are more,
-/// which is reported, it is for all of them.
+/// Names an edge without a name: the only state that must be connected. If there are several, which
+/// is reported, it is for all.
 pub(crate) fn name(edges: &mut Vec<WrittenEdge>, signature: &Signature, diags: &mut Diagnostics) {
     let Some(at) = edges.iter().position(WrittenEdge::is_nameless) else { return };
     let states: Vec<_> = signature.required().collect();
@@ -63,7 +63,7 @@ pub(crate) fn name(edges: &mut Vec<WrittenEdge>, signature: &Signature, diags: &
     }
 }
 
-/// The error of an edge without a name, if its element does not have exactly one state.
+/// Reports an edge without a name if its element does not have exactly one state.
 fn several_states(
     edge: &WrittenEdge,
     states: &[&str],

@@ -17,7 +17,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// The function of a name; reports one that formulas do not have.
+/// Finds a function by name; reports an unknown one.
 pub(super) fn named(
     scope: &Scope<'_>,
     name: &Name,
@@ -45,7 +45,7 @@ pub(super) fn named(
     function
 }
 
-/// A function of other languages in terms of ours, where it has one operand.
+/// A foreign function with one operand, expressed in this language.
 fn in_terms_of_ours(scope: &Scope<'_>, name: &str, operands: &[ast::Formula]) -> Option<String> {
     let [operand] = operands else { return None };
     let x = scope.text_of(operand.span());
@@ -62,13 +62,12 @@ fn in_terms_of_ours(scope: &Scope<'_>, name: &str, operands: &[ast::Formula]) ->
     })
 }
 
-/// Whether degrees Celsius may be written as an operand: what only compares its operands needs no
-/// zero that means none.
+/// Whether operands may be in degrees Celsius: comparisons do not need an absolute zero.
 pub(super) fn takes_celsius(function: Option<Function>) -> bool {
     function.is_some_and(|function| function.signature() == Signature::Choice)
 }
 
-/// `function(operands)`, which stands at `span`; it takes so many operands.
+/// `function(operands)` at `span`; the number of operands is valid.
 pub(super) fn call(
     scope: &Scope<'_>,
     function: Function,
@@ -101,7 +100,7 @@ pub(super) fn call(
     Some(joined(function, numbers, ty, span))
 }
 
-/// Two operands at a time, from left to right, for functions that take any number of them.
+/// Applies a function to two operands at a time, from left to right.
 fn joined(function: Function, operands: Vec<Formula>, ty: Type, span: Span) -> Formula {
     let call =
         |operands: Vec<Formula>| Formula::new(Op::Call(function), operands, ty.clone(), span);
@@ -113,7 +112,7 @@ fn joined(function: Function, operands: Vec<Formula>, ty: Type, span: Span) -> F
     operands.fold(call(first), |value, operand| call(vec![value, operand]))
 }
 
-/// The one dimension of all operands.
+/// The common dimension of all operands.
 fn common(scope: &Scope<'_>, operands: &[Formula], diags: &mut Diagnostics) -> Option<Dimension> {
     let first = operands.first()?;
     let other = operands.iter().find(|operand| dimension(operand) != dimension(first));
@@ -139,7 +138,7 @@ fn root(dimension: Dimension, span: Span, diags: &mut Diagnostics) -> Option<Typ
     None
 }
 
-/// Whether a function, whose name stands at `span`, takes so many operands; reports it otherwise.
+/// Checks the number of operands of a function whose name is at `span`.
 pub(super) fn takes(
     function: Function,
     operands: &[ast::Formula],
@@ -147,7 +146,7 @@ pub(super) fn takes(
     diags: &mut Diagnostics,
 ) -> Option<()> {
     let (names, takes_more) = function.operands();
-    // Of one value alone there is nothing to choose.
+    // A choice needs at least two operands.
     let is_too_much = !takes_more && operands.len() > names.len();
     if operands.len() >= names.len() && !is_too_much {
         return Some(());

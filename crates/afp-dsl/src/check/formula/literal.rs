@@ -7,7 +7,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::literal::Literal;
 use afp_syntax::source::Span;
 
-/// A number with or without a unit; `inside` tells whether it is an operand.
+/// A number with or without a unit; `inside` if it is an operand.
 pub(super) fn number(
     number: &Name,
     unit: Option<&Name>,
@@ -46,8 +46,8 @@ pub(super) fn number(
     Some(Formula::new(Op::Float(value), [], ty, span))
 }
 
-/// A number behind a minus sign, where the two are more than a number with its sign changed: the
-/// smallest int, and degrees Celsius.
+/// A number after a minus sign, if it is not just a negation: the smallest int, and degrees
+/// Celsius.
 pub(super) fn negative(
     number: &Name,
     unit: Option<&Name>,

@@ -24,16 +24,16 @@ use super::faults::{Faults, Owner, add_remarks};
 
 /// A component, as far as it could be checked.
 pub(super) struct Checked<T> {
-    /// What the graph has of it; `None` where something is wrong.
+    /// The component for the graph; `None` if it has errors.
     pub built: Option<T>,
     pub user: Option<User>,
-    /// What it is made from.
+    /// Its signature.
     pub signature: Option<Rc<Signature>>,
-    /// It in the outline.
+    /// Its draft for the outline.
     pub draft: Component,
 }
 
-/// What the check of a component finds out.
+/// Results of a component's check.
 struct Parts<T> {
     built: Option<T>,
     user: Option<User>,
@@ -41,18 +41,18 @@ struct Parts<T> {
 }
 
 impl<T> Parts<T> {
-    /// Of a component that is made from nothing, or whose parts do not fit.
+    /// Result for a component without a template or with invalid parts.
     fn broken(made: Made) -> Parts<T> {
         Parts { built: None, user: None, made }
     }
 }
 
-/// What the components of one plan are checked against.
+/// The context of a plan's components.
 pub(super) struct Components<'a> {
     pub context: Context<'a>,
-    /// What formulas can name.
+    /// The scope of formulas.
     pub scope: &'a Scope<'a>,
-    /// The elements that edges can lead to.
+    /// Possible targets of edges.
     pub elements: &'a Elements<'a>,
 }
 
@@ -70,7 +70,7 @@ impl Components<'_> {
         })
     }
 
-    /// Checks a component and puts what is written in it into the outline.
+    /// Checks a component and adds it to the outline.
     fn checked<T>(
         &self,
         head: (ComponentKind, Option<ast::Name>),
@@ -136,10 +136,10 @@ impl Components<'_> {
         Parts { built, user, made }
     }
 
-    /// The bindings of an element, and what it is made from once these have chosen a table or an enum.
+    /// The bindings of an element, and its signature after these have selected a table or an enum.
     ///
     /// # Errors
-    /// What is known where they choose none, which is reported.
+    /// What is known without a selection, which is reported.
     fn ports(
         &self,
         signature: Rc<Signature>,
@@ -282,7 +282,7 @@ impl Components<'_> {
         written
     }
 
-    /// The constants that its times are.
+    /// The constants in its times.
     fn timed_by(&self, node: &ast::Guard) -> Vec<EntryId> {
         let names = node.timings().into_iter().filter_map(|time| match time.value()?.kind() {
             ast::FormulaKind::Ref(reference) => reference.name(),
@@ -331,7 +331,7 @@ fn user(name: &str, span: Span, signature: &Signature) -> User {
     User { name: name.to_owned(), span, uses, plan }
 }
 
-/// A computation takes no time, so there is nothing to watch.
+/// Reports supervisors of a computation, which takes no time.
 fn unguarded(node: &ast::Element, diags: &mut Diagnostics) {
     for guard in node.guards() {
         let span = guard.name().map_or_else(|| guard.span(), |name| name.span);
@@ -357,23 +357,22 @@ fn unguarded(node: &ast::Element, diags: &mut Diagnostics) {
     }
 }
 
-/// `every` and `deadline` as written.
 #[derive(Default)]
 struct Written {
-    /// Their values and places, where they can be used.
+    /// Valid values with their places.
     values: [Option<(u64, Span)>; 2],
-    /// The places of the words.
+    /// Places of the keywords.
     words: [Option<Span>; 2],
 }
 
-/// Period and deadline: what is written here, else what the template says. A template's deadline
-/// never outlasts a period that is written here.
+/// Effective period and deadline: as written, else the template's. A template's deadline is limited
+/// to a written period.
 fn effective(template: Option<&Template>, written: &Written, diags: &mut Diagnostics) -> Times {
     let declared = template.map_or(timing::DEFAULT_EVERY, |template| template.every);
     let every = written.values[0].map_or(declared, |(every, _)| every);
     let every_span = written.values[0].map(|(_, span)| span);
     if let Some((deadline, span)) = written.values[1] {
-        // A period that is written and wrong has been reported.
+        // An invalid written period has been reported.
         if written.words[0].is_none() || written.values[0].is_some() {
             timing::deadline_fits(deadline, every, span, diags);
         }

@@ -1,30 +1,28 @@
-//! Where faults of a component go, and what its check says about that.
+//! Handling of a component's faults, and its effect on the check.
 
 use crate::graph::ElementId;
 use crate::outline::{Component, ExitKind};
 use afp_syntax::diagnostics::{Code, Diagnostics};
 
-/// What becomes of faults of a component's inputs.
+/// Handling of faults of a component's inputs.
 #[derive(Clone, Copy)]
 pub(super) enum Faults {
-    /// An `Error` edge takes them.
+    /// An `Error` edge handles them.
     Taken,
-    /// No `Error` edge takes them, but one could.
+    /// No `Error` edge handles them, but one could.
     Unconnected,
     EndPlan,
 }
 
-/// The element that a supervisor stands in.
 #[derive(Clone, Copy)]
 pub(super) struct Owner {
-    /// The element; `None` where there are too many.
+    /// The element; `None` if there are too many.
     pub id: Option<ElementId>,
-    /// What becomes of the supervisor's faults.
+    /// Handling of the supervisor's faults.
     pub faults: Faults,
 }
 
 impl Owner {
-    /// An element as its check has left it.
     pub fn new(id: Option<ElementId>, draft: &Component) -> Owner {
         let mut exits = draft.exits.iter();
         let taken = exits.any(|exit| exit.kind == ExitKind::Error && exit.edge.is_some());
@@ -32,7 +30,8 @@ impl Owner {
     }
 }
 
-/// Adds what was found about bindings. That a conversion may fail is told by where its fault goes.
+/// Adds remarks on bindings. A conversion that may fail is reported depending on its fault
+/// handling.
 pub(super) fn add_remarks(mut remarks: Diagnostics, faults: Faults, diags: &mut Diagnostics) {
     if remarks.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! What happens in a scenario.
+//! Actions of scenarios.
 
 mod named;
 
@@ -15,10 +15,10 @@ use afp_syntax::ast::{self, Bind, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Subject, Words, list};
 use afp_syntax::message;
 
-/// Everything that can happen.
+/// All verbs of actions.
 pub const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
 
-/// How to make a computation bring something.
+/// How to control the result of a computation.
 const COMPUTES: &str = "a computation takes no time; set the entries that it reads";
 
 impl Checker<'_> {
@@ -43,7 +43,7 @@ impl Checker<'_> {
             "idle" => self.idle(&path, diags),
             _ => {
                 let message = message!("there is no action '{}'", verb.text);
-                // Nothing but that is followed by a value.
+                // Only this verb has a value.
                 let sets = node.value().is_some();
                 let known = VERBS.iter().copied().filter(|verb| sets == (*verb == "set"));
                 diags.push(unknown(Code::E0606, verb.span, message, &verb.text, known, ""));
@@ -52,7 +52,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports brackets and durations that an action does not have.
+    /// Reports superfluous parentheses and durations.
     fn only(&self, node: &ast::Action, verb: &Name, diags: &mut Diagnostics) -> Option<()> {
         let timed = ["press", "fail"].contains(&verb.text.as_str());
         if let (Some(time), false) = (node.duration(), timed)
@@ -128,7 +128,7 @@ impl Checker<'_> {
         None
     }
 
-    /// Actors that are to do nothing: one, those of a sub-plan, all.
+    /// Idle actors: one, those of a sub-plan, or all.
     fn idle(&self, path: &ast::Path, diags: &mut Diagnostics) -> Option<Action> {
         let names = path.names();
         let found = match self.paths.find(self.paths.main(), &names) {
@@ -191,7 +191,7 @@ impl Checker<'_> {
         Some(Action::Inject(Injection { component: self.paths.number(found), outcome, outputs }))
     }
 
-    /// Reports that a component has no such state or event.
+    /// Reports an unknown state or event of a component.
     pub(super) fn no_outcome(&self, found: Found, name: &Name) -> Diagnostic {
         let owner = self.paths.name(found);
         let what = if matches!(found.part, Part::Supervisor(_)) { "event" } else { "state" };
@@ -200,7 +200,7 @@ impl Checker<'_> {
         unknown(Code::E0210, name.span, message, &name.text, known, "write another name")
     }
 
-    /// The values that come with an outcome: one for each connected output.
+    /// Values of an outcome: one for each connected output.
     fn outputs(
         &self,
         path: &ast::Path,
@@ -211,7 +211,7 @@ impl Checker<'_> {
     ) -> Option<Vec<(u16, Constant)>> {
         let wanted = match outcome {
             Outcome::Declared(outcome) => self.paths.outputs(found, outcome),
-            // What fails or is late brings nothing.
+            // A fault or a missed deadline has no outputs.
             Outcome::Special => Vec::new(),
         };
         let mut values: Vec<Option<Constant>> = vec![None; wanted.len()];

@@ -1,4 +1,4 @@
-//! What a scenario expects.
+//! Expectations of scenarios.
 
 mod ends;
 mod left;
@@ -46,7 +46,6 @@ impl Checker<'_> {
         }
     }
 
-    /// An element, alone.
     fn element(&self, path: &Path, diags: &mut Diagnostics) -> Option<Found> {
         let names = path.names();
         let (found, rest) =
@@ -78,7 +77,7 @@ impl Checker<'_> {
         self.lasting(path, diags).map(Claim::Interrupt)
     }
 
-    /// An element that takes time, by its number.
+    /// The number of an element that takes time.
     fn lasting(&self, path: &Path, diags: &mut Diagnostics) -> Option<u32> {
         let found = self.element(path, diags)?;
         if let Some(Component::Computation(_)) = self.paths.component(found) {
@@ -146,7 +145,7 @@ impl Checker<'_> {
         })
     }
 
-    /// Reports when no edge leads from one to the other.
+    /// Reports that no edge leads from one element to the other.
     fn joined(
         &self,
         from: Found,
@@ -203,7 +202,7 @@ impl Checker<'_> {
         None
     }
 
-    /// Where the edges out of an element lead, for a help.
+    /// The targets of an element's edges, for a help.
     fn goals(&self, from: Found, path: &Path, causes: &[(Found, Outcome)]) -> Message {
         let home = path.text();
         let home = home.rsplit_once('.').map_or(String::new(), |(home, _)| format!("{home}."));
@@ -224,7 +223,7 @@ impl Checker<'_> {
         }
     }
 
-    /// How an outcome is named behind `by`.
+    /// The spelling of an outcome after `by`.
     fn outcome_name(&self, from: Found, found: Found, outcome: Outcome) -> String {
         let name = match outcome {
             Outcome::Declared(index) => self.paths.outcomes(found)[usize::from(index)],
@@ -236,8 +235,8 @@ impl Checker<'_> {
         }
     }
 
-    /// What a path behind `by` means where `from` is left: a supervisor of it or of its plan, one of
-    /// its states, or a path from the outermost plan.
+    /// The meaning of a path after `by` for leaving `from`: a supervisor of it or of its plan, one
+    /// of its states, or a path from the outermost plan.
     fn cause(
         &self,
         from: Found,
@@ -283,7 +282,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The outcome behind a component's name, if one is named.
+    /// The outcome after a component's name, if named.
     fn outcome(
         &self,
         found: Found,
@@ -322,7 +321,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports that there is nothing of a name, neither in the plan nor of the robot.
+    /// Reports a name that is unknown in the plan and the robot.
     fn no_fact(&self, path: &Path, error: Diagnostic) -> Diagnostic {
         let (written, facts) = (path.text(), self.facts());
         let facts = || facts.iter().map(String::as_str);
@@ -380,7 +379,7 @@ impl Checker<'_> {
     }
 }
 
-/// A target as a claim names it.
+/// The spelling of a target in a claim.
 fn written(target: &ClaimTarget) -> String {
     target.keyword().map_or_else(Path::text, str::to_owned)
 }

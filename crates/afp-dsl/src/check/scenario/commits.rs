@@ -1,4 +1,4 @@
-//! Claims about what is written: `commit of entry by component`.
+//! Claims about writes: `commit of entry by component`.
 
 use super::Checker;
 use super::paths::Part;
@@ -26,7 +26,7 @@ impl Checker<'_> {
         Some(Claim::Commit { of: entry.map(|(entry, _)| entry), by: author })
     }
 
-    /// An entry that can change, by its number.
+    /// The number of a writable entry.
     fn writable(&self, path: &Path, diags: &mut Diagnostics) -> Option<u32> {
         let (number, plan, id) =
             self.paths.entry(&path.names()).map_err(|error| diags.push(*error)).ok()?;
@@ -44,7 +44,7 @@ impl Checker<'_> {
         Some(number)
     }
 
-    /// A component that writes something, or that very entry.
+    /// A component that writes entries, or the given one.
     fn author(
         &self,
         path: &Path,
@@ -60,7 +60,7 @@ impl Checker<'_> {
             diags.push(Diagnostic::new(Code::E0604, more.span, message).help(help));
             return None;
         }
-        // A sub-plan also gives its own entries their first values.
+        // A sub-plan also initialises its own entries.
         let anything = matches!(self.paths.component(found), Some(Component::SubPlan(_)));
         let written = self.paths.written(found);
         let writes = match entry {

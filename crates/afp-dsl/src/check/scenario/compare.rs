@@ -1,4 +1,4 @@
-//! What is compared in a scenario: entries and signals, with values and with one another.
+//! Comparisons in scenarios: entries and signals, with values and with each other.
 
 use super::Checker;
 use crate::check::convert::compared_as;
@@ -10,17 +10,15 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Names that stand together.
 pub(super) struct Named {
     pub names: Vec<Name>,
     pub text: String,
     pub span: Span,
 }
 
-/// What names mean that can be compared.
+/// The meaning of comparable names.
 pub(super) struct Compared {
     pub subject: Subject,
-    /// The type of its values.
     pub ty: Type,
     pub declared: Option<Span>,
 }
@@ -97,7 +95,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A value of a type, or something else that has one while the plan runs.
+    /// A value of a type, or a name with a value at run time.
     fn operand(
         &self,
         left: &Named,
@@ -136,7 +134,7 @@ impl Checker<'_> {
     }
 
     /// # Errors
-    /// There is no such entry.
+    /// The entry is unknown.
     fn entry(&self, named: &Named) -> Result<(Compared, EntryKind), Box<Diagnostic>> {
         let (number, plan, id) = self.paths.entry(&named.names)?;
         let entry = &self.paths.graph.plan(plan).entries[id.index()];

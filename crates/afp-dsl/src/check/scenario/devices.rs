@@ -1,4 +1,4 @@
-//! What is pressed in a scenario, and what fails.
+//! Pressed controls and injected faults of scenarios.
 
 use super::Checker;
 use super::robot::{Found, Robot, with_devices};
@@ -12,7 +12,6 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words, list};
 use afp_syntax::message;
 
 impl Checker<'_> {
-    /// What is pressed.
     pub(super) fn control(&self, path: &Path, diags: &mut Diagnostics) -> Option<Part> {
         let names = path.names();
         let written = path.text();
@@ -43,7 +42,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What fails, how, and how much.
+    /// The fault with its amount.
     pub(super) fn failure(
         &self,
         path: &Path,
@@ -61,7 +60,7 @@ impl Checker<'_> {
         Some(Failure { fault: Part::new(&device.name, &fault.name), amount })
     }
 
-    /// How much of a fault, where it is said.
+    /// The amount of a fault, if given.
     fn amount(
         &self,
         fault: &Fault,
@@ -94,10 +93,10 @@ impl Checker<'_> {
     }
 }
 
-/// What can be done where the robot has nothing of a kind.
+/// The help for a robot without such parts.
 const NOTHING: &str = "remove the line";
 
-/// A device and the fault that a path names.
+/// The device and the fault of a path.
 fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault), Box<Diagnostic>> {
     let (names, written) = (path.names(), path.text());
     let error = match (robot.find::<Fault>(&names), names.as_slice()) {
@@ -107,7 +106,7 @@ fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault),
             let message = message!("'{}' has no part '{}'", whole, more.text);
             Diagnostic::new(Code::E0606, more.span, message).help(message!("write '{}'", whole))
         }
-        // Which device it is of is always said, as on the command line.
+        // The device is required, as on the command line.
         (Found::Row(device, ..), [name]) => {
             let message = message!("what fails as '{}' is not said", written);
             let help = message!("write '{}.{}'", device.name, name.text);

@@ -1,4 +1,4 @@
-//! The lines of a scenario, and those that count from one of its moments.
+//! The lines of a scenario, and lines relative to its moments.
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
@@ -57,7 +57,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A moment of the run, and the lines that count from it.
+    /// A moment of the run, and its relative lines.
     fn moment(
         &self,
         node: Option<&ast::Claim>,
@@ -72,7 +72,7 @@ impl Checker<'_> {
         let from = u16::try_from(scenario.moments.len()).ok().map(MomentId);
         let lines = readable(lines, diags);
         let stretch = Stretch::of(&lines, from, diags);
-        // What is wrong with the lines is reported where the claim is wrong, too.
+        // Errors in the lines are also reported if the claim has one.
         let mut rest = Scenario::quiet("", scenario.graph.clone(), "", stretch.until);
         let into = if claim.is_some() { &mut *scenario } else { &mut rest };
         into.moments.extend(claim.map(|claim| Moment {
@@ -127,7 +127,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports bare numbers of a place in a world, of which people think in metres, and with them that of a heading.
+    /// Reports bare numbers of a place in a world, likely in metres, together with its heading.
     fn places_without_a_unit(&self, formulas: &[ast::Formula]) -> Vec<Diagnostic> {
         let dimension = |name: &str| Dimension::named(name).unwrap_or_default();
         let bare = |(at, formula): (usize, &ast::Formula)| {
@@ -149,14 +149,14 @@ impl Checker<'_> {
             Some((at, convert::bare(span, dimension("angle"), &better)))
         };
         let found: Vec<_> = formulas.iter().enumerate().filter_map(bare).collect();
-        // A heading alone is checked with the others.
+        // A bare heading is checked separately.
         let of_place = found.iter().any(|(at, _)| *at < 2);
         found.into_iter().filter(|_| of_place).map(|(_, error)| error).collect()
     }
 }
 
-/// The lines that can be read; those that count from a moment are looked at one by one. Where a bracket alone is missing the
-/// line is whole, and its edit is withdrawn if something else is wrong.
+/// The parsed lines; relative lines are checked one by one. If only a closing brace is missing, the
+/// line is complete; its edit is withdrawn if there are other errors.
 pub(super) fn readable(mut lines: Vec<Line>, diags: &Diagnostics) -> Vec<Line> {
     let brackets = OnceCell::new();
     let is_bracket = |place: &Span| {
@@ -172,7 +172,7 @@ pub(super) fn readable(mut lines: Vec<Line>, diags: &Diagnostics) -> Vec<Line> {
     lines
 }
 
-/// Whether a line is about a time.
+/// Whether a line has a time.
 fn counts(line: &Line) -> bool {
     matches!(line.kind(), LineKind::Stimulus(..) | LineKind::Expect { .. } | LineKind::Until(_))
 }
@@ -184,7 +184,7 @@ fn not_here(line: &Line) -> Diagnostic {
         .help("write it in the scenario's own braces, outside of those of 'from'")
 }
 
-/// Whether of two lines one alone can stand.
+/// Whether two lines exclude each other.
 fn excludes(one: &str, other: &str) -> bool {
     let both = |a, b| [(a, b), (b, a)].contains(&(one, other));
     one == other || both("seed", "over seeds") || both("world", "over worlds")

@@ -1,4 +1,4 @@
-//! Records what the names in a scenario mean, of a sound plan or a broken one, line by line.
+//! Records the names in a scenario of a valid or invalid plan, line by line.
 
 use super::compare::Named;
 use super::resolve::{Cause, Part, Resolver, Walk};
@@ -13,7 +13,7 @@ use afp_syntax::ast::{
     self, Bind, ClaimKind, ClaimTarget, Formula, FormulaKind, Line, LineKind, Name, Path,
 };
 
-/// Records what the names in lines mean; `plan` is that of the scenario, where there is one.
+/// Records the names in lines; `plan` is the scenario's, if known.
 pub(super) fn record(
     context: Context<'_>,
     resolver: &Resolver<'_>,
@@ -131,7 +131,7 @@ impl NameRecorder<'_> {
         self.plan.is_some_and(found)
     }
 
-    /// A component and, perhaps, one of its states or events.
+    /// A component with an optional state or event.
     fn component(&self, path: &Path) {
         let names = path.names();
         match self.plan {
@@ -167,7 +167,7 @@ impl NameRecorder<'_> {
         }
     }
 
-    /// Records the names that a walk has found, and gives those behind them.
+    /// Records the resolved names, and returns the rest.
     fn trail<'n, T>(&self, walk: &Walk<T>, names: &'n [Name]) -> &'n [Name] {
         for (name, definition) in names.iter().zip(&walk.trail) {
             self.record.definition(name.span, *definition);
@@ -194,7 +194,7 @@ impl NameRecorder<'_> {
         self.unknown(rest);
     }
 
-    /// The outputs that come with an injected state or event.
+    /// The outputs of an injected state or event.
     fn outputs(&self, path: &Path, binds: &[Bind]) {
         let Some(plan) = self.plan else { return };
         let walk = self.resolver.component(plan, &path.names());
@@ -210,7 +210,7 @@ impl NameRecorder<'_> {
         }
     }
 
-    /// How much there is of a fault.
+    /// The amount of a fault.
     fn amounts(&self, path: &Path, binds: &[Bind]) {
         let Found::Row(_, fault, _) = self.robot.find::<Fault>(&path.names()) else { return };
         for bind in binds {
@@ -224,7 +224,6 @@ impl NameRecorder<'_> {
         }
     }
 
-    /// An entry, or a signal.
     fn compared(&self, names: &[Name]) {
         match !self.is_entry(names) && self.is_of_robot(names) {
             true => self.signal(names),
@@ -232,7 +231,7 @@ impl NameRecorder<'_> {
         }
     }
 
-    /// What something is compared with: an entry, a signal, or a value.
+    /// The other side of a comparison: an entry, a signal, or a value.
     fn operand(&self, formula: &Formula) {
         let named = match formula.kind() {
             FormulaKind::Ref(reference) => Named::of_ref(&reference).names,
@@ -245,12 +244,10 @@ impl NameRecorder<'_> {
         }
     }
 
-    /// Whether the robot has something of that name.
     fn is_of_robot(&self, names: &[Name]) -> bool {
         !matches!(self.robot.find::<Signal>(names), Found::Nothing)
     }
 
-    /// A signal of the robot.
     fn signal(&self, names: &[Name]) {
         let found = self.robot.find::<Signal>(names);
         let rest = self.robot.record::<Signal>(names, self.record);
@@ -274,7 +271,7 @@ impl NameRecorder<'_> {
         names.iter().for_each(|name| self.record.unknown(name.span));
     }
 
-    /// A value, which may be made of constants of the plan.
+    /// A value, which may use constants of the plan.
     fn formula(&self, formula: &Formula) {
         let none = Indices::default();
         let head = self.plan.map(|plan| &self.context.program.plans[plan]);

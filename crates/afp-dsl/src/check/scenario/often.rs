@@ -1,11 +1,11 @@
-//! How often a claim has to hold: `never`, `always`, `once`, `3 times`.
+//! Required counts of a claim: `never`, `always`, `once`, `3 times`.
 
 use crate::scenario::{Claim, Wanted};
 use afp_syntax::ast::Bound;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 
-/// How often a claim has to hold; reports words that do not fit it.
+/// The required count of a claim; reports invalid words.
 pub(super) fn wanted(
     never: bool,
     claim: &Claim,

@@ -1,6 +1,7 @@
-//! One scenario over several seeds and worlds: `over seeds 0..20`, `over worlds "a.toml", "b.toml"`.
+//! One scenario over several seeds and worlds: `over seeds 0..20`, `over worlds "a.toml",
+//! "b.toml"`.
 //!
-//! Each run is a scenario of its own, whose name says which one it is.
+//! Each run is a separate scenario with its seed and world in the name.
 
 use std::ops::Range;
 
@@ -11,10 +12,10 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
-/// So many runs are asked of one scenario at most.
+/// Maximum number of runs per scenario.
 const MOST: u64 = 1000;
 
-/// What a scenario is over.
+/// Seeds and worlds of a scenario.
 #[derive(Default)]
 pub(super) struct Over {
     seeds: Option<(Range<u64>, Span)>,
@@ -22,7 +23,6 @@ pub(super) struct Over {
 }
 
 impl Over {
-    /// Reads the lines of a scenario.
     pub fn of(lines: &[Line], diags: &mut Diagnostics) -> Over {
         let mut over = Over::default();
         for line in lines {
@@ -37,17 +37,17 @@ impl Over {
                         worlds.extend(expanded(file, room, diags));
                         worlds
                     });
-                    // What is over no worlds is told already.
+                    // An empty list of worlds has been reported.
                     over.worlds = Some((worlds, line.span())).filter(|(it, _)| !it.is_empty());
                 }
                 _ => {}
             }
         }
-        // With too many it is run once: what is told is enough.
+        // Too many runs become one, since the error is reported.
         if over.check_number(diags) { over } else { Over::default() }
     }
 
-    /// Whether there are not too many runs; reports it.
+    /// Checks the number of runs.
     fn check_number(&self, diags: &mut Diagnostics) -> bool {
         let (seeds, worlds) = (self.seeds.as_ref(), self.worlds.as_ref());
         let count = |(range, _): &(Range<u64>, Span)| range.end - range.start;
@@ -66,7 +66,7 @@ impl Over {
         fits
     }
 
-    /// The runs of a scenario; as it is where it is over nothing.
+    /// The runs of a scenario; unchanged without `over`.
     pub fn runs(self, scenario: Scenario) -> Vec<Scenario> {
         let seeds = match &self.seeds {
             Some((seeds, _)) => seeds.clone().map(Some).collect(),
@@ -84,7 +84,6 @@ impl Over {
     }
 }
 
-/// One run of a scenario.
 fn one(scenario: &Scenario, world: Option<String>, seed: Option<u64>) -> Scenario {
     let mut run = scenario.clone();
     let seed_text = seed.map(|seed| format!("seed {seed}"));
@@ -106,7 +105,7 @@ fn range(first: &Name, behind: &Name, diags: &mut Diagnostics) -> Option<Range<u
     Some(range)
 }
 
-/// What is told of a range without numbers; `before` stands before one.
+/// Reports an empty range; `before` is the text before a number.
 fn empty(what: &str, range: &Range<u64>, before: &str, place: Span) -> Diagnostic {
     let message = message!("no {} lies in '{}{}..{}'", Words(what), before, range.start, range.end);
     Diagnostic::new(Code::E0224, place, message).help(message!(
@@ -116,7 +115,7 @@ fn empty(what: &str, range: &Range<u64>, before: &str, place: Span) -> Diagnosti
     ))
 }
 
-/// The worlds that a text stands for, not more than `most`: `random:7..9` is `random:7` and `random:8`.
+/// The worlds of a text, at most `most`: `random:7..9` is `random:7` and `random:8`.
 fn expanded(file: &Name, most: usize, diags: &mut Diagnostics) -> Vec<String> {
     let text = unquote(file, diags);
     let range = text.split_once(':').and_then(|(kind, range)| {
@@ -135,7 +134,7 @@ mod tests {
     use super::*;
     use afp_syntax::ast::Item;
 
-    /// Of how many seeds and worlds a scenario is over, and what is told.
+    /// Numbers of seeds, worlds and diagnostics.
     fn over(lines: &str) -> (usize, usize, usize) {
         let mut diags = Diagnostics::default();
         let tree =

@@ -1,4 +1,4 @@
-//! The components and entries of a scenario's plan as the graph has them, sub-plans unfolded.
+//! The components and entries of a scenario's plan as in the graph, with all sub-plans.
 
 use super::resolve::{Resolver, Walk};
 use crate::graph::{Component, ElementId, EntryId, Graph, Plan, PlanId, SupervisorId, Target};
@@ -10,29 +10,28 @@ use afp_syntax::source::Span;
 
 pub(super) use super::resolve::Part;
 
-/// The plan of a scenario, by names.
 pub(super) struct Paths<'a> {
     pub graph: &'a Graph,
     pub names: Resolver<'a>,
-    /// The plan, by its index in [`crate::check::Program::plans`].
+    /// The plan's index in [`crate::check::Program::plans`].
     pub main: usize,
 }
 
-/// One plan or sub-plan at its place among the numbers.
+/// One plan or sub-plan with its first numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Instance {
-    /// by its index in [`crate::check::Program::plans`].
+    /// Index in [`crate::check::Program::plans`].
     plan_index: usize,
     plan: PlanId,
-    /// The number of its first element.
+    /// Number of its first element.
     components: u32,
-    /// The number of its first entry.
+    /// Number of its first entry.
     entries: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Found {
-    /// The plan that it belongs to.
+    /// Its plan.
     pub instance: Instance,
     pub part: Part,
 }
@@ -42,7 +41,7 @@ impl Instance {
         self.plan
     }
 
-    /// The plan, by its index in [`crate::check::Program::plans`].
+    /// The plan's index in [`crate::check::Program::plans`].
     pub fn plan_index(self) -> usize {
         self.plan_index
     }
@@ -61,7 +60,7 @@ impl<'a> Paths<'a> {
         self.graph.plan(instance.plan)
     }
 
-    /// The component that the first of the names mean, and the names that are left.
+    /// Finds the component of the first names; returns the remaining names.
     ///
     /// # Errors
     /// There is none.
@@ -73,7 +72,7 @@ impl<'a> Paths<'a> {
         self.arrived(instance, self.names.component(instance.plan_index, names), names)
     }
 
-    /// What a walk from `instance` has led to, and the names that are left.
+    /// Finds the end of a walk from `instance`; returns the remaining names.
     ///
     /// # Errors
     /// There is nothing.
@@ -88,7 +87,7 @@ impl<'a> Paths<'a> {
         Ok((Found { instance, part }, &names[walk.trail.len().min(names.len())..]))
     }
 
-    /// The plan in which a walk from `instance` has ended.
+    /// The plan at the end of a walk from `instance`.
     fn enter<T>(&self, mut instance: Instance, walk: &Walk<T>) -> Instance {
         for id in &walk.entered {
             let element = &self.plan(instance).elements[id.index()];
@@ -104,7 +103,7 @@ impl<'a> Paths<'a> {
         instance
     }
 
-    /// The entry that names mean, by its number, and where it is declared.
+    /// The number of the named entry, and its declaration.
     ///
     /// # Errors
     /// There is none.
@@ -115,12 +114,12 @@ impl<'a> Paths<'a> {
         Ok((instance.entries + u32::from(index), instance.plan, EntryId(index)))
     }
 
-    /// The components of the outermost plan, each with its dotted name.
+    /// Components of the outermost plan with dotted names.
     pub fn components(&self) -> impl Iterator<Item = (String, Found)> {
         self.components_of(self.main())
     }
 
-    /// The sub-plan that an element is.
+    /// The sub-plan of an element.
     pub fn inside(&self, found: Found) -> Option<Instance> {
         let Part::Element(id) = found.part else { return None };
         let names = &self.names;
@@ -129,7 +128,7 @@ impl<'a> Paths<'a> {
         Some(self.enter(found.instance, &walk))
     }
 
-    /// The components of a plan, each with its dotted name in that.
+    /// Components of a plan with dotted names relative to it.
     pub fn components_of(&self, instance: Instance) -> impl Iterator<Item = (String, Found)> {
         let plan = self.plan(instance);
         let elements = (0..).map(ElementId).zip(&plan.elements);
@@ -145,7 +144,6 @@ impl<'a> Paths<'a> {
         supervisors.chain(elements)
     }
 
-    /// The number of a component.
     pub fn number(&self, found: Found) -> u32 {
         let plan = self.plan(found.instance);
         found.instance.components
@@ -155,7 +153,7 @@ impl<'a> Paths<'a> {
             }
     }
 
-    /// The entries that the component's outputs lead to, by their numbers.
+    /// The numbers of entries that the component's outputs write.
     pub fn written(&self, found: Found) -> Vec<u32> {
         let plan = self.plan(found.instance);
         let outputs = match found.part {
@@ -173,7 +171,6 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// The names of an element's own supervisors.
     pub fn supervisors(&self, found: Found) -> Vec<&'a str> {
         let Part::Element(id) = found.part else { return Vec::new() };
         let plan = self.plan(found.instance);
@@ -181,7 +178,7 @@ impl<'a> Paths<'a> {
         own.map(|id| plan.supervisors[id.index()].name.as_str()).collect()
     }
 
-    /// What an element is made from; `None` for a supervisor.
+    /// The component of an element; `None` for a supervisor.
     pub fn component(&self, found: Found) -> Option<Component> {
         match found.part {
             Part::Element(id) => Some(self.plan(found.instance).elements[id.index()].component),
@@ -189,22 +186,20 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// The names of the component's states or events.
     pub fn outcomes(&self, found: Found) -> Vec<&'a str> {
         self.names.outcomes(found.instance.plan_index, found.part)
     }
 
-    /// What its undeclared outcome is called.
+    /// The name of its implicit outcome.
     pub fn special(&self, found: Found) -> &'static str {
         Resolver::special(found.part)
     }
 
-    /// A state or event of that name.
     pub fn outcome(&self, found: Found, name: &str) -> Option<Outcome> {
         self.names.outcome(found.instance.plan_index, found.part, name)
     }
 
-    /// Where a state or event leads; `None` where it is not connected.
+    /// The target of a state or event; `None` if unconnected.
     pub fn target(&self, found: Found, outcome: Outcome) -> Option<Target> {
         let plan = self.plan(found.instance);
         match (found.part, outcome) {
@@ -219,7 +214,7 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// The same while an element of the same plan is active, which may react by itself.
+    /// The target while an element of the same plan is active, which may react itself.
     pub fn target_at(&self, found: Found, outcome: Outcome, active: Found) -> Option<Target> {
         let own = self.target(found, outcome);
         let (Part::Supervisor(id), Part::Element(element)) = (found.part, active.part) else {
@@ -233,7 +228,7 @@ impl<'a> Paths<'a> {
         here.or(own)
     }
 
-    /// Where an outcome leads, whatever is active.
+    /// All possible targets of an outcome.
     pub fn targets(&self, found: Found, outcome: Outcome) -> Vec<Target> {
         let own = self.target(found, outcome);
         let Part::Supervisor(id) = found.part else { return own.into_iter().collect() };
@@ -242,7 +237,7 @@ impl<'a> Paths<'a> {
         own.into_iter().chain(others).collect()
     }
 
-    /// Where the edge of an outcome stands, or else the component.
+    /// The place of an outcome's edge, or else of the component.
     pub fn edge(&self, found: Found, outcome: Outcome) -> Span {
         let plan = self.plan(found.instance);
         let (edges, span) = match found.part {
@@ -262,7 +257,7 @@ impl<'a> Paths<'a> {
         edge.unwrap_or(span)
     }
 
-    /// Everything that can end an element: itself, its supervisors, the global ones of its plan.
+    /// All causes that can end an element: itself, its supervisors, the global ones of its plan.
     pub fn causes(&self, element: Found) -> Vec<(Found, Outcome)> {
         let Part::Element(id) = element.part else { return Vec::new() };
         let plan = self.plan(element.instance);
@@ -279,7 +274,8 @@ impl<'a> Paths<'a> {
         .collect()
     }
 
-    /// The first supervisor of that name that another element of the same plan has, and that element's name.
+    /// The first supervisor with that name of another element of the same plan, and that element's
+    /// name.
     pub fn of_another(&self, element: Found, name: &str) -> Option<(Span, &'a str)> {
         let plan = self.plan(element.instance);
         plan.elements.iter().find_map(|other| {
@@ -289,7 +285,7 @@ impl<'a> Paths<'a> {
         })
     }
 
-    /// The outputs of a component that an outcome carries and that are connected, see [`outputs`].
+    /// The connected outputs of an outcome, see [`outputs`].
     pub fn outputs(
         &self,
         found: Found,
@@ -307,8 +303,7 @@ fn event(outcome: Outcome) -> Option<u16> {
     }
 }
 
-/// The outputs of a component that an outcome carries and that are connected, each with its index
-/// and the type of its value.
+/// The connected outputs of an outcome, each with its index and its value's type.
 pub(super) fn outputs(
     graph: &Graph,
     plan: PlanId,
@@ -349,7 +344,7 @@ pub(super) fn outputs(
         .collect()
 }
 
-/// The component that a trace knows under a dotted path.
+/// The component with a dotted path in the trace.
 pub(super) fn by_path(graph: &Graph, path: &str) -> Option<(PlanId, Part)> {
     let mut id = graph.main;
     let mut names = path.split('.');

@@ -1,7 +1,6 @@
-//! What the dotted names of a scenario mean: components and entries of its plan and of the plans
-//! inside.
+//! Resolves dotted names of a scenario: components and entries of its plan and of sub-plans.
 //!
-//! This needs names alone, so it works on plans with errors too.
+//! It needs only names, so it works on plans with errors.
 
 use crate::check::names::offer;
 use crate::check::signature::{Signature, SignatureKind};
@@ -15,49 +14,47 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Sought, list};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// How many paths a help lists at most.
+/// Maximum number of paths in a help.
 const MOST_PATHS: usize = 6;
 
-/// The plans of a program, by names.
 #[derive(Clone, Copy)]
 pub(super) struct Resolver<'a> {
     pub program: &'a Program<'a>,
     pub members: &'a [Members],
 }
 
-/// An element or a supervisor of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Element(ElementId),
     Supervisor(SupervisorId),
 }
 
-/// What names lead to.
+/// Result of resolving names.
 pub(super) struct Walk<T> {
-    /// The declarations that the names stand for, one for each, as far as they were found.
+    /// The declarations of the names, as far as found.
     pub trail: Vec<Span>,
-    /// The elements that were entered, each a sub-plan of the plan before it.
+    /// The entered elements, each a sub-plan of the previous plan.
     pub entered: Vec<ElementId>,
-    /// The plan in which it ends, by its place in [`Program::plans`].
+    /// Index of the last plan in [`Program::plans`].
     pub plan: usize,
-    /// What is there; or why nothing is.
+    /// The target, or the error.
     pub end: Result<T, Box<Diagnostic>>,
 }
 
 /// Where the cause of a transition was found.
 pub(super) enum Cause {
-    /// A state of the element that is left.
+    /// A state of the left element.
     Own(Outcome),
-    /// One of its supervisors; names from the second on are left.
+    /// One of its supervisors; names from the second on remain.
     Near(Part),
-    /// Something in its plan.
+    /// In its plan.
     Inside(Walk<Part>),
-    /// Something seen from the outermost plan.
+    /// From the outermost plan.
     Outside(Walk<Part>),
 }
 
 impl<'a> Resolver<'a> {
-    /// The component that the first of the names mean; the trail tells how many of them.
+    /// The component of the first names; the trail has their number.
     pub fn component(&self, plan: usize, names: &[Name]) -> Walk<Part> {
         let mut walk = Walk { trail: Vec::new(), entered: Vec::new(), plan, end: Err(empty()) };
         for (at, name) in names.iter().enumerate() {
@@ -83,7 +80,7 @@ impl<'a> Resolver<'a> {
         walk
     }
 
-    /// The entry that names mean, by its place.
+    /// The index of the named entry.
     pub fn entry(&self, plan: usize, names: &[Name]) -> Walk<usize> {
         let mut walk = Walk { trail: Vec::new(), entered: Vec::new(), plan, end: Err(empty()) };
         for (at, name) in names.iter().enumerate() {
@@ -115,8 +112,9 @@ impl<'a> Resolver<'a> {
         walk
     }
 
-    /// What names behind `by` mean where an element is left for a target: one of its states, a supervisor of it or of
-    /// its plan, or a path from the outermost plan. Of two supervisors of one name the one with such an edge is meant.
+    /// The meaning of names after `by` for leaving an element for a target: one of its states, a
+    /// supervisor of it or of its plan, or a path from the outermost plan. Of two supervisors with
+    /// equal names, the one with such an edge is meant.
     pub fn cause(
         &self,
         main: usize,
@@ -172,7 +170,6 @@ impl<'a> Resolver<'a> {
         })
     }
 
-    /// An element or global supervisor of a plan.
     fn part(&self, plan: usize, name: &str) -> Option<Part> {
         let members = &self.members[plan];
         if let Some(index) = members.indices.find(name) {
@@ -182,7 +179,6 @@ impl<'a> Resolver<'a> {
         u16::try_from(index).ok().map(SupervisorId).map(Part::Supervisor)
     }
 
-    /// A local supervisor of an element.
     pub fn local(&self, plan: usize, element: Part, name: &str) -> Option<Part> {
         let Part::Element(id) = element else { return None };
         let members = &self.members[plan];
@@ -204,7 +200,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The plan that an element is made from, by its place.
+    /// The index of an element's plan.
     pub fn sub_plan(&self, plan: usize, element: ElementId) -> Option<usize> {
         let member = self.member(plan, Part::Element(element))?;
         match self.signature(plan, Part::Element(element))?.kind {
@@ -213,7 +209,6 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// What a component is made from.
     pub fn signature(&self, plan: usize, part: Part) -> Option<&'a Signature> {
         let members = &self.members[plan];
         let signature = match part {
@@ -223,14 +218,13 @@ impl<'a> Resolver<'a> {
         signature?.as_deref()
     }
 
-    /// The names of a component's states or events.
     pub fn outcomes(&self, plan: usize, part: Part) -> Vec<&'a str> {
         let signature = self.signature(plan, part);
         let outcomes = signature.map_or(&[][..], |signature| &signature.outcomes);
         outcomes.iter().map(|outcome| &**outcome).collect()
     }
 
-    /// What its undeclared outcome is called.
+    /// The name of its implicit outcome.
     pub fn special(part: Part) -> &'static str {
         match part {
             Part::Element(_) => edges::ERROR,
@@ -238,7 +232,6 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// A state or event of that name.
     pub fn outcome(&self, plan: usize, part: Part, name: &str) -> Option<Outcome> {
         let declared = self.outcomes(plan, part).iter().position(|known| *known == name);
         match declared {
@@ -247,7 +240,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Says what a name means that stands for a state or event.
+    /// Records the meaning of a state's or event's name.
     pub fn record_outcome(&self, plan: usize, part: Part, name: &Name, record: &Recorder) {
         let signature = self.signature(plan, part);
         let declared = match self.outcome(plan, part, &name.text) {
@@ -289,7 +282,7 @@ impl<'a> Resolver<'a> {
         Box::new(offer(error, &name.text, known, "write another name"))
     }
 
-    /// Two names in one: an element, and something in it.
+    /// Two names without a dot: an element, and a part of it.
     fn without_point(&self, plan: usize, name: &str) -> Option<String> {
         (0..).zip(&self.members[plan].elements).find_map(|(index, element)| {
             let (id, outer) = (ElementId(index), &element.name.as_ref()?.text);
@@ -300,8 +293,7 @@ impl<'a> Resolver<'a> {
         })
     }
 
-    /// The paths of elements with that name behind them, where `holds` says so of an element and of the plan that it is
-    /// made from.
+    /// The paths of elements extended by that name, if `holds` accepts an element and its plan.
     fn one_deeper(
         &self,
         plan: usize,
@@ -335,7 +327,7 @@ impl<'a> Resolver<'a> {
     }
 }
 
-/// Offers paths in the place of a name: the only one as an edit.
+/// Suggests paths instead of a name: a single one as an edit.
 fn meant(error: Diagnostic, mut paths: Vec<String>) -> Diagnostic {
     paths.truncate(MOST_PATHS);
     let error = error.help(message!("write {}", list(paths.iter().map(String::as_str), "or")));
@@ -349,7 +341,7 @@ fn is_called(member: &Component, name: &str) -> bool {
     member.name.as_ref().is_some_and(|known| known.text == name)
 }
 
-/// What is said of a path without a name: nothing, since the grammar has said it.
+/// An empty path, which the parser has reported.
 fn empty() -> Box<Diagnostic> {
     let error = Diagnostic::new(Code::E0602, Span::default(), "the name is missing");
     Box::new(error.help("write the name of an element or supervisor"))

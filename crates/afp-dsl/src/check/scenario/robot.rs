@@ -1,6 +1,6 @@
-//! The words of the robot: its devices, what can be pressed, how they fail, what they signal.
+//! The robot's parts: devices, controls, faults, signals.
 //!
-//! They come from the toolboxes that the plan uses, and from the robot's own.
+//! They come from the plan's toolboxes and the robot's own.
 
 use crate::check::Program;
 use crate::index::{Recorder, Word};
@@ -9,42 +9,40 @@ use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Arg, list};
 use afp_syntax::source::Span;
 
-/// The devices that a scenario can name.
 pub(super) struct Robot<'a> {
     pub devices: Vec<&'a Device>,
 }
 
-/// Something that a device has under a name.
+/// A named part of a device.
 pub(super) trait Row: Sized {
     fn rows(device: &Device) -> &[Self];
     fn name(&self) -> &str;
-    /// Where it is declared; `None` for what needs no declaration.
+    /// Its declaration; `None` for an implicit part.
     fn span(&self) -> Option<Span>;
 }
 
-/// What names lead to.
+/// Result of a search.
 pub(super) enum Found<'a, T> {
-    /// A row of a device, and how many of the names say it.
+    /// A part of a device, and the number of names used.
     Row(&'a Device, &'a T, usize),
-    /// A device, named by the first name, and nothing of it.
+    /// Only a device, by the first name.
     Device(&'a Device),
-    /// The first name alone, which several devices have.
+    /// A first name that several devices have.
     Several(Vec<&'a Device>),
     Nothing,
 }
 
 impl<'a> Robot<'a> {
-    /// Those that the plans of a program know.
+    /// The devices known to a program's plans.
     pub fn of(program: &'a Program<'_>) -> Robot<'a> {
         Robot { devices: program.toolboxes.devices(&program.linked) }
     }
 
-    /// The device of that name.
     pub fn device(&self, name: &str) -> Option<&'a Device> {
         self.devices.iter().copied().find(|device| device.name == name)
     }
 
-    /// What names lead to: a device and something of it, or something that one device alone has.
+    /// Finds a device's part, or a part with a unique name.
     pub fn find<T: Row>(&self, names: &[Name]) -> Found<'a, T> {
         let Some(first) = names.first() else { return Found::Nothing };
         let device = self.device(&first.text);
@@ -67,7 +65,7 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// How everything of a kind can be named: by its own name where no other device has it.
+    /// All names of a kind: unqualified if unique.
     pub fn words<T: Row>(&self) -> Vec<String> {
         let rows = || {
             self.devices
@@ -82,7 +80,7 @@ impl<'a> Robot<'a> {
         rows().map(word).collect()
     }
 
-    /// Says what the names of something mean, and gives those that are left.
+    /// Records the names of a part, and returns the rest.
     pub fn record<'n, T: Row>(&self, names: &'n [Name], record: &Recorder) -> &'n [Name] {
         let of_row = |name: &Name, row: &T| match row.span() {
             Some(span) => record.definition(name.span, span),
@@ -114,7 +112,7 @@ impl<'a> Robot<'a> {
     }
 }
 
-/// Names of something that several devices have, each with its device, for people.
+/// Qualified names of a part that several devices have, for messages.
 pub(super) fn with_devices(devices: &[&Device], name: &str) -> Arg {
     let full: Vec<_> = devices.iter().map(|device| format!("{}.{name}", device.name)).collect();
     list(full.iter().map(String::as_str), "or")

@@ -1,4 +1,4 @@
-//! What is expected of the robot's signals.
+//! Expectations about the robot's signals.
 
 use super::Checker;
 use super::compare::{Compared, Named};
@@ -12,23 +12,23 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, list};
 use afp_syntax::message;
 
 impl Checker<'_> {
-    /// Whether names can only mean something of the robot.
+    /// Whether names can only be of the robot.
     pub(super) fn is_of_robot(&self, names: &[Name]) -> bool {
         let known = names.first().is_some_and(|name| self.robot.device(&name.text).is_some());
         known || !matches!(self.robot.find::<Signal>(names), Found::Nothing)
     }
 
-    /// Whether names mean one signal.
+    /// Whether names are a signal.
     pub(super) fn is_signal(&self, names: &[Name]) -> bool {
         matches!(self.robot.find::<Signal>(names), Found::Row(..))
     }
 
-    /// How the signals can be named that are true or false.
+    /// The names of boolean signals.
     pub(super) fn facts(&self) -> Vec<String> {
         self.robot.words::<Signal>()
     }
 
-    /// A signal that is true.
+    /// A signal that must be true.
     pub(super) fn fact_of_robot(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
         let Compared { subject, ty, .. } = self.measured(&Named::of_path(path), diags)?;
         if ty != Type::Bool {
@@ -45,7 +45,7 @@ impl Checker<'_> {
         Some(Claim::Compare { left: subject, comparison, right })
     }
 
-    /// A signal, or a part of one.
+    /// A signal, or a part of it.
     pub(super) fn measured(&self, named: &Named, diags: &mut Diagnostics) -> Option<Compared> {
         let Named { names, text: written, span } = named;
         let error = match self.robot.find::<Signal>(names) {
@@ -98,7 +98,7 @@ impl Checker<'_> {
     }
 }
 
-/// How a signal is written to be compared: with each of its parts, where it has some.
+/// The spellings of a signal for comparisons, with each of its parts.
 fn written_as(signal: &Signal) -> Vec<String> {
     match Field::of(signal.ty) {
         [] => vec![signal.name.clone()],
@@ -106,7 +106,7 @@ fn written_as(signal: &Signal) -> Vec<String> {
     }
 }
 
-/// The part of a signal that names behind it mean, and the type of its values.
+/// The part of a signal after its name, and its type.
 fn field(
     named: &Named,
     signal: &Signal,
@@ -147,7 +147,7 @@ fn field(
 }
 
 impl Field {
-    /// What the values of the parts are: metres, or radians.
+    /// The unit of the parts: metres or radians.
     fn dimension(self) -> Dimension {
         match self {
             Field::X | Field::Y | Field::Distance => Dimension { length: 1, ..Dimension::NONE },

@@ -1,4 +1,4 @@
-//! When things happen and are looked at.
+//! Times of actions and checks.
 
 use crate::check::timing;
 use crate::scenario::{DEFAULT_UNTIL, MomentId, Window};
@@ -8,17 +8,17 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// The whole of a run, or what of it comes after one of its moments: what times in it count from, and when it ends.
+/// A whole run, or its part after a moment: the origin of its times, and its end.
 pub(super) struct Stretch {
-    /// What times count from; the start of the run without one.
+    /// The moment that times are relative to; the run's start if `None`.
     pub from: Option<MomentId>,
-    /// When it ends, nanoseconds.
+    /// The end, nanoseconds.
     pub until: u64,
     until_span: Option<Span>,
 }
 
 impl Stretch {
-    /// The stretch that some lines are about.
+    /// The stretch of some lines.
     pub fn of(lines: &[Line], from: Option<MomentId>, diags: &mut Diagnostics) -> Stretch {
         let written = lines.iter().find_map(|line| match line.kind() {
             LineKind::Until(time) => time,
@@ -27,18 +27,17 @@ impl Stretch {
         let time = written
             .as_ref()
             .and_then(|written| timing::time(written, &[usual_end(written, lines)], diags));
-        // How long a run is after a moment that is still to come is not known.
+        // The remaining time after a future moment is unknown.
         let otherwise = from.map_or(DEFAULT_UNTIL, |_| u64::MAX);
         let until_span = written.map(|written| written.span());
         Stretch { from, until: time.unwrap_or(otherwise), until_span }
     }
 
-    /// When it ends, where that is written.
+    /// The end, if written.
     pub fn written_end(&self) -> Option<u64> {
         self.until_span.map(|_| self.until)
     }
 
-    /// An instant of the scenario.
     pub fn instant(&self, written: &Formula, diags: &mut Diagnostics) -> Option<u64> {
         let at = timing::time(written, &[self.usual(written)], diags)?;
         if at > self.until {
@@ -48,7 +47,7 @@ impl Stretch {
         Some(at)
     }
 
-    /// The unit in which an instant is most likely meant: in seconds it may lie behind the end.
+    /// The likely unit of an instant: in seconds it may be after the end.
     fn usual(&self, written: &Formula) -> &'static str {
         if as_seconds(written) > self.until as f64 { "ms" } else { "s" }
     }
@@ -93,7 +92,7 @@ impl Stretch {
             }
             let written = bound.time()?;
             let usual: &[&str] = match word.as_str() {
-                // Answers take some milliseconds, and what a robot does some seconds.
+                // Reactions take milliseconds, and motions take seconds.
                 "within" if as_seconds(&written) <= 60e9 => &["ms", "s"],
                 "within" => &["ms"],
                 _ => &[self.usual(&written)],
@@ -101,7 +100,7 @@ impl Stretch {
             let time = timing::time(&written, usual, diags)?;
             match word.as_str() {
                 "after" => window.from = time,
-                // What happens at that very instant is not before it.
+                // That instant itself is excluded.
                 "before" => window.to = window.to.min(time.saturating_sub(1)),
                 _ => length = Some(time),
             }
@@ -125,7 +124,7 @@ impl Stretch {
     }
 }
 
-/// The unit in which an end is most likely meant: in seconds it may lie before what is still to come.
+/// The likely unit of an end: in seconds it may be before a later line.
 fn usual_end(written: &Formula, lines: &[Line]) -> &'static str {
     let times = lines.iter().flat_map(|line| match line.kind() {
         LineKind::Stimulus(at, _) => at.into_iter().collect(),
@@ -135,13 +134,13 @@ fn usual_end(written: &Formula, lines: &[Line]) -> &'static str {
         }
         _ => Vec::new(),
     });
-    // What is wrong with them is reported where they stand.
+    // Errors in the times are reported at their lines.
     let mut unread = Diagnostics::default();
     let latest = times.filter_map(|time| timing::time(&time, &["s"], &mut unread)).max();
     if as_seconds(written) < latest.unwrap_or(0) as f64 { "min" } else { "s" }
 }
 
-/// A bare number as if it were seconds, nanoseconds.
+/// A bare number as seconds, in nanoseconds.
 fn as_seconds(written: &Formula) -> f64 {
     match written.kind() {
         FormulaKind::Number { number, .. } => number.text.parse::<f64>().unwrap_or_default() * 1e9,

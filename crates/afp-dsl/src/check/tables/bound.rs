@@ -1,4 +1,4 @@
-//! The table that a component reads, and what becomes of its values.
+//! The bound table of a component, and its values.
 
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -18,11 +18,11 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// What a component is made from, and its bindings.
+/// The signature and bindings of a component.
 type Bound<'b> = (Rc<Signature>, Cow<'b, [Bind]>);
 
-/// For a component that reads a table the ports with its columns, and the bindings but that of the table; for
-/// every other one what it has. `None` where no table is bound, which is reported.
+/// For a component that reads a table, the ports with its columns and the bindings except the
+/// table's; unchanged for others. `None` without a table, which is reported.
 pub(in crate::check) fn read_by<'b>(
     context: Context<'_>,
     signature: &Rc<Signature>,
@@ -56,7 +56,7 @@ pub(in crate::check) fn read_by<'b>(
     Some((found?, Cow::Owned(rest)))
 }
 
-/// Reports another table.
+/// Reports a second table.
 fn again(
     other: &Bind,
     first: Option<&Bind>,
@@ -75,7 +75,7 @@ fn again(
     });
 }
 
-/// The table that a binding names.
+/// The table of a binding.
 fn named<'c>(
     context: Context<'c>,
     scope: &Scope<'_>,
@@ -134,7 +134,7 @@ fn named<'c>(
     }
 }
 
-/// What to write where a table belongs.
+/// The help for a missing table.
 fn some_table(context: Context<'_>) -> Message {
     match context.file.tables.first() {
         Some(table) => message!("the name of a table, such as '{}'", table.name),
@@ -157,7 +157,7 @@ fn without_table(
         })
 }
 
-/// Reports an index that no table has.
+/// Reports a constant index outside of the table.
 pub(in crate::check) fn fits(
     scope: &Scope<'_>,
     signature: &Signature,

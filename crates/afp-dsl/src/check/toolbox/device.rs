@@ -1,4 +1,4 @@
-//! One device: what can be pressed, how it fails, what it signals.
+//! One device: controls, faults, signals.
 
 use super::ports::{Declared, Site, Values};
 use crate::check::names::{DeclaredNames, unknown};
@@ -15,13 +15,13 @@ use afp_syntax::source::Span;
 #[derive(Default)]
 pub(super) struct Devices {
     names: DeclaredNames,
-    /// Where `stop` stands.
+    /// The place of `stop`.
     stop: Option<Span>,
     pub all: Vec<Device>,
 }
 
 impl Devices {
-    /// Reads a device; one without a name is left out.
+    /// Reads a device; skips one without a name.
     pub fn read(&mut self, node: &ast::Device, site: &Site<'_>, diags: &mut Diagnostics) {
         let Some(name) = name(node, site, diags) else { return };
         let kind = node.kind();
@@ -99,7 +99,6 @@ impl Devices {
     }
 }
 
-/// The names of the parts of a device.
 #[derive(Default)]
 struct Scopes {
     controls: DeclaredNames,
@@ -107,7 +106,6 @@ struct Scopes {
     signals: DeclaredNames,
 }
 
-/// What a device is called.
 fn name(node: &ast::Device, site: &Site<'_>, diags: &mut Diagnostics) -> Option<Name> {
     match (node.kind(), node.name()) {
         (DeviceKind::Robot, named) => {
@@ -161,7 +159,7 @@ fn fault(
     Some(Fault { doc: node.doc(), amount, span: Some(name.span), name: name.text })
 }
 
-/// How much of a fault there can be; `None` where that cannot be read.
+/// The amount of a fault; `None` if it is invalid.
 fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Option<Amount> {
     let name = node.name();
     let ty = node.ty().and_then(|ty| site.types.resolve(&ty, site.record, diags));
@@ -209,7 +207,7 @@ fn signal(
     Some(Signal { doc: node.doc(), ty, truth, span: name.span, name: name.text })
 }
 
-/// A type of the language, or one that logs and pictures show.
+/// A type of the language, or a type for logs and pictures.
 fn signal_type(node: &ast::Type, site: &Site<'_>, diags: &mut Diagnostics) -> Option<SignalType> {
     let factors = node.factors();
     let word = match factors.as_slice() {

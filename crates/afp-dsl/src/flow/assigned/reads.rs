@@ -1,28 +1,28 @@
-//! Where the formulas of a plan read entries.
+//! The reads of entries in a plan's formulas.
 
 use crate::flow::view::{Node, View};
 use crate::graph::{EntryId, Formula, Supervisor};
 use afp_syntax::source::Span;
 
-/// One place that reads an entry.
+/// A read of an entry.
 #[derive(Clone, Copy)]
 pub(super) struct Read<'a> {
-    /// The element at whose entry the formula is evaluated; `None` for a global supervisor, whose
-    /// inputs are needed when the plan starts.
+    /// The element that is entered when the formula is evaluated; `None` for a global supervisor,
+    /// whose inputs are read at the plan's start.
     pub node: Option<Node>,
-    /// The supervisor that reads, if it is one.
+    /// The reading supervisor, if any.
     pub supervisor: Option<&'a Supervisor>,
     /// The entry in the formula.
     pub span: Span,
 }
 
-/// All reads, by entry, in the order of the text.
+/// All reads, by entry, in source order.
 pub(super) struct Reads<'a> {
     by_entry: Vec<Vec<Read<'a>>>,
 }
 
 impl<'a> Reads<'a> {
-    /// The reads of everything that can be reached.
+    /// The reads of everything reachable.
     pub fn of(view: &View<'a>) -> Reads<'a> {
         let mut reads = Reads { by_entry: vec![Vec::new(); view.plan.entries.len()] };
         for (node, element) in view.elements() {
@@ -46,7 +46,6 @@ impl<'a> Reads<'a> {
         }
     }
 
-    /// The places that read an entry.
     pub fn of_entry(&self, entry: EntryId) -> &[Read<'a>] {
         &self.by_entry[entry.index()]
     }

@@ -1,4 +1,4 @@
-//! Says that an entry may have no value, with a path on which nothing writes it.
+//! Reports entries that may lack a value, with a path without a write.
 
 use super::reads::{Read, Reads};
 use crate::flow::dataflow;
@@ -9,14 +9,14 @@ use crate::types::Type;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
 use afp_syntax::message;
 
-/// Greatest number of other reads that one diagnostic shows.
+/// Maximum number of other reads in a diagnostic.
 const MAX_READS: usize = 3;
-/// Greatest number of steps of a path that are printed.
+/// Maximum number of printed steps of a path.
 const MAX_STEPS: usize = 12;
-/// Greatest number of ways that are looked for in one plan; each costs a search.
+/// Maximum number of path searches per plan, since each is expensive.
 const MAX_WAYS: usize = 64;
 
-/// What mends an entry without a value; what is of an object's type has none that could be written down.
+/// The fix for an entry without a value; objects have no literals.
 fn remedy(Entry { name, ty, .. }: &Entry, otherwise: &'static str) -> Message {
     match ty {
         Type::Object(_) => otherwise.into(),
@@ -24,7 +24,6 @@ fn remedy(Entry { name, ty, .. }: &Entry, otherwise: &'static str) -> Message {
     }
 }
 
-/// Collects what is found in one plan.
 pub(super) struct Report<'a, 'b> {
     view: &'a View<'b>,
     unset: &'a mut [Vec<Option<String>>; 2],
@@ -33,7 +32,6 @@ pub(super) struct Report<'a, 'b> {
 }
 
 impl<'a, 'b> Report<'a, 'b> {
-    /// A report without findings.
     pub fn new(
         view: &'a View<'b>,
         unset: &'a mut [Vec<Option<String>>; 2],
@@ -42,7 +40,7 @@ impl<'a, 'b> Report<'a, 'b> {
         Report { view, unset, diags, ways: 0 }
     }
 
-    /// Reports the places that read an entry before it has a value.
+    /// Reports the early reads of an entry.
     pub fn reads(
         &mut self,
         entry: EntryId,
@@ -79,7 +77,7 @@ impl<'a, 'b> Report<'a, 'b> {
         self.diags.push(found.help(remedy(declared, otherwise)));
     }
 
-    /// Notes that a sub-plan on the path does not surely write the entry.
+    /// Adds that a sub-plan on the path may not write the entry.
     fn blame(&self, found: Diagnostic, at: usize, entry: EntryId) -> Diagnostic {
         let Cause::State(id, state) = self.view.edges[at].cause else { return found };
         let element = &self.view.plan.elements[id.index()];
@@ -96,7 +94,7 @@ impl<'a, 'b> Report<'a, 'b> {
         }
     }
 
-    /// Takes down that an `out` entry may have no value at an ending, and warns of it.
+    /// Records that an `out` entry may lack a value at an ending, and warns.
     pub fn endings(&mut self, entry: EntryId, lacks: [bool; 2], writes: &[u32]) {
         let entries = &self.view.plan.entries;
         let declared = &entries[entry.index()];
@@ -120,7 +118,7 @@ impl<'a, 'b> Report<'a, 'b> {
         );
     }
 
-    /// A path to a node on which nothing writes an entry, in words, with its edges.
+    /// A path to a node without a write of an entry, as text, with its edges.
     fn path(&mut self, goal: Node, writes: &[u32]) -> (String, Vec<usize>) {
         self.ways += 1;
         if self.ways > MAX_WAYS {

@@ -1,4 +1,4 @@
-//! Cycles of computations that never end once they are taken, whatever they choose by.
+//! Endless cycles of computations, whatever their inputs.
 
 use std::collections::BTreeSet;
 
@@ -6,9 +6,9 @@ use super::{decided, holding};
 use crate::flow::view::{Cause, Edge, View};
 use crate::graph::{EntryId, Formula};
 
-/// Whether the computations of a cycle choose as they have chosen: nothing on it writes what they read, so none fails that has
-/// not failed at first. Where two of them read the same entry, their choices may contradict each other, so that the cycle is
-/// never taken.
+/// Whether the computations of a cycle repeat their choices: nothing on it writes their inputs, so
+/// none fails later. If two of them read the same entry, their choices may contradict each other,
+/// and the cycle may be impossible.
 pub(super) fn never_change(view: &View<'_>, cycle: &[Edge]) -> bool {
     let outputs = cycle.iter().flat_map(|edge| view.may_write(edge.cause));
     let written: BTreeSet<EntryId> = outputs.map(|output| output.entry).collect();

@@ -1,4 +1,4 @@
-//! Loops of computations that count further than one step may go.
+//! Loops of computations that exceed the edges of a step.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,42 +14,40 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words, lis
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Edges that may be taken in one step.
+/// Maximum number of edges per step.
 const MOST: i64 = MAX_TRANSITIONS_PER_STEP as i64;
 
-/// The loops of a plan.
 pub(super) struct Loops<'a, 'b> {
     view: &'a View<'b>,
-    /// What never changes.
+    /// The constant values.
     constants: &'a Known,
-    /// How many edges may still be followed, so that the effort grows with the plan alone.
+    /// Remaining edges of the search, so that its cost is linear in the plan.
     room: usize,
     found: Vec<Loop>,
 }
 
-/// A loop that a counter bounds.
+/// A loop with a counter.
 struct Loop {
     id: ElementId,
     counter: Counter,
     component: u32,
     /// Its nodes, each with the number of edges to the counter.
     nodes: Vec<(Node, usize)>,
-    /// The number of its edges, if there is only one way round.
+    /// Number of its edges, if there is only one path around.
     round: Option<usize>,
-    /// The counters within it.
+    /// Counters within it.
     others: Vec<ElementId>,
-    /// How many edges it takes; every number above the limit of a step counts as the limit.
+    /// Number of edges that it takes, capped at the limit of a step.
     taken: i64,
 }
 
 impl<'a, 'b> Loops<'a, 'b> {
-    /// No loops yet, of a plan in which these values never change.
     pub fn new(view: &'a View<'b>, constants: &'a Known) -> Self {
         Loops { view, constants, room: 100 * MOST as usize, found: Vec::new() }
     }
 
-    /// Adds a cycle, if a counter bounds it and it is known how often it goes round. `members` are its nodes, `inner` its
-    /// edges, `component` numbers the cycles.
+    /// Adds a cycle if a counter bounds it and its number of rounds is known. `members` are its
+    /// nodes, `inner` its edges, `component` numbers the cycles.
     pub fn add(&mut self, members: &[Node], inner: &[&Edge], component: &[u32]) {
         let view = self.view;
         let bounding = view.counters().bounding(view, inner.iter().copied());
@@ -70,8 +68,9 @@ impl<'a, 'b> Loops<'a, 'b> {
         self.found.push(Loop { id, counter, component, nodes, round, others, taken });
     }
 
-    /// Warns of loops that take more edges than a step allows, by themselves or behind others. Returns how many edges the
-    /// plan takes from its start to an ending; after a warning the limit, so that its users do not warn again.
+    /// Warns of loops that take more edges than a step allows, alone or in sequence. Returns the
+    /// number of edges from the plan's start to an ending; after a warning the limit, so that its
+    /// users do not warn again.
     pub fn check(&self, component: &[u32], diags: &mut Diagnostics) -> i64 {
         let view = self.view;
         let sub_plans = view.elements().filter_map(|(node, element)| {
@@ -84,12 +83,12 @@ impl<'a, 'b> Loops<'a, 'b> {
         }
         let loops = self.found.iter().map(|it| (it.component, it.taken));
         let inner = sub_plans.iter().map(|(node, _, taken)| (component[*node], *taken));
-        // A loop with too many edges is reported by itself.
+        // A loop with too many edges is reported separately.
         let taken_in = loops.chain(inner).filter(|(_, taken)| *taken < MOST).collect();
         let ways = Ways::of(view, component, &taken_in);
         let mut is_reported = false;
         for each in &self.found {
-            // At least one leads out.
+            // At least one edge leads out.
             let others = ways.through(each.component, each.nodes.iter().copied()).max(1);
             if let Some((message, better)) = each.report(view, others) {
                 let element = &view.plan.elements[each.id.index()];
@@ -116,7 +115,7 @@ impl<'a, 'b> Loops<'a, 'b> {
         if is_reported { MOST } else { ways.to_end(view).clamp(0, MOST) }
     }
 
-    /// Warns of events that resume behind such loops and may come in the same step.
+    /// Warns of events that resume after such loops and may come in the same step.
     fn held(&self, diags: &mut Diagnostics) {
         let view = self.view;
         let elements = &view.plan.elements;
@@ -155,8 +154,8 @@ impl<'a, 'b> Loops<'a, 'b> {
         }
     }
 
-    /// How many edges a cycle with several ways round takes, followed from the counter that bounds it, all that its
-    /// computations decide being known.
+    /// Number of edges of a cycle with several paths, followed from its counter if all decisions
+    /// are known.
     fn followed(
         &mut self,
         members: &[Node],
@@ -185,7 +184,7 @@ impl<'a, 'b> Loops<'a, 'b> {
 }
 
 impl Loop {
-    /// Returns message and help, if it and the `others`, which lead to it and on from it, are too many edges.
+    /// Message and help if it and the `others`, before and after it, are too many edges.
     fn report(&self, view: &View<'_>, others: i64) -> Option<(Message, Message)> {
         let room = (MOST - others).max(0);
         if self.taken <= room {
@@ -216,7 +215,7 @@ impl Loop {
         Some((message, better))
     }
 
-    /// How often it goes round with so many edges each time.
+    /// The number of rounds with this many edges each.
     fn goes_round(&self, view: &View<'_>, edges: usize, others: i64) -> Message {
         let name = &view.plan.elements[self.id.index()].name;
         let rounds = rounds(view, self.id, &self.counter);
@@ -245,12 +244,12 @@ impl Loop {
     }
 }
 
-/// How often a counter goes round.
+/// The number of rounds of a counter.
 fn rounds(view: &View<'_>, id: ElementId, counter: &Counter) -> i64 {
     counter.limit.saturating_sub(counters::entered(view, id, counter.entry))
 }
 
-/// The nodes of a cycle, each with the number of edges to another one where there is only one way round.
+/// The nodes of a cycle, each with the number of edges to another node if there is only one path.
 fn distances(members: &[Node], inner: &[&Edge], to: Node) -> Vec<(Node, usize)> {
     if inner.len() != members.len() {
         return members.iter().map(|node| (*node, 0)).collect();
@@ -264,7 +263,7 @@ fn distances(members: &[Node], inner: &[&Edge], to: Node) -> Vec<(Node, usize)> 
     nodes
 }
 
-/// How a counter goes round so often at most.
+/// How to limit a counter to this many rounds.
 fn better(view: &View<'_>, (id, counter): (ElementId, &Counter), rounds: i64) -> Message {
     let entered = counters::entered(view, id, counter.entry);
     if entered < 0 && counter.limit <= rounds {

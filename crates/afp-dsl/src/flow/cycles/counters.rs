@@ -1,8 +1,9 @@
-//! How often cycles may be taken within one step, because a counter on them reaches its limit.
+//! Bounds of cycles within one step, by counters.
 //!
-//! A counter is a declared computation such as `Count` whose first state adds one to an entry while that is less than a
-//! known limit. The entry begins with known values. On a cycle where only the first state writes that entry, the loop goes
-//! on at most as often as the limit is above the least of them. Cycles within that cycle have their own counters.
+//! A counter is a declared computation such as `Count` whose first state adds one to an entry while
+//! it is less than a known limit. The entry has known initial values. If only the first state
+//! writes that entry on a cycle, the number of rounds is at most the limit minus the least value.
+//! Inner cycles have their own counters.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,29 +17,28 @@ use crate::graph::{Element, ElementId, EntryId, EntryKind, Op, Output};
 use crate::toolbox::case::{Counting, counting};
 use crate::types::Constant;
 
-/// The state in which a counter goes on.
+/// The state in which a counter continues.
 const AGAIN: u16 = 0;
-/// A cycle that is taken so often does not end within one step.
+/// A cycle with this many rounds does not end within one step.
 pub(super) const MOST_ROUNDS: u64 = MAX_TRANSITIONS_PER_STEP as u64;
-/// How deep cycles with counters are looked into that lie in others.
+/// Maximum nesting of cycles with counters.
 const DEEPEST: u32 = 8;
 
 impl Counter {
-    /// How often it says `Again` at most before it says `Done`.
+    /// Maximum number of `Again` before `Done`.
     fn most(&self) -> u64 {
         u64::try_from(self.limit.saturating_sub(self.least)).unwrap_or(0)
     }
 }
 
 impl View<'_> {
-    /// The counters of the plan.
     pub fn counters(&self) -> &Counters {
         self.counters.get_or_init(|| Counters::of(self))
     }
 }
 
 impl Counters {
-    /// Finds them among the elements that can be reached.
+    /// Finds the counters among reachable elements.
     pub fn of(view: &View<'_>) -> Counters {
         let elements = (0..).map(ElementId).zip(&view.plan.elements);
         let reached = elements.filter(|(id, _)| view.reached[id.index()]);
@@ -55,12 +55,11 @@ impl Counters {
         Counters(known.collect())
     }
 
-    /// Whether a computation is one of them.
     pub(super) fn has(&self, id: ElementId) -> bool {
         self.0.contains_key(&id)
     }
 
-    /// The counters by which a cycle goes on.
+    /// The counters by which a cycle continues.
     pub(super) fn on<'e>(
         &self,
         cycle: impl Iterator<Item = &'e Edge>,
@@ -72,8 +71,7 @@ impl Counters {
         cycle.filter_map(goes_on).collect()
     }
 
-    /// Those of the counters on a cycle that bound how often it is taken: nothing on it but the `Again` of counters writes
-    /// what they count in.
+    /// The counters that bound a cycle: only the `Again` of counters writes their entries on it.
     pub(super) fn bounding<'e>(
         &self,
         view: &View<'_>,
@@ -93,7 +91,7 @@ impl Counters {
         found
     }
 
-    /// Whether a counter lets a cycle be taken fewer times than a step has edges.
+    /// Whether a counter bounds a cycle below the edges of a step.
     pub(super) fn end<'e>(
         &self,
         view: &View<'_>,
@@ -103,7 +101,7 @@ impl Counters {
     }
 }
 
-/// The entry that a counter reads, and how it counts.
+/// The entry of a counter, and its counting.
 fn count_of(view: &View<'_>, element: &Element) -> Option<(EntryId, Counting)> {
     let counting = counting(view.cases(element)?)?;
     match element.inputs.get(usize::from(counting.value))?.op() {
@@ -121,7 +119,7 @@ fn counted(view: &View<'_>, element: &Element) -> Option<EntryId> {
     element.outputs.iter().any(is_next).then_some(entry)
 }
 
-/// The counter that goes on forever, since it does not write what it counts in, and that entry.
+/// A counter that never ends, since it does not write its entry, and that entry.
 pub(super) fn forgotten<'v>(view: &View<'v>, cause: Cause) -> Option<(&'v str, &'v str)> {
     let Cause::State(id, AGAIN) = cause else { return None };
     let element = &view.plan.elements[id.index()];
@@ -131,7 +129,7 @@ pub(super) fn forgotten<'v>(view: &View<'v>, cause: Cause) -> Option<(&'v str, &
     (writable && !is_written).then_some((&element.name, &entry.name))
 }
 
-/// How far a counter counts, where that is written.
+/// The limit of a counter, if known.
 fn limit(view: &View<'_>, element: &Element) -> Option<i64> {
     let (_, counting) = count_of(view, element)?;
     whole(view.constant(element.inputs.get(usize::from(counting.limit))?)?)
@@ -144,8 +142,8 @@ fn whole(value: Constant) -> Option<i64> {
     }
 }
 
-/// The least values that entries begin with that are counted in, where all that is written to them is known: their values at the
-/// start of the plan, and those that declared computations write.
+/// Least initial values of counted entries, if all their writes are known: values at the plan's
+/// start, and writes of declared computations.
 fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryId, i64> {
     let at_start = decided::at_start(view);
     let mut values: BTreeMap<EntryId, Vec<i64>> = BTreeMap::new();
@@ -176,8 +174,8 @@ fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryI
     values.into_iter().map(|(entry, values)| (entry, least(values))).collect()
 }
 
-/// The least value with which the flow may come to a `Count` from outside of its loop: one that is known to be written, and
-/// by nothing else on the way.
+/// Least value at which the flow can enter a `Count` from outside of its loop: a known write,
+/// without other writes on the path.
 pub(super) fn entered(view: &View<'_>, id: ElementId, entry: EntryId) -> i64 {
     let comes = |from: Vec<Node>| comes_unwritten(view, from, id.index(), entry);
     let declared = &view.plan.entries[entry.index()];
@@ -196,7 +194,8 @@ pub(super) fn entered(view: &View<'_>, id: ElementId, entry: EntryId) -> i64 {
     at_start.into_iter().chain(written).min().unwrap_or(0)
 }
 
-/// Whether the flow may come from some nodes to another one before anything but a counter that goes on writes an entry.
+/// Whether the flow can reach a node from others without a write of an entry, except by continuing
+/// counters.
 fn comes_unwritten(view: &View<'_>, from: Vec<Node>, to: Node, entry: EntryId) -> bool {
     let mut known = vec![false; view.nodes()];
     let mut waiting = from;
@@ -217,8 +216,8 @@ fn comes_unwritten(view: &View<'_>, from: Vec<Node>, to: Node, entry: EntryId) -
     false
 }
 
-/// The states of a declared computation that write an output, each with the whole number that it writes if that is known;
-/// not the state in which a counter goes on.
+/// The states of a declared computation that write an output, with the written integer if known;
+/// without the counter's continuing state.
 fn assigned<'v>(
     view: &'v View<'_>,
     element: &'v Element,
@@ -237,11 +236,12 @@ fn assigned<'v>(
     })
 }
 
-/// Takes the edges away by which counters go on, cycle by cycle, those within others too, unless a node may be entered
-/// more than `most` times. Tells how often each node may be entered in one step; `None` where a cycle is left.
+/// Removes the edges by which counters continue, cycle by cycle, including inner ones, unless a
+/// node may be entered more than `most` times. Returns how often each node may be entered in one
+/// step; `None` if a cycle remains.
 ///
-/// `edges` take no time and stand in the order of their nodes, which are less than the length of `component`: the
-/// strongly connected components.
+/// `edges` take no time and are sorted by their nodes, which are less than the length of
+/// `component`, the strongly connected components.
 pub(crate) fn unwind(
     view: &View<'_>,
     component: Vec<u32>,
@@ -251,8 +251,8 @@ pub(crate) fn unwind(
     unwound(view, component, edges, most).0
 }
 
-/// An entry by which cycles that take no time are bounded, and which may be less than it counts from where somebody outside
-/// writes it: of the plan that runs, without a range that keeps it from that.
+/// A counted entry that an external write can set below its initial value: an entry of the running
+/// plan without a sufficient range.
 pub(crate) fn open_to_writes<'v>(view: &View<'v>) -> Option<&'v str> {
     let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
     let mut quick: Vec<Edge> = reached.filter(|edge| is_quick(view, edge)).copied().collect();
@@ -266,7 +266,7 @@ pub(crate) fn open_to_writes<'v>(view: &View<'v>) -> Option<&'v str> {
     open.map(|entry| entry.name.as_str())
 }
 
-/// What [`unwind`] does; tells the counters, too.
+/// Like [`unwind`], and returns the counters.
 fn unwound(
     view: &View<'_>,
     mut component: Vec<u32>,
@@ -296,15 +296,15 @@ fn unwound(
     (times, counters)
 }
 
-/// The strongly connected components of a graph whose edges stand in the order of its nodes.
+/// Strongly connected components of a graph with sorted edges.
 pub(crate) fn components(nodes: usize, edges: &[Edge]) -> Vec<u32> {
     let first = strong::first(nodes, edges.iter().map(|edge| edge.from));
     let targets: Vec<u32> = edges.iter().map(|edge| edge.to as u32).collect();
     strong::components(&first, &targets)
 }
 
-/// For each component with counters that bound it how often its nodes may be entered while it is not left, and those
-/// counters; `room` says how often that may be.
+/// For each component with counters, the maximum number of entries of its nodes before it is left,
+/// and the counters; `room` is the limit.
 fn bounded(
     view: &View<'_>,
     component: &[u32],

@@ -1,7 +1,7 @@
 //! The states of declared computations and readers of tables whose inputs are known.
 //!
-//! Known are constants, the values that entries have at the start of a plan, what every user of a sub-plan binds to an
-//! input of it, and what these computations write from those.
+//! Known values are constants, initial values, bindings that all users of a sub-plan share, and
+//! results of these computations.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,13 +12,13 @@ use crate::table::Table;
 use crate::toolbox::case::reached;
 use crate::types::Constant;
 
-/// Values of entries; those of others are not known.
+/// Known values of entries.
 pub(super) type Known = BTreeMap<EntryId, Constant>;
 
-/// Greatest number of entries of a plan that are followed; with more none is.
+/// Maximum number of tracked entries; beyond it none is tracked.
 const MOST: usize = 64;
 
-/// The entries that such a computation reads, with their values at the start of the plan.
+/// The entries that such a computation reads, with their initial values.
 pub(super) fn at_start(view: &View<'_>) -> Known {
     let mut read = BTreeSet::new();
     for (_, element) in view.elements().filter(|(_, it)| chooses_by_inputs(view, it)) {
@@ -38,7 +38,7 @@ pub(super) fn at_start(view: &View<'_>) -> Known {
     known
 }
 
-/// Those of the values at the start that nothing changes.
+/// The initial values that never change.
 pub(super) fn for_ever(view: &View<'_>) -> Known {
     let mut known = at_start(view);
     let elements = view.plan.elements.iter().flat_map(|element| &element.outputs);
@@ -47,14 +47,14 @@ pub(super) fn for_ever(view: &View<'_>) -> Known {
     known
 }
 
-/// What all users of the plan bind to one of its inputs.
+/// The common binding of all users of the plan for an input.
 fn given(view: &View<'_>, input: usize) -> Option<Constant> {
     let plans = &view.model.plans;
     let own = plans.iter().position(|plan| plan.is_some_and(|it| std::ptr::eq(it, view.plan)))?;
     let own = Component::SubPlan(PlanId(u16::try_from(own).ok()?));
     let mut all = None;
     for plan in plans {
-        // What a plan with errors binds nobody knows.
+        // The bindings of a plan with errors are unknown.
         let plan = (*plan)?;
         for element in plan.elements.iter().filter(|element| element.component == own) {
             let value = plan.constant(element.inputs.get(input)?)?;
@@ -66,23 +66,23 @@ fn given(view: &View<'_>, input: usize) -> Option<Constant> {
     all
 }
 
-/// Whether an edge is another one than that which a computation takes with these values.
+/// Whether a computation with these values takes a different edge.
 pub(super) fn excludes(view: &View<'_>, cause: Cause, known: &Known) -> bool {
     let Cause::State(id, state) = cause else { return false };
     outcome(view, &view.plan.elements[id.index()], known).is_some_and(|decided| decided != state)
 }
 
-/// What is known behind an edge.
+/// Known values after an edge.
 pub(super) fn after(view: &View<'_>, cause: Cause, known: &mut Known) {
     let values: Vec<_> =
         view.writes(cause).map(|output| written(view, cause, output, known)).collect();
-    // A sub-plan may write what it does not surely write.
+    // A sub-plan may write more than its certain outputs.
     view.may_write(cause).iter().for_each(|output| _ = known.remove(&output.entry));
     known.extend(values.into_iter().flatten());
 }
 
-/// Whether a cycle ends by itself, or nobody knows how often it is taken: a computation on it chooses another way, or
-/// chooses by a value that the cycle changes.
+/// Whether a cycle ends by itself, or its number of rounds is unknown: a computation on it chooses
+/// another edge, or depends on a value that the cycle changes.
 pub(super) fn breaks_off(view: &View<'_>, cycle: &[Edge], constants: &Known) -> bool {
     let mut known = constants.clone();
     cycle.iter().for_each(|edge| after(view, edge.cause, &mut known));
@@ -95,12 +95,12 @@ pub(super) fn breaks_off(view: &View<'_>, cycle: &[Edge], constants: &Known) -> 
     })
 }
 
-/// Whether an edge is not that which its computation takes, or may be none because of what has changed.
+/// Whether a computation takes a different edge, or may do so because of changed values.
 fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: &Known) -> bool {
     let Cause::State(id, state) = edge.cause else { return false };
     let element = &view.plan.elements[id.index()];
     let is_choice = is_choice(element, state);
-    // How far a counter counts is known already.
+    // The counter's limit is already known.
     if element.takes_time() || !is_choice || view.counters().has(id) {
         return false;
     }
@@ -113,18 +113,18 @@ fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: 
     }
 }
 
-/// Whether an element that ends in another state goes another way.
+/// Whether an element has a different target in another state.
 pub(super) fn is_choice(element: &Element, state: u16) -> bool {
     let mut others = element.states.iter().flatten();
     others.any(|target| Some(target) != element.states[usize::from(state)].as_ref())
 }
 
-/// Whether a computation is known to choose by what goes into it alone.
+/// Whether a computation depends only on its inputs.
 pub(super) fn chooses_by_inputs(view: &View<'_>, element: &Element) -> bool {
     view.cases(element).is_some() || table(view, element).is_some()
 }
 
-/// The state in which a computation ends with these values.
+/// The state of a computation with these values.
 pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Option<u16> {
     let value = |input: u16| value_of(element.inputs.get(usize::from(input))?, known);
     if let Some(cases) = view.cases(element) {
@@ -137,7 +137,7 @@ pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Opti
     }
 }
 
-/// The edge that a computation takes with these values, where that is known.
+/// The edge of a computation with these values, if known.
 pub(super) fn next<'v>(view: &'v View<'_>, node: Node, known: &Known) -> Option<&'v Edge> {
     let decided = outcome(view, view.element(node)?, known);
     let states = view.from(node).iter();
@@ -150,7 +150,7 @@ pub(super) fn next<'v>(view: &'v View<'_>, node: Node, known: &Known) -> Option<
     taken.all(|other| other.to == first.to).then_some(first)
 }
 
-/// What an output writes to its entry on an edge.
+/// The value that an output writes on an edge.
 fn written(
     view: &View<'_>,
     cause: Cause,

@@ -1,12 +1,12 @@
-//! Which endings of a plan can come in the very step that starts it.
+//! The endings that a plan can reach in its first step.
 
 use super::decided::{self, Known};
 use super::ending_of;
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, View};
 
-/// `quick` are the edges that take no time. The plan's own global supervisors are started and asked
-/// in the same step, so here their events count. Computations take the way that what is known at the start decides.
+/// `quick` are the edges that take no time. The plan's global supervisors start and are polled in
+/// the same step, so their events count. Computations take known decisions.
 pub(super) fn endings(view: &View<'_>, quick: &[Edge]) -> [bool; 2] {
     let first = strong::first(view.nodes(), quick.iter().map(|edge| edge.from));
     let mut entered: Vec<Option<Known>> = vec![None; view.nodes()];
@@ -18,7 +18,7 @@ pub(super) fn endings(view: &View<'_>, quick: &[Edge]) -> [bool; 2] {
             ends[ending] = true;
         }
         let known = entered[node].clone().unwrap_or_default();
-        // Quick edges are grouped by their origin, in the order of the nodes.
+        // Quick edges are grouped by their origin, in the order of nodes.
         let own = quick[first[node] as usize..first[node + 1] as usize].iter();
         let events = view
             .of_globals(node)
@@ -34,7 +34,8 @@ pub(super) fn endings(view: &View<'_>, quick: &[Edge]) -> [bool; 2] {
     ends
 }
 
-/// Keeps of what is known at a node only what is known on another way, too. Returns whether that is less, or the first.
+/// Intersects the known values of a node with those of another path. Returns whether this changes
+/// them, or is the first path.
 fn joins(entered: &mut Option<Known>, then: Known) -> bool {
     let Some(known) = entered else {
         *entered = Some(then);

@@ -1,7 +1,7 @@
-//! How many edges of a step lead to a loop of computations, and on from it.
+//! Number of edges of a step before and after a loop of computations.
 //!
-//! The search follows the edges of computations, which are taken in any case. A loop before another loop counts with all edges
-//! that it takes, if that number is known. A loop after it counts with one edge in and one edge out: the sum is reported there.
+//! The search follows certain edges of computations. An earlier loop counts with all its edges, if
+//! known. A later loop counts with one edge in and one out, since the sum is reported there.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,17 @@ use super::is_sure;
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, ElementId, Plan, PlanId, SupervisorId, Target};
 
-/// The longest ways of a plan.
+/// The longest paths of a plan.
 pub(super) struct Ways {
-    /// How many edges lead to a node from outside of its component; `None` where none does.
+    /// Number of edges to a node from outside of its component; `None` if unreachable.
     to: Vec<Option<i64>>,
-    /// How many lead on from a component.
+    /// Number of edges after a component.
     on: Vec<i64>,
 }
 
 impl Ways {
-    /// Those of a plan with these components of sure edges, each with the edges that it takes itself; a component's number is
-    /// less than those of the components that lead to it.
+    /// The paths of a plan with these components of certain edges, each with its own number of
+    /// edges. A component's number is less than those of its predecessors.
     pub fn of(view: &View<'_>, component: &[u32], taken_in: &BTreeMap<u32, i64>) -> Ways {
         let count = component.iter().map(|number| *number as usize + 1).max().unwrap_or(0);
         let mut ways = Ways { to: vec![None; view.nodes()], on: vec![0; count] };
@@ -57,13 +57,13 @@ impl Ways {
         ways
     }
 
-    /// How many edges at most lead from the start of a plan, or the edge before, to its endings.
+    /// Maximum number of edges from the start of a plan, or the edge before, to its endings.
     pub fn to_end(&self, view: &View<'_>) -> i64 {
         let ends = (0..3).filter_map(|ending| self.to[view.end(ending)]);
         ends.max().unwrap_or(0) - self.to[view.start()].unwrap_or(0)
     }
 
-    /// How many edges lead to a loop and on from it; with each of its nodes how many more lead from there to its counter.
+    /// Number of edges to a loop and after it; each of its nodes has its distance to the counter.
     pub fn through(&self, component: u32, nodes: impl Iterator<Item = (Node, usize)>) -> i64 {
         let to = nodes.filter_map(|(node, more)| Some(self.to[node]? + i64::try_from(more).ok()?));
         let on = self.on.get(component as usize).copied().unwrap_or(0);
@@ -75,7 +75,7 @@ fn is_taken(view: &View<'_>, edge: &Edge) -> bool {
     view.reached[edge.from] && edge.possible && !matches!(edge.cause, Cause::Active(_))
 }
 
-/// How many edges of its users lead to a plan and on from it in the same step: one each, or none.
+/// Number of edges of its users before and after a plan in the same step: one each, or none.
 fn around(view: &View<'_>) -> (i64, i64) {
     let plans = &view.model.plans;
     let own = plans.iter().position(|plan| plan.is_some_and(|it| std::ptr::eq(it, view.plan)));
@@ -92,7 +92,6 @@ fn around(view: &View<'_>) -> (i64, i64) {
     (before, behind)
 }
 
-/// Whether an edge leads to an element.
 fn leads_to(plan: &Plan, id: ElementId) -> bool {
     let target = Target::Element(id);
     let supervisors = (0..=u16::MAX).map(SupervisorId).take(plan.supervisors.len());

@@ -1,4 +1,4 @@
-//! Computations that count how often a cycle is taken, as far as that is known.
+//! Counters of rounds of cycles, as far as known.
 
 use std::collections::BTreeMap;
 
@@ -6,22 +6,21 @@ use super::View;
 use crate::graph::{Component, Element, ElementId, EntryId};
 use crate::toolbox::Case;
 
-/// A `Count` of which is known how far it counts.
+/// A `Count` with a known limit.
 #[derive(Clone, Copy)]
 pub(crate) struct Counter {
-    /// What it counts in.
+    /// Its entry.
     pub entry: EntryId,
     pub limit: i64,
-    /// The least value that its entry has before anything counts in it: zero, which `Done` writes, or less.
+    /// Least value of its entry before any count: zero, which `Done` writes, or less.
     pub least: i64,
 }
 
-/// The counters of a plan.
 #[derive(Default)]
 pub(crate) struct Counters(pub BTreeMap<ElementId, Counter>);
 
 impl<'a> View<'a> {
-    /// The states of a computation that formulas declare.
+    /// The states of a declared computation.
     pub fn cases(&self, element: &Element) -> Option<&'a [Case]> {
         match element.component {
             Component::Computation(id) => self.model.template(id).cases.as_deref(),

@@ -1,4 +1,4 @@
-//! Paths of actions: a component, and what is to come of it.
+//! Paths of actions: a component and its outcome.
 
 use super::COMPUTES;
 use crate::check::names::{offer, unknown};
@@ -9,30 +9,29 @@ use afp_syntax::ast::{Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 
-/// So many components are looked at for a help.
+/// Maximum number of components searched for a help.
 const MOST: usize = 2000;
 
-/// What brings something.
+/// The verb of an injection.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::check::scenario) enum Verb {
     /// An event of a supervisor, or the error of an actor.
     Fire,
-    /// A state of an actor.
     Finish,
 }
 
-/// A search for what could be meant.
+/// A search for likely paths.
 struct Search<'a> {
     verb: Option<Verb>,
-    /// What the paths begin with.
+    /// The prefix of the paths.
     below: &'a str,
-    /// How many components may still be looked at: plans within plans have any number of them.
+    /// Remaining components: nested plans may have any number.
     left: usize,
     found: Vec<String>,
 }
 
 impl Checker<'_> {
-    /// A component and the name of one of its outcomes.
+    /// A component and the name of its outcome.
     pub(super) fn outcome_of(
         &self,
         path: &Path,
@@ -69,7 +68,7 @@ impl Checker<'_> {
         offer(error, "", known, "")
     }
 
-    /// Reports an event behind the name of an actor, whose supervisor is left out, or nothing that there is.
+    /// Reports an event after an actor's name without its supervisor, or an unknown name.
     pub(super) fn event_meant(&self, path: &Path, found: Found, name: &Name) -> Diagnostic {
         let home = path.text();
         let home = home.strip_suffix(&*name.text).unwrap_or_default();
@@ -88,7 +87,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports names behind a component that are more than an outcome.
+    /// Reports superfluous names after an outcome.
     fn too_long(&self, path: &Path, found: Found, name: &Name, verb: Verb) -> Diagnostic {
         let names = path.names();
         let at = names.iter().position(|each| each.span == name.span).unwrap_or_default();
@@ -109,7 +108,7 @@ impl Checker<'_> {
         unknown(Code::E0602, path.span(), message, &path.text(), known, "name another component")
     }
 
-    /// What is said of the name of an outcome alone: the paths that end with it.
+    /// Reports a bare outcome with the paths that end in it.
     pub(in crate::check::scenario) fn owner_meant(
         &self,
         names: &[Name],
@@ -132,12 +131,12 @@ impl Checker<'_> {
         }
     }
 
-    /// The paths that begin with `below` and of which something can come by a verb, or by any.
+    /// The paths with the prefix `below` whose component has an outcome for a verb, or for any.
     fn possible(&self, verb: Option<Verb>, below: &str) -> Vec<String> {
         self.search(verb, below).0
     }
 
-    /// The same of the first [`MOST`] components, and whether these are all.
+    /// Searches the first [`MOST`] components; also returns whether these are all.
     fn search(&self, verb: Option<Verb>, below: &str) -> (Vec<String>, bool) {
         let mut search = Search { verb, below, left: MOST, found: Vec::new() };
         self.gather(self.paths.main(), "", &mut search);
@@ -151,7 +150,7 @@ impl Checker<'_> {
             }
             search.left -= 1;
             let path = format!("{home}{name}.");
-            // What lies on the way there, or behind it.
+            // Only prefixes and extensions of the path.
             if !(path.starts_with(search.below) || search.below.starts_with(&path)) {
                 continue;
             }
@@ -164,7 +163,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What a verb, or any, can bring of a component.
+    /// The possible outcomes of a component for a verb, or for any.
     fn brought(&self, found: Found, verb: Option<Verb>) -> Vec<&str> {
         let outcomes = || self.paths.outcomes(found);
         match (self.paths.component(found), verb) {

@@ -1,4 +1,4 @@
-//! Claims about how the plan ends, and what ends are called elsewhere.
+//! Claims about the end of the plan, and foreign words for it.
 
 use super::Checker;
 use crate::check::scenario::paths::{Found, Part};
@@ -9,7 +9,7 @@ use afp_syntax::ast::{ENDS, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Subject, list};
 use afp_syntax::message;
 
-/// The end of a plan that was meant by a word.
+/// The likely ending for a word.
 pub(super) fn meant(word: &str) -> Option<&'static str> {
     let same = |end: &&str| end.eq_ignore_ascii_case(word);
     let ours = || match synonyms::target(word, Leads::Edge).unwrap_or(word) {
@@ -21,7 +21,7 @@ pub(super) fn meant(word: &str) -> Option<&'static str> {
 }
 
 impl Checker<'_> {
-    /// What a transition leads to: an element, or else a word that is reported.
+    /// The target of a transition: an element; a keyword is reported.
     pub(super) fn target(&self, path: &Path, diags: &mut Diagnostics) -> Option<Found> {
         let text = path.text();
         let meant = synonyms::target(&text, Leads::Event).filter(|word| *word != "ignore");
@@ -29,7 +29,7 @@ impl Checker<'_> {
         let (Some(meant), Err(error)) = (meant, self.paths.find(self.paths.main(), &names)) else {
             return self.element(path, diags);
         };
-        // What is nearly called so is meant, as in an edge.
+        // A similar name is likely meant, as in an edge.
         if error.fix.is_some() {
             diags.push(*error);
             return None;
@@ -38,7 +38,7 @@ impl Checker<'_> {
         None
     }
 
-    /// `end == OK`: what to write, where the two are about the end of the plan.
+    /// `end == OK`: the correct claim about the plan's end.
     pub(in crate::check::scenario) fn end_compared(
         &self,
         left: &str,
@@ -107,7 +107,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What ends the plan, for a help.
+    /// The causes that end the plan, for a help.
     fn endings(&self) -> Message {
         let paths = &self.paths;
         let ending = paths.components().flat_map(|(name, found)| {
@@ -127,7 +127,6 @@ impl Checker<'_> {
     }
 }
 
-/// Whether an edge that leads there ends the plan.
 fn ends_plan(target: Target) -> bool {
     matches!(target, Target::Terminate | Target::Fail(_))
 }

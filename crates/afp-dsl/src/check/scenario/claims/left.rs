@@ -1,4 +1,4 @@
-//! What leaves an element, where a claim names it in place of the element.
+//! Claims that name an outcome instead of the element that it leaves.
 
 use super::written;
 use crate::check::scenario::Checker;
@@ -8,8 +8,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic};
 use afp_syntax::message;
 
 impl Checker<'_> {
-    /// What is wrong where the state or event by which an element is left stands in place of the element, as it does in
-    /// timelines: `go.Done -> home`.
+    /// Reports a state or event instead of its element, as in timelines: `go.Done -> home`.
     pub(super) fn left_by(
         &self,
         path: &Path,
