@@ -1,6 +1,8 @@
-//! Which commit this is built from, for the logs of runs: that of the checkout, or that which a package was made of.
+//! Finds the commit that this is built from, for the logs of runs: that of the checkout or of the
+//! package.
 //!
-//! Of optimised builds alone: while people work on the sources, each commit would build everything above anew.
+//! Only for optimised builds: otherwise each commit would rebuild all crates that depend on this
+//! one.
 
 use std::env;
 use std::path::Path;
@@ -20,14 +22,14 @@ fn main() {
     }
 }
 
-/// The commit that cargo has written into a package.
+/// The commit that cargo wrote into a package.
 pub fn of_package(folder: &Path) -> Option<String> {
     let text = std::fs::read_to_string(folder.join(".cargo_vcs_info.json")).ok()?;
     let (_, rest) = text.split_once("\"sha1\"")?;
     rest.split('"').nth(1).map(short)
 }
 
-/// The commit of a checkout, with a `+` where something has changed since.
+/// The commit of a checkout, with a `+` if files have changed since.
 pub fn of_checkout(folder: &str) -> Option<String> {
     let commit = git(folder, &["rev-parse", "HEAD"])?;
     for watched in ["HEAD", "logs/HEAD"] {
@@ -46,9 +48,9 @@ fn short(commit: &str) -> String {
     commit.chars().take(12).collect()
 }
 
-/// What git prints; none where there is no git, or no checkout.
+/// The output of git; `None` without git or a checkout.
 fn git(folder: &str, arguments: &[&str]) -> Option<String> {
-    // Looking must change nothing: what is built from a file that is newer than it is built anew each time.
+    // git must not write its index: cargo rebuilds if a watched file is newer than the build.
     let git = ["--no-optional-locks", "-C", folder];
     let output = Command::new("git").args(git).args(arguments).output().ok()?;
     let text = String::from_utf8(output.stdout).ok().filter(|_| output.status.success())?;

@@ -1,4 +1,4 @@
-//! How often a run used each part of its plan, and where it ended: the one place that counts.
+//! Counts how often a run used each part of its plan, and records how it ended.
 
 use afp_core::trace::{
     self, Cause, ComponentId, ComponentKind, Ending, Names, Outcome, Record, declared,
@@ -7,89 +7,84 @@ use afp_core::{Duration, Failure, Fault, Instant};
 
 use crate::observer::{NamedRecord, Observer};
 
-/// How often a run used each part of its plan.
+/// Counts how often a run used each part of its plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counts {
     /// The components, by id.
     pub components: Vec<Usage>,
-    /// How often an actor was interrupted.
+    /// Interruptions of actors.
     pub interruptions: u64,
-    /// How the plan ended, once it has.
+    /// The ending of the plan, if it has ended.
     pub ending: Option<Ending>,
-    /// The actor that is active.
+    /// The active actor.
     pub actor: Option<ComponentId>,
     kinds: Vec<ComponentKind>,
-    /// The actor or computation that was left last.
     left: Option<ComponentId>,
-    /// What it was left for.
     cause: Option<LeftFor>,
-    /// What failed last.
     failure: Option<Failure>,
 }
 
-/// How often a component was used.
+/// The use of a component.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
     /// Its starts; for a computation, its runs.
     pub starts: u64,
-    /// How often each of its states was reached or events taken, by position.
+    /// The count of each of its states or events, by position.
     pub outcomes: Vec<u64>,
-    /// How often a missed deadline of a supervisor was taken as an event.
+    /// Deadlines of a supervisor that were missed and taken as an event.
     pub deadline_events: u64,
-    /// How often it failed.
+    /// Its faults.
     pub faults: u64,
-    /// How often events, and missed deadlines, led where the element's own edge (`on`) leads, in the order of
-    /// [`Names::reaction`].
+    /// The count of each edge (`on`) of the element, for events and missed deadlines, in the order
+    /// of [`Names::reaction`].
     pub reactions: Vec<Reaction>,
-    /// How often it was interrupted.
+    /// Its interruptions.
     pub interruptions: u64,
-    /// How often a supervisor was polled, where polls that saw nothing are reported.
+    /// The polls of a supervisor, if polls without an event are reported.
     pub polls: u64,
     /// Deadlines missed because the poll began too late.
     pub late_releases: u64,
     /// Deadlines missed because the poll took too long.
     pub long_polls: u64,
-    /// Deadlines missed because the release passed without a poll.
+    /// Deadlines missed because no poll began in the period.
     pub skipped: u64,
-    /// The longest time after a deadline.
+    /// The greatest lateness.
     pub worst_lateness: Duration,
-    /// For how long it was active.
+    /// The total time that it was active.
     pub active: Duration,
-    /// Since when it is.
+    /// The start of the current activity.
     since: Option<Instant>,
 }
 
-/// An edge of an element that holds instead of one of a global supervisor.
+/// An edge of an element that replaces an edge of a global supervisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reaction {
     /// The supervisor.
     pub supervisor: ComponentId,
     /// The event.
     pub outcome: Outcome,
-    /// How often it was taken.
+    /// The number of times that it was taken.
     pub count: u64,
 }
 
-/// What ends an activity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum LeftFor {
     /// A state or event.
     Outcome(ComponentId, Outcome),
     /// A fault of a component.
     Fault(ComponentId, Fault),
-    /// A request from outside.
     Stop,
 }
 
 impl Usage {
-    /// Events taken, missed deadlines among them.
+    /// Events taken, missed deadlines included.
     pub fn events(&self) -> u64 {
         self.outcomes.iter().sum::<u64>() + self.deadline_events
     }
 }
 
 impl Counts {
-    /// Nothing has happened yet.
+    /// Counts of zero.
     pub fn new(names: &dyn Names) -> Self {
         let ids = || (0..names.components()).map(ComponentId);
         let reactions = |id| {
@@ -118,7 +113,7 @@ impl Counts {
         }
     }
 
-    /// Takes a record into account.
+    /// Counts a record.
     pub fn record(&mut self, at: Instant, record: &Record<'_>) {
         match *record {
             Record::Started { component } => self.started(at, component),
@@ -131,7 +126,7 @@ impl Counts {
                 self.leave(element);
             }
             Record::Finished { element, state } => {
-                // A computation is over when it starts.
+                // A computation has no record of its start.
                 if self.kind(element) == Some(ComponentKind::Computation) {
                     self.with(element, |usage| usage.starts += 1);
                 }
@@ -169,12 +164,12 @@ impl Counts {
         }
     }
 
-    /// Whether a component watches.
+    /// Whether the component is a supervisor.
     pub fn is_supervisor(&self, id: ComponentId) -> bool {
         self.kind(id) == Some(ComponentKind::Supervisor)
     }
 
-    /// Adds how often another run of the same plan used each component.
+    /// Adds the counts of another run of the same plan.
     pub fn add(&mut self, other: &Counts) {
         for (mine, other) in self.components.iter_mut().zip(&other.components) {
             mine.starts += other.starts;
@@ -197,15 +192,14 @@ impl Counts {
         self.interruptions += other.interruptions;
     }
 
-    /// Whatever is still active was so up to the end.
+    /// Ends the active time of all components.
     pub fn finish(&mut self, end: Instant) {
         for id in 0..self.components.len() as u32 {
             self.stopped(end, ComponentId(id));
         }
     }
 
-    /// Where the run was when it ended: the path of the actor, computation or supervisor that was left or failed
-    /// last.
+    /// The path of the actor, computation or supervisor that failed or ended last.
     pub fn last<'n>(&self, names: &'n dyn Names) -> &'n str {
         let failed = match self.cause {
             Some(LeftFor::Fault(id, _)) => Some(id),
@@ -214,20 +208,21 @@ impl Counts {
         failed.or(self.left).map_or("", |id| names.component(id).path)
     }
 
-    /// The text for people of the fault that ended the plan; `None` where none did.
+    /// The fault that ended the plan, as text for people; `None` without one.
     pub fn why(&self, names: &dyn Names) -> Option<String> {
         let Some(Ending::Error(fault)) = self.ending else { return None };
         let detail = self.fatal().and_then(|failure| failure.detail);
         Some(fault.explained(detail, names).to_string())
     }
 
-    /// Whose fault ended the plan, and which; `None` where none did, or an edge to `fail` took its place.
+    /// The component and the fault that ended the plan; `None` without one, or if an edge to `fail`
+    /// replaced it.
     pub fn fatal(&self) -> Option<Failure> {
         let Some(Ending::Error(fault)) = self.ending else { return None };
         self.failure.filter(|failure| failure.fault == fault)
     }
 
-    /// What ended the run: a state or an event with its component, a fault by its code, or `stop`.
+    /// The cause of the end: a state or event with its component, the code of a fault, or `stop`.
     pub fn cause(&self, names: &dyn Names) -> String {
         match self.cause {
             None => String::new(),
@@ -267,7 +262,7 @@ impl Counts {
         });
     }
 
-    /// An element is left; whether it is one that does something itself.
+    /// Notes that an element ended; false for a plan or sub-plan.
     fn leave(&mut self, id: ComponentId) -> bool {
         if self.actor == Some(id) {
             self.actor = None;
@@ -293,8 +288,8 @@ impl Counts {
 }
 
 impl Counts {
-    /// How often an event, or a missed deadline, of a supervisor led where its own edge leads, which no element
-    /// replaced.
+    /// The number of times that an event or missed deadline of a supervisor took the supervisor's
+    /// own edge.
     pub fn by_own_edge(&self, supervisor: ComponentId, outcome: Outcome) -> u64 {
         let Some(usage) = self.components.get(supervisor.0 as usize) else { return 0 };
         let all = match outcome {
@@ -322,7 +317,7 @@ impl Counts {
 }
 
 impl Usage {
-    /// The poll after skipped releases may be in time itself: those alone were missed then.
+    /// The lateness is zero if only releases were skipped and the poll itself was in time.
     fn missed(&mut self, lateness: Duration, cause: Cause, skipped: u64) {
         let late = u64::from(lateness > Duration::ZERO);
         match cause {

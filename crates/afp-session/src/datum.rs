@@ -1,26 +1,26 @@
-//! Values with the names in them, so that they need no plan to be understood.
+//! Values that hold names in place of ids and so need no plan.
 
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
 use afp_core::{Value, ValueRef};
 use afp_types::ValueOf;
 
-/// What has a value: its type and the values of its enum have names there.
+/// The holder of a value, which names the type and the values of the enum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holder {
     /// An entry.
     Entry(TraceEntryId),
     /// An input of a component, by position.
     Input(ComponentId, u16),
-    /// Nothing whose type is known.
+    /// A holder of unknown type.
     Unknown,
 }
 
-/// A value with names in it: `Side.left` of an enum, `#1` where its name is not known; of an object its type and the
-/// number of the commit that wrote it.
+/// A value with names: `Side.left` for an enum, `#1` if the name is not known; for an object its
+/// type and the number of the commit that wrote it.
 pub type Datum = ValueOf<String, String, String>;
 
 impl Holder {
-    /// The name of the type of its values; empty where that is not known.
+    /// The name of the type; empty if unknown.
     fn ty<N: Names + ?Sized>(self, names: &N) -> &str {
         match self {
             Holder::Entry(id) => names.entry(id).ty,
@@ -29,7 +29,7 @@ impl Holder {
         }
     }
 
-    /// A value of its enum; empty where that is not known.
+    /// The name of a value of the enum; empty if unknown.
     fn choice<N: Names + ?Sized>(self, names: &N, value: u16) -> &str {
         match self {
             Holder::Entry(id) => names.choice(id, value),
@@ -38,7 +38,7 @@ impl Holder {
         }
     }
 
-    /// A value with the names in it.
+    /// Replaces ids in a value by names.
     pub fn named(self, names: &(impl Names + ?Sized), value: ValueRef<'_>) -> Datum {
         let choice = |choice| match self.choice(names, choice) {
             "" => format!("#{choice}"),
@@ -47,7 +47,7 @@ impl Holder {
         value.map(str::to_owned, choice, |commit| format!("{}#{commit}", self.ty(names)))
     }
 
-    /// The value as entries hold it; none where a name in it is not known or a text is too long.
+    /// The value as entries hold it; `None` if a name is not known or a text is too long.
     pub fn value(self, names: &(impl Names + ?Sized), value: &Datum) -> Option<Value> {
         let place = |name: String| match name.strip_prefix('#') {
             Some(number) => number.parse().ok(),

@@ -1,6 +1,6 @@
-//! What happened in a run as plain data: names in place of ids, so that it needs no plan to be understood.
+//! The events of a run as plain data, with names in place of ids, so that they need no plan.
 //!
-//! Timelines, lines of JSON, Python and logs read this; a log's file alone has another form of it.
+//! Timelines, lines of JSON, Python and logs read them; the file of a log has another format.
 
 mod facts;
 mod named;
@@ -16,44 +16,45 @@ use crate::stimulus::Stimulus;
 pub use facts::Facts;
 use named::Namer;
 
-/// One thing that happened in a run.
+/// An event of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunEvent {
-    /// When.
+    /// Its time.
     pub at: Instant,
-    /// The component that it is about; of a commit its author; the number 0 without a path for what is about none.
+    /// Its component; for a commit, the author. Without a component, the number is 0 and the path
+    /// empty.
     pub component: NamedComponent,
-    /// What.
+    /// Its kind.
     pub kind: EventKind,
 }
 
-/// The author of a commit that nobody inside the plan made.
+/// The author of a commit from outside the plan.
 pub const OUTSIDE: ComponentId = ComponentId(u32::MAX);
 
-/// What happened.
+/// The kind of an event.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum EventKind {
-    /// Something that this release does not know.
+    /// A kind that this release does not know.
     #[default]
     Unknown,
-    /// A step was asked for an earlier time than the one before.
+    /// The time of a step was earlier than that of the step before.
     ClockWentBack {
-        /// The time asked for.
+        /// The time of the step.
         asked: Instant,
     },
     /// The plan was asked to stop.
     StopRequested,
-    /// Something came from outside: a press, a fault, a write.
+    /// A request from outside: a press, a fault, a write.
     Requested(Requested),
     /// A component was made to report an outcome.
     Injected(NamedOutcome),
-    /// A supervisor was polled: the event that it reported, or how it failed.
+    /// A supervisor was polled, with its event or its fault.
     Polled(Result<Option<NamedOutcome>, FaultText>),
     /// A deadline was missed.
     Missed(Miss),
     /// An event was taken.
     Event(EventAt),
-    /// An event was not taken, as it leads to the element already active.
+    /// An event was not taken because it leads to the active element.
     AlreadyThere(EventAt),
     /// An element was interrupted.
     Interrupted,
@@ -65,9 +66,9 @@ pub enum EventKind {
         entry: String,
         /// Its number.
         entry_id: TraceEntryId,
-        /// Its value before.
+        /// The value before.
         old: Datum,
-        /// Its value now.
+        /// The value after.
         new: Datum,
         /// The SI unit of the values.
         unit: String,
@@ -76,7 +77,7 @@ pub enum EventKind {
     Input {
         /// The name of the port.
         port: String,
-        /// What it reads.
+        /// The value.
         value: Datum,
         /// The SI unit of the value.
         unit: String,
@@ -87,28 +88,28 @@ pub enum EventKind {
     Diverted {
         /// The event of the supervisor.
         event: NamedOutcome,
-        /// The supervisor that saw a reason.
+        /// The supervisor.
         supervisor: NamedComponent,
     },
-    /// An element goes on after an event that did not interrupt it.
+    /// An element continues after an event that did not interrupt it.
     Resumed {
-        /// The supervisor whose event it was.
+        /// The supervisor of the event.
         supervisor: NamedComponent,
     },
     /// A component failed.
     Faulted(FaultText),
     /// A plan ended.
     Ended {
-        /// How.
+        /// The ending.
         ending: EndingKind,
-        /// Why, if it ended in an error.
+        /// The fault, if the ending is an error.
         fault: FaultText,
     },
-    /// So many records could not be kept.
+    /// A number of records that could not be kept.
     Lost(u64),
 }
 
-/// A component by its path and its number.
+/// A component by path and number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NamedComponent {
     /// Dotted path from the outermost plan; `outside` for [`OUTSIDE`].
@@ -122,29 +123,30 @@ pub struct NamedComponent {
 pub struct NamedOutcome {
     /// Its name.
     pub name: String,
-    /// Which of the component's outcomes it is.
+    /// Its position among the outcomes of the component.
     pub outcome: Outcome,
-    /// Where it leads: an element, `terminate`, `fail`, `ignore`, `resume`; empty until it is taken.
+    /// Its target: an element, `terminate`, `fail`, `ignore`, `resume`; empty until the outcome is
+    /// taken.
     pub target: String,
 }
 
-/// An event while an element was active or being entered.
+/// An event during the activity or the start of an element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EventAt {
     /// The event.
     pub event: NamedOutcome,
     /// The element.
     pub element: NamedComponent,
-    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
+    /// Whether the target comes from an `on` of the element and not from the supervisor.
     pub on: bool,
 }
 
-/// Why something failed.
+/// A fault as text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FaultText {
     /// The code of the fault.
     pub code: String,
-    /// The fault in words.
+    /// The text.
     pub text: String,
 }
 
@@ -153,54 +155,54 @@ pub struct FaultText {
 pub struct Miss {
     /// The time after the deadline.
     pub lateness: Duration,
-    /// Why, where that is known.
+    /// The cause, if known.
     pub cause: Option<Cause>,
-    /// Releases that passed without a poll.
+    /// Releases without a poll.
     pub skipped: u64,
 }
 
 impl Miss {
-    /// How many deadlines were missed: those of the releases that passed, and the poll's own where it was late.
+    /// The number of missed deadlines: the skipped releases, and the poll itself if it was late.
     pub fn deadlines(&self) -> u64 {
         u64::from(self.lateness > Duration::ZERO) + self.skipped
     }
 }
 
-/// How a plan ended.
+/// The ending of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndingKind {
-    /// As it says itself.
+    /// The plan terminated.
     Ok,
-    /// It was asked to stop.
+    /// The plan was asked to stop.
     Interrupted,
-    /// A component failed and nobody dealt with it.
+    /// A component failed, and no edge handled the fault.
     Error,
 }
 
-/// What came from outside, and what became of it.
+/// A request from outside and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requested {
-    /// The instant that it was meant for.
+    /// The time that it was made for.
     pub at: Instant,
-    /// What.
+    /// The request.
     pub what: Stimulus,
-    /// What became of it.
+    /// The result.
     pub done: Done,
 }
 
-/// What became of a request.
+/// The result of a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Done {
     /// It was done.
     Done,
     /// It could not be done, for this reason.
     Refused(String),
-    /// The run was over before.
+    /// The run ended before.
     NotReached,
 }
 
 impl EndingKind {
-    /// The ending in a word: `ok`, `interrupted`, `error`.
+    /// The ending as a word: `ok`, `interrupted`, `error`.
     pub fn word(self) -> &'static str {
         match self {
             EndingKind::Ok => "ok",
@@ -211,7 +213,7 @@ impl EndingKind {
 }
 
 impl Miss {
-    /// Why, in a word: `late_release`, `long_poll`; empty where that is not known.
+    /// The cause as a word: `late_release`, `long_poll`; empty if unknown.
     pub fn word(&self) -> &'static str {
         match self.cause {
             Some(Cause::LateRelease) => "late_release",
@@ -221,12 +223,11 @@ impl Miss {
     }
 }
 
-/// The author of a commit: a path, or `outside`.
+/// The author of a commit: a path or `outside`.
 pub fn author(names: &(impl Names + ?Sized), author: Author) -> String {
     Namer { names }.component(author_id(author)).path
 }
 
-/// The number of an author.
 fn author_id(author: Author) -> ComponentId {
     match author {
         Author::Component(id) => id,
@@ -235,20 +236,20 @@ fn author_id(author: Author) -> ComponentId {
 }
 
 impl RunEvent {
-    /// A record with the names behind its ids.
+    /// Replaces ids in a record by names.
     pub fn new(at: Instant, record: &Record<'_>, names: &(impl Names + ?Sized)) -> RunEvent {
         let namer = Namer { names };
         let (id, kind) = namer.describe(record);
         RunEvent { at, component: namer.component(id), kind }
     }
 
-    /// Something that came from outside.
+    /// The event of a request from outside.
     pub fn requested(at: Instant, request: Requested) -> RunEvent {
         RunEvent { at, kind: EventKind::Requested(request), ..RunEvent::default() }
     }
 
-    /// The record behind it, as far as counting matters: without values, and with one fault for all. `None` where
-    /// it says nothing about components.
+    /// The record, complete enough for counts: without values, and with one fault for all. `None`
+    /// if it does not concern a component.
     pub fn record(&self) -> Option<Record<'static>> {
         let (component, none) = (self.component.id, ValueRef::Unset);
         Some(match &self.kind {

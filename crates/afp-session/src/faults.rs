@@ -1,8 +1,8 @@
-//! Which faults there are when.
+//! Faults by time.
 
 use afp_core::Instant;
 
-/// A fault from an instant to before another.
+/// A fault from an instant (included) to another (excluded).
 #[derive(Clone, Copy, Debug)]
 struct Spell<F> {
     fault: F,
@@ -10,17 +10,17 @@ struct Spell<F> {
     until: Instant,
 }
 
-/// The faults that are and will be, in the order of their beginnings.
+/// Present and future faults, ordered by their begin.
 #[derive(Clone, Debug)]
 pub struct Faults<F> {
     spells: Vec<Spell<F>>,
     now: Instant,
     next: Instant,
-    /// What is broken now, that which began last first.
+    /// The active faults, latest begin first.
     active: Vec<F>,
 }
 
-/// What is broken, that which began last first.
+/// The active faults, latest begin first.
 #[derive(Clone, Copy, Debug)]
 pub struct Active<'a, F>(&'a [F]);
 
@@ -31,19 +31,19 @@ impl<F: Copy> Default for Faults<F> {
 }
 
 impl<F: Copy> Faults<F> {
-    /// Adds a fault; one that begins at the same instant as another comes after it.
+    /// Adds a fault, after those that begin at the same instant.
     pub fn add(&mut self, fault: F, from: Instant, until: Instant) {
         self.spells.push(Spell { fault, from, until });
         self.spells.sort_by_key(|spell| spell.from);
         self.find_next();
     }
 
-    /// When something begins or ends next.
+    /// The next begin or end of a fault.
     pub fn next_change(&self) -> Instant {
         self.next
     }
 
-    /// Comes to an instant; what is over is forgotten.
+    /// Advances to an instant and removes faults that have ended.
     pub fn advance(&mut self, now: Instant) -> Active<'_, F> {
         self.now = now;
         self.spells.retain(|spell| spell.until > now);
@@ -61,22 +61,22 @@ impl<F: Copy> Faults<F> {
 }
 
 impl<'a, F: Copy> Active<'a, F> {
-    /// Exactly these, that which began last first.
+    /// Active faults, which must be ordered latest begin first.
     pub fn new(faults: &'a [F]) -> Self {
         Active(faults)
     }
 
-    /// All of them, that which began last first.
+    /// All active faults, latest begin first.
     pub fn iter(&self) -> impl Iterator<Item = F> + 'a {
         self.0.iter().copied()
     }
 
-    /// What the last begun fault says of which `of` says anything.
+    /// The first result of `of`, in the order of [`Active::iter`].
     pub fn find<T>(&self, of: impl FnMut(F) -> Option<T>) -> Option<T> {
         self.iter().find_map(of)
     }
 
-    /// Whether there is one of which `is` holds.
+    /// Whether `is` holds for an active fault.
     pub fn any(&self, is: impl FnMut(F) -> bool) -> bool {
         self.iter().any(is)
     }

@@ -1,17 +1,17 @@
-//! What a run came to, by names.
+//! The results of a run, by name.
 
 use afp_core::Instant;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// Something that a run came to.
+/// A result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Its name: `contacts`, `wall_error`.
     pub name: &'static str,
-    /// What it is.
+    /// Its value.
     pub value: FigureValue,
-    /// The same in words; empty where there is nothing to say.
+    /// The value as text; empty if there is nothing to report.
     pub text: String,
 }
 
@@ -22,27 +22,27 @@ pub enum FigureValue {
     Count(u64),
     /// Numbers, each with a name that ends in its unit: `mean_m`.
     Numbers(Vec<(&'static str, f64)>),
-    /// Stretches of time.
+    /// Periods of time.
     Spans {
-        /// What their names stand for: `obstacle`.
+        /// The kind of their names: `obstacle`.
         of: &'static str,
-        /// In the order of their beginnings.
+        /// The periods, ordered by their begin.
         spans: Vec<Span>,
     },
 }
 
-/// A stretch of time in which something was so.
+/// A period in which a condition held.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Span {
-    /// What.
+    /// The name of the condition.
     pub name: String,
-    /// Since when.
+    /// Its begin.
     pub begin: Instant,
-    /// When it was so for the last time.
+    /// The last instant at which the condition held.
     pub end: Instant,
 }
 
-/// What a run came to.
+/// The results of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figures(pub Vec<Figure>);
 
@@ -52,7 +52,7 @@ impl Figures {
         self.0.iter().find(|figure| figure.name == name)
     }
 
-    /// The stretches of time of that name; none where there is no such figure.
+    /// The periods of a figure; empty without such a figure.
     pub fn spans(&self, name: &str) -> &[Span] {
         match self.get(name).map(|figure| &figure.value) {
             Some(FigureValue::Spans { spans, .. }) => spans,
@@ -72,7 +72,7 @@ impl Figures {
 }
 
 impl Serialize for FigureValue {
-    /// A count, numbers by their names, stretches of time in a list.
+    /// A count, an object of numbers, or a list of periods.
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         match self {
             FigureValue::Count(count) => count.serialize(to),
@@ -85,7 +85,7 @@ impl Serialize for FigureValue {
 }
 
 impl Serialize for Figures {
-    /// By their names.
+    /// An object with the figures by name.
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_map(self.0.iter().map(|figure| (figure.name, &figure.value)))
     }

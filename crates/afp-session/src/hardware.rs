@@ -1,4 +1,4 @@
-//! Robots that are there: their time passes by itself, and what they do cannot be taken back.
+//! Real robots: time passes by itself, and motion cannot be undone.
 
 use std::error::Error;
 
@@ -9,12 +9,12 @@ use crate::robot::Robot;
 use crate::world::{Drawing, World, WorldError};
 use crate::{Pose2, Shape};
 
-/// A robot that is there. Its [`Platform::advance`] sleeps, and passes on meanwhile what comes and goes: it says again what the robot
-/// must hear often, however long it is to last.
+/// A real robot. [`Platform::advance`] sleeps, and meanwhile transfers data in both directions. It
+/// repeats commands that the robot must receive often, even if the sleep is long.
 ///
-/// Whoever drives it lets no more than 20 ms pass without [`Platform::advance`], and calls
-/// [`emergency_stop`](afp_core::Environment::emergency_stop) before it leaves it alone. A process can die without either, so the
-/// robot itself stops when it hears nothing any more.
+/// The driver calls [`Platform::advance`] at least every 20 ms, and
+/// [`emergency_stop`](afp_core::Environment::emergency_stop) at the end. A process can die without
+/// either, so the robot itself must stop if it receives no commands.
 ///
 /// ```
 /// use afp_session::{Hardware, Settings};
@@ -25,25 +25,25 @@ use crate::{Pose2, Shape};
 /// # use afp_core::{Environment, Instant, Platform, StillClock};
 /// # struct NoDevices;
 /// # impl Devices for NoDevices {
-/// #     const TABLE: &'static [DeviceRow] = &[];
-/// #     type Control = Infallible;
-/// #     type Fault = Infallible;
-/// #     fn control(_: ControlId) -> Option<Infallible> { None }
-/// #     fn fault(_: FaultId, _: Option<f64>) -> Option<Infallible> { None }
+/// # const TABLE: &'static [DeviceRow] = &[];
+/// # type Control = Infallible;
+/// # type Fault = Infallible;
+/// # fn control(_: ControlId) -> Option<Infallible> { None }
+/// # fn fault(_: FaultId, _: Option<f64>) -> Option<Infallible> { None }
 /// # }
 /// # impl Environment for Toy {
-/// #     fn stop(&mut self, _: Instant) {}
-/// #     fn emergency_stop(&mut self) {}
+/// # fn stop(&mut self, _: Instant) {}
+/// # fn emergency_stop(&mut self) {}
 /// # }
 /// # impl Platform for Toy {
-/// #     type Clock = StillClock;
-/// #     fn clock(&self) -> StillClock { StillClock }
-/// #     fn now(&self) -> Instant { self.now }
-/// #     fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
+/// # type Clock = StillClock;
+/// # fn clock(&self) -> StillClock { StillClock }
+/// # fn now(&self) -> Instant { self.now }
+/// # fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
 /// # }
 /// # impl Robot for Toy {
-/// #     type Devices = NoDevices;
-/// #     fn sample(&self, _: &mut Samples<'_, '_>) {}
+/// # type Devices = NoDevices;
+/// # fn sample(&self, _: &mut Samples<'_, '_>) {}
 /// # }
 ///
 /// struct Toy {
@@ -67,52 +67,53 @@ use crate::{Pose2, Shape};
 pub trait Hardware:
     Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
 {
-    /// Why the robot cannot be reached: any error or `String`. `Box<dyn Error + Send + Sync>` takes all of them with `?`.
+    /// The reason why the robot cannot be reached: any error or `String`. `Box<dyn Error + Send +
+    /// Sync>` takes all of them with `?`.
     type Error: Into<Box<dyn Error + Send + Sync>>;
 
-    /// The robot, standing; its time begins at zero.
+    /// Opens the robot, which stands still; its time begins at zero.
     ///
     /// # Errors
-    /// Why it cannot be reached: what was tried and what came of it.
+    /// The robot cannot be reached. The error names what was tried and the result.
     fn open(settings: &Settings) -> Result<Self, Self::Error>;
 
-    /// What stops the robot from another thread while a component hangs; none where nothing can. It is called before the
-    /// process ends by force.
+    /// A function that stops the robot from another thread while a component hangs; `None` if that
+    /// is impossible. It is called before the process ends by force.
     fn last_resort(&self) -> Option<LastResort> {
         None
     }
 }
 
-/// A run on a robot ends if its control loop is later than this, unless something else is set.
+/// The default limit for the lateness of the control loop; beyond it, the run ends.
 pub const STALL: Duration = Duration::from_millis(100);
 
 /// Stops a robot from another thread.
 pub type LastResort = Box<dyn FnMut() + Send>;
 
-/// What the project says of its hardware: `port = "/dev/ttyUSB0"`.
+/// The hardware settings of the project: `port = "/dev/ttyUSB0"`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Settings(Vec<(String, String)>);
 
 impl Settings {
-    /// Names and values; of two of one name the later one counts.
+    /// Names and values; for a repeated name the last value counts.
     pub fn new<'a>(all: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let owned = |(name, value): (&str, &str)| (name.to_owned(), value.to_owned());
         Settings(all.into_iter().map(owned).collect())
     }
 
-    /// The value of a name, as it is written.
+    /// The value of a name as written.
     pub fn get(&self, name: &str) -> Option<&str> {
         let found = self.0.iter().rev().find(|(known, _)| known == name);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// The value of a name, or what stands in its place.
+    /// The value of a name, or a default.
     pub fn get_or<'a>(&'a self, name: &str, usual: &'a str) -> &'a str {
         self.get(name).unwrap_or(usual)
     }
 }
 
-/// The world of robots that are there, of which no program has a picture; and of simulated ones that have none.
+/// The world of a robot without one, real or simulated.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoWorld;
 

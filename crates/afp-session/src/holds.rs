@@ -1,25 +1,25 @@
-//! Who holds which control down, and for how long.
+//! The holds of controls and their ends.
 
 use afp_core::Instant;
 use afp_core::devices::ControlId;
 
 use crate::request::RequestId;
 
-/// What is held down by somebody, in the order in which it began.
+/// All holds, in the order of their begin.
 #[derive(Clone, Debug)]
 pub(crate) struct Holds {
     holds: Vec<Hold>,
-    /// When the next of them ends.
+    /// The next end of a hold.
     next: Instant,
 }
 
-/// A control that somebody holds down.
+/// A hold of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Hold {
     pub(crate) control: ControlId,
-    /// The request by which it began.
+    /// The request that began it.
     pub(crate) by: RequestId,
-    /// When it ends; [`Instant::MAX`] when the control is let go.
+    /// Its end; [`Instant::MAX`] until the control is released.
     pub(crate) until: Instant,
 }
 
@@ -30,24 +30,25 @@ impl Default for Holds {
 }
 
 impl Holds {
-    /// Somebody holds a control down, beside who else does.
+    /// Adds a hold; one control may have several.
     pub(crate) fn add(&mut self, hold: Hold) {
         self.holds.push(hold);
         self.find_next();
     }
 
-    /// A control is let go, whoever holds it.
+    /// Ends all holds of a control.
     pub(crate) fn end(&mut self, control: ControlId) {
         self.holds.retain(|hold| hold.control != control);
         self.find_next();
     }
 
-    /// When somebody lets go next.
+    /// The next end of a hold.
     pub(crate) fn next_change(&self) -> Instant {
         self.next
     }
 
-    /// Those let go whose time is over; gives the last hold of each control that nobody holds down any more.
+    /// Removes the holds that have ended. Returns the last hold of each control that has no hold
+    /// left.
     pub(crate) fn advance(&mut self, now: Instant) -> Vec<Hold> {
         let (mut over, left): (Vec<_>, Vec<_>) =
             self.holds.drain(..).partition(|hold| hold.until <= now);

@@ -1,4 +1,4 @@
-//! Why an entry cannot be set, for people: one wording for all who set entries.
+//! Explains why an entry cannot be set: one wording for all callers.
 
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_core::{Fault, SetError, WriteError};
@@ -7,20 +7,20 @@ use afp_types::{EXACT, number_length};
 
 use crate::units::some_units;
 
-/// Why an entry cannot be set, and what to do.
+/// The reason why an entry cannot be set, and a hint.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{why} (help: {help})")]
 pub struct NotSet {
     /// The error of the scheduler, which knows positions only.
     #[source]
     pub cause: SetError,
-    /// Why.
+    /// The reason.
     pub why: String,
-    /// What to do.
+    /// The hint.
     pub help: String,
 }
 
-/// Why an entry does not take a value, with its range where that is why.
+/// The reason why an entry refuses a value, with the range if the value is out of range.
 pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
     match entry.range_text().filter(|_| why == WriteError::Range) {
         Some(range) => format!("{why}, {range}"),
@@ -29,7 +29,7 @@ pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
 }
 
 impl NotSet {
-    /// Why a plan refused a text for an entry, by name, which can be written in these units.
+    /// Explains why a plan refused a text for an entry. `units` are the units of the entry.
     pub(crate) fn new(
         cause: SetError,
         names: &dyn Names,
@@ -70,13 +70,12 @@ impl NotSet {
     }
 }
 
-/// The entry of that name.
 fn id(names: &dyn Names, name: &str) -> TraceEntryId {
     let mut ids = (0..names.entries()).map(TraceEntryId);
     ids.find(|id| names.entry(*id).path == name).unwrap_or(TraceEntryId(u32::MAX))
 }
 
-/// The entries that can be set now.
+/// Lists the entries that can be set now.
 fn settable(names: &dyn Names, started: bool) -> String {
     let is_open = |kind| kind == EntryKind::In || started && kind == EntryKind::Var;
     let ids = (0..names.entries()).map(TraceEntryId).filter(|id| !names.holds_object(*id));
@@ -87,21 +86,21 @@ fn settable(names: &dyn Names, started: bool) -> String {
     that_can_be_set(list).unwrap_or_else(|| none.to_owned())
 }
 
-/// Of a plan that takes nothing.
 const NO_INPUTS: &str = "this plan has no 'in' entries";
 
 fn no_entry(name: &str) -> String {
     format!("the plan has no entry '{name}'")
 }
 
-/// Entries with what they take; none of none.
+/// Lists entries with their types; `None` for an empty list.
 fn that_can_be_set<'a>(entries: impl Iterator<Item = (&'a str, String)>) -> Option<String> {
     let list: Vec<_> = entries.map(|(name, takes)| format!("'{name}' ({takes})")).collect();
     (!list.is_empty()).then(|| format!("entries that can be set: {}", list.join(", ")))
 }
 
 impl NotSet {
-    /// A plan that has not been loaded has no entry of that name; its `in` entries, each with its type.
+    /// The error for an entry that a plan (not loaded yet) lacks, with its `in` entries and their
+    /// types.
     pub fn unknown<'a>(name: &str, inputs: impl Iterator<Item = (&'a str, String)>) -> Self {
         let help = that_can_be_set(inputs).unwrap_or_else(|| NO_INPUTS.to_owned());
         NotSet { cause: SetError::Unknown, why: no_entry(name), help }
@@ -114,7 +113,7 @@ pub fn what_it_takes(entry: EntryName<'_>) -> String {
     format!("{}{range}", entry.ty)
 }
 
-/// How a value of an entry is written.
+/// Explains how a value of an entry is written.
 fn readable(
     names: &dyn Names,
     id: TraceEntryId,
@@ -148,7 +147,7 @@ fn readable(
     }
 }
 
-/// A number with a decimal comma, and one of the units where there are any, with a point.
+/// Replaces the decimal comma of a number by a point, if its unit is one of `units`.
 fn with_a_point(text: &str, units: &[&str]) -> Option<String> {
     let (whole, part) = text.split_once(',')?;
     let text = format!("{whole}.{part}");

@@ -1,4 +1,4 @@
-//! Sessions on robots that are there.
+//! Sessions on real robots.
 
 #[cfg(feature = "load")]
 use afp::load::{Graph, LoadedPlan, Registry};
@@ -13,18 +13,18 @@ use crate::robots::SessionError;
 use crate::session::Session;
 use crate::watch::Watch;
 
-/// A plan on a robot that is there.
+/// A plan on a real robot.
 pub struct Opened {
     /// The session.
     pub session: Box<dyn AnySession>,
-    /// What stops the robot where the session cannot.
+    /// Stops the robot if the session cannot.
     pub last_resort: Option<LastResort>,
-    /// The watch of the session, for another thread.
+    /// Watches the session from another thread.
     pub watch: Option<Watch>,
 }
 
 impl Opened {
-    /// A plan on a robot that is opened now.
+    /// Opens a robot and puts a plan on it.
     ///
     /// # Errors
     /// The robot cannot be reached.
@@ -42,13 +42,14 @@ impl Opened {
     }
 }
 
-/// A kind of robot that is there, on which plans can be loaded.
+/// A kind of real robot on which plans can be loaded.
 #[cfg(feature = "load")]
 pub trait Opener: Sync {
-    /// The main plan of a graph on the robot, which is opened now.
+    /// Opens the robot and puts the main plan of a graph on it.
     ///
     /// # Errors
-    /// A template that this program does not know or that the robot does not serve; a robot that cannot be reached.
+    /// A template is unknown to this program or does not work on the robot; the robot cannot be
+    /// reached.
     fn open(&self, plan: &Graph, settings: &Settings) -> Result<Opened, SessionError>;
 }
 
@@ -58,8 +59,8 @@ struct Kind<H, F> {
     register: F,
 }
 
-/// A kind of robot that is there, with the devices of a simulated one and a function that registers the templates that
-/// plans for it may use.
+/// A kind of real robot with the devices of a simulated one. `register` registers the templates for
+/// its plans.
 #[cfg(feature = "load")]
 pub const fn hardware<R, H, F>(register: F) -> impl Opener
 where
@@ -75,7 +76,7 @@ impl<H: Hardware, F: Fn(&mut Registry<H>) + Sync> Opener for Kind<H, F> {
     fn open(&self, plan: &Graph, settings: &Settings) -> Result<Opened, SessionError> {
         let mut registry = Registry::new();
         (self.register)(&mut registry);
-        // Before the robot is touched.
+        // First, so that an error leaves the robot untouched.
         let plan = LoadedPlan::new(plan, &registry).map_err(SessionError::Load)?;
         Opened::new::<_, H>(plan, settings)
     }

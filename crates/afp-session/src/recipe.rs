@@ -1,4 +1,4 @@
-//! A whole run as data: all that it takes to repeat it.
+//! A run as data, complete enough to repeat it.
 
 use std::fmt;
 
@@ -9,65 +9,66 @@ use crate::request::RequestError;
 use crate::sample::Pose2;
 use crate::stimulus::Stimulus;
 
-/// All that it takes to repeat a run. Logs hold one; the same build makes the same trace of it.
+/// The data to repeat a run. A log holds one; the same build makes the same trace from it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recipe {
     /// The name of the plan.
     pub plan: String,
-    /// The plan's file, as it was named.
+    /// The path of the plan's file, as given.
     pub file: String,
-    /// The texts of the plan's file, then of those that it uses, by paths from a folder that all of them are in.
+    /// The text of the plan's file, then of the files that it uses. The paths are relative to a
+    /// common folder.
     pub texts: Vec<TextFile>,
-    /// The texts of the toolboxes of the plan's project, by their names; built-in ones belong to the build.
+    /// The texts of the project's toolboxes, by name; built-in toolboxes belong to the build.
     pub toolboxes: Vec<TextFile>,
     /// The kind of robot.
     pub robot: String,
-    /// The world, by its name; a value that was changed for the run stands in the text.
+    /// The world, by name; its text contains the values that were changed for the run.
     pub world: TextFile,
-    /// Where the robot starts instead of where the world says.
+    /// The start of the robot, if it differs from that of the world.
     pub start: Option<Pose2>,
     /// The seed of all noise.
     pub seed: u64,
     /// The measures that judge the run.
     pub measures: Vec<String>,
-    /// What was set before the start as it was written, for people: the requests have the entries, the world's text
-    /// the rest.
+    /// Settings from before the start as written, for people only: the requests set the entries,
+    /// and the world's text contains the rest.
     pub settings: Vec<(String, String)>,
-    /// When the plan is stopped at the latest.
+    /// The time limit of the plan.
     pub until: Option<Instant>,
-    /// What came from outside, in the order in which it was asked for.
+    /// The requests from outside, in the order in which they were made.
     pub requests: Vec<(Instant, Stimulus)>,
-    /// What ran it.
+    /// The build that ran it.
     pub build: Build,
 }
 
-/// A text and what it is called.
+/// A text and its name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TextFile {
-    /// Its path or its name.
+    /// Its path or name.
     pub name: String,
     /// The text.
     pub text: String,
 }
 
-/// What ran a plan.
+/// The build of the program that ran a plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Build {
     /// The version.
     pub version: String,
-    /// The commit of the sources, where it is known.
+    /// The commit of the sources, if known.
     pub commit: Option<String>,
 }
 
-/// A request of a recipe that its session cannot take.
+/// A request of a recipe that its session refuses.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("'{what}' at {} s: {why}", .at.as_secs_f64())]
 pub struct RecipeError {
-    /// When it was to come.
+    /// The time of the request.
     pub at: Instant,
-    /// What.
+    /// The request.
     pub what: Box<Stimulus>,
-    /// Why not.
+    /// The reason.
     #[source]
     pub why: RequestError,
 }
@@ -76,10 +77,10 @@ impl Recipe {
     /// The kind of a robot in a simulator.
     pub const SIMULATED: &'static str = "sim";
 
-    /// Asks a session that has not started for all that came from outside.
+    /// Makes all requests of the recipe in a session that has not started.
     ///
     /// # Errors
-    /// The first request that its plan or robot cannot take: they are not those of the recipe.
+    /// The first request that the plan or robot refuses: they are not those of the recipe.
     pub fn ask(&self, session: &mut dyn AnySession) -> Result<(), RecipeError> {
         for (at, what) in &self.requests {
             let request = what.request(session.devices(), session.names());
@@ -91,13 +92,13 @@ impl Recipe {
 }
 
 impl Build {
-    /// What this is when nobody says more.
+    /// The build of this program.
     pub fn this() -> Build {
         let commit = option_env!("AFP_COMMIT").filter(|commit| !commit.is_empty());
         Build { version: env!("CARGO_PKG_VERSION").to_owned(), commit: commit.map(str::to_owned) }
     }
 
-    /// Whether it is another one, as far as is known of both.
+    /// Whether the builds differ, as far as both are known.
     pub fn differs(&self, other: &Build) -> bool {
         let commits = self.commit.as_ref().zip(other.commit.as_ref());
         self.version != other.version || commits.is_some_and(|(mine, other)| mine != other)

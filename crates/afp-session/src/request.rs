@@ -1,4 +1,4 @@
-//! What comes from outside while a plan runs: writes, presses, faults, and what only tests ask for.
+//! Requests from outside to a running plan: writes, presses, faults, and some for tests only.
 
 use std::collections::BTreeMap;
 
@@ -8,36 +8,36 @@ use afp_core::{Duration, EntryId, Instant, Value, WriteError};
 
 use crate::sample::Pose2;
 
-/// How long `afpc run` lets a plan run in virtual time by default.
+/// The default limit of `afpc run`, in virtual time.
 pub const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
 
-/// How long something is held down unless anybody says otherwise.
+/// The default duration of a hold.
 pub const HOLD: Duration = Duration::from_millis(200);
 
-/// Something that comes from outside. Ids or names in it are held as `H` says.
+/// A request from outside, with ids or names as `H` says.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RequestOf<H: Held> {
-    /// An entry is written: before the start an `in` entry at once, later with the next step.
+    /// Writes an entry: an `in` entry at once before the start, later any entry with the next step.
     Write(H::Entry, H::Value),
-    /// A control is held down until it is let go, or let go, whoever holds it.
+    /// Presses a control until it is released, or releases it for all that hold it.
     Press(H::Control, bool),
-    /// A control is held down for a while, and then for as long as somebody else holds it.
+    /// Presses a control for a duration; other holds of it may last longer.
     Hold(H::Control, Duration),
-    /// Something breaks for a while, [`Duration::MAX`] for good: by that amount in SI units, or by as much as the robot's
-    /// devices declare.
+    /// Activates a fault for a duration ([`Duration::MAX`]: without end), by an amount in SI units
+    /// or by the default of the devices.
     Break(H::Fault, Option<f64>, Duration),
-    /// A component of a loaded plan reports an outcome at its next poll, whatever it sees. The outputs that come with it
-    /// have positions among the template's.
+    /// Makes a component of a loaded plan report an outcome at its next poll. The outputs have the
+    /// positions of the template's outputs.
     Inject(H::Component, H::Outcome, Vec<(u16, H::Value)>),
-    /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
+    /// Makes an actor, the actors of a sub-plan, or all actors do nothing from their next start on.
     Idle(Option<H::Component>),
-    /// Something of a simulated world is put somewhere by hand: metres, radians.
+    /// Places an object of a simulated world: metres, radians.
     Put(Put, Pose2),
-    /// The plan ends as interrupted.
+    /// Ends the plan as interrupted.
     Stop,
 }
 
-/// How a request holds what it is about.
+/// The form in which a request refers to its objects.
 pub trait Held {
     /// An entry of the plan itself.
     type Entry;
@@ -53,7 +53,7 @@ pub trait Held {
     type Outcome;
 }
 
-/// By ids of a session.
+/// References by ids of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByIds;
 
@@ -66,106 +66,105 @@ impl Held for ByIds {
     type Outcome = Outcome;
 }
 
-/// A request that a session takes.
+/// A request for a session.
 pub type Request = RequestOf<ByIds>;
 
-/// What is put somewhere by hand.
+/// An object to place in the world.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Put {
     /// The robot.
     Robot,
-    /// A thing of the world, by its name.
+    /// A thing of the world, by name.
     Thing(String),
-    /// Something that was not there: its shape, of those that the robot's kind knows.
+    /// A new thing, by a shape that the kind of robot offers.
     New(String),
 }
 
-/// The number of a request of a session, in the order in which they were made.
+/// The number of a request in a session, in order of creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RequestId(pub u64);
 
-/// Why a request cannot be met.
+/// The reason why a session refuses a request.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
-    /// Its instant is over.
+    /// Its time has passed.
     #[error("{} s is over: it is {} s", .at.as_secs_f64(), .now.as_secs_f64())]
     Over {
-        /// The instant.
+        /// The time of the request.
         at: Instant,
-        /// The time now.
+        /// The present time.
         now: Instant,
     },
     /// The plan has ended.
     #[error("the plan has ended")]
     Ended,
-    /// There is no such control.
+    /// The control does not exist.
     #[error("the robot has no such control")]
     NoControl,
-    /// There is no such fault.
+    /// The fault does not exist.
     #[error("the robot has no such fault")]
     NoFault,
-    /// There cannot be so much of a fault.
+    /// The amount of the fault is out of range.
     #[error("{0} is out of range")]
     Amount(f64),
-    /// The robot's devices declare it, but this robot has it not.
+    /// The devices declare it, but this robot lacks it.
     #[error("this robot has no '{0}'")]
     Lacks(&'static str),
-    /// The robot does not do that.
+    /// The robot does not support it.
     #[error("the robot does not do that")]
     Refused,
-    /// There is no thing of that name in the world, or it cannot be moved.
+    /// The world has no movable thing of that name.
     #[error("nothing called '{0}' can be moved")]
     NoThing(String),
-    /// There is nothing of that shape to put somewhere.
+    /// The shape does not exist.
     #[error("nothing has the shape '{0}'")]
     NoShape(String),
-    /// So many things were dropped already, as many as can be.
+    /// The number of new things has reached its limit.
     #[error("{0} things were dropped, and no more can be; move one of them here")]
     Full(usize),
-    /// There is no room at that place: what stands there.
+    /// The place is occupied, by the thing of that name.
     #[error("'{0}' stands there")]
     Occupied(String),
-    /// That place is none.
+    /// The pose is not finite or lies outside of the world.
     #[error("that place is not in the world")]
     Nowhere,
-    /// The entry does not take the value.
+    /// The entry refuses the value.
     #[error("{0}")]
     Write(#[source] WriteError),
-    /// A component of that path is not being polled, so it cannot report anything.
+    /// The component of that path is not polled now, so it cannot report.
     #[error("'{0}' is not active")]
     NotActive(String),
-    /// A component of that path has not yet reported what it was made to report before.
+    /// The component of that path has not yet reported the previous injected outcome.
     #[error("'{0}' already has something to report")]
     Reports(String),
-    /// There is no such actor or sub-plan.
+    /// The actor or sub-plan does not exist.
     #[error("there is no such actor")]
     NoElement,
-    /// The plan has no such entry, or its entry has no such value.
+    /// The plan has no such entry, or the entry no such value.
     #[error("the plan has no such entry '{0}'")]
     NoEntry(String),
-    /// There is no such state or event.
+    /// The state or event does not exist.
     #[error("there is no '{0}'")]
     NoOutcome(String),
-    /// The plan was compiled into the program: its components report what they see, and nothing else.
+    /// The plan was compiled into the program, so no outcome can be injected.
     #[error("the plan was compiled in; only a loaded one can be made to report")]
     Compiled,
 }
 
-/// What is still to come, by time; at one time as it was made.
+/// Pending requests, by time and then by order of creation.
 #[derive(Clone, Debug)]
 pub(crate) struct Requests {
     waiting: BTreeMap<(Instant, RequestId), Waiting>,
     made: u64,
-    /// When the next one is due.
+    /// The time of the next one.
     next: Instant,
 }
 
-/// A request that has not been reported to observers.
+/// A request that observers have not seen yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Waiting {
     pub(crate) request: Request,
-    /// Whether it has been done already.
     pub(crate) done: bool,
 }
 
@@ -180,7 +179,7 @@ impl Requests {
         self.insert(at, Waiting { request, done: false })
     }
 
-    /// Adds one that is done already, to be reported to observers.
+    /// Adds a request that is already done, for the report to observers.
     pub(crate) fn add_done(&mut self, at: Instant, request: Request) {
         self.insert(at, Waiting { request, done: true });
     }
@@ -193,7 +192,7 @@ impl Requests {
         id
     }
 
-    /// What is still to come, in order.
+    /// Pending requests, in order.
     pub(crate) fn pending(&self) -> impl Iterator<Item = (Instant, RequestId, &Request)> {
         self.waiting.iter().map(|((at, id), waiting)| (*at, *id, &waiting.request))
     }

@@ -1,4 +1,4 @@
-//! What a session asks of a robot, beyond that time passes for it.
+//! The interface between a session and a robot, beyond the passage of time.
 
 use std::error::Error;
 
@@ -13,19 +13,20 @@ use crate::sample::{Pose2, SampleRef};
 use crate::sampling::Samples;
 use crate::world::World;
 
-/// What can be held down on a robot.
+/// The controls of a robot.
 pub type ControlOf<R> = <<R as Robot>::Devices as Devices>::Control;
-/// What can be broken of a robot.
+/// The faults of a robot.
 pub type FaultOf<R> = <<R as Robot>::Devices as Devices>::Fault;
 
-/// The robot does not do that.
+/// The robot does not support the request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the robot does not do that")]
 pub struct Refused;
 
 /// A platform with devices. Hardware leaves `press` and `set_faults` out.
 ///
-/// The robot has one button, which is also its signal. `Button`, `Panel` and `PRESSED` usually come from `toolbox!`:
+/// The robot of this example has one button, which is also its signal. `Button`, `Panel` and
+/// `PRESSED` usually come from `toolbox!`:
 ///
 /// ```
 /// use afp_session::{Refused, Robot, SampleRef, Samples, read_signal};
@@ -37,27 +38,27 @@ pub struct Refused;
 /// # struct Button;
 /// # struct Panel;
 /// # impl Devices for Panel {
-/// #     const TABLE: &'static [DeviceRow] = &[DeviceRow {
-/// #         name: "panel",
-/// #         help: "",
-/// #         controls: &[ControlRow { name: "go", help: "", stops: false }],
-/// #         faults: &[],
-/// #         signals: &[SignalRow { name: "pressed", ty: SignalType::Bool, truth: false, help: "" }],
-/// #     }];
-/// #     type Control = Button;
-/// #     type Fault = std::convert::Infallible;
-/// #     fn control(_: ControlId) -> Option<Button> { Some(Button) }
-/// #     fn fault(_: FaultId, _: Option<f64>) -> Option<std::convert::Infallible> { None }
+/// # const TABLE: &'static [DeviceRow] = &[DeviceRow {
+/// # name: "panel",
+/// # help: "",
+/// # controls: &[ControlRow { name: "go", help: "", stops: false }],
+/// # faults: &[],
+/// # signals: &[SignalRow { name: "pressed", ty: SignalType::Bool, truth: false, help: "" }],
+/// # }];
+/// # type Control = Button;
+/// # type Fault = std::convert::Infallible;
+/// # fn control(_: ControlId) -> Option<Button> { Some(Button) }
+/// # fn fault(_: FaultId, _: Option<f64>) -> Option<std::convert::Infallible> { None }
 /// # }
 /// # impl Environment for Toy {
-/// #     fn stop(&mut self, _: Instant) {}
-/// #     fn emergency_stop(&mut self) {}
+/// # fn stop(&mut self, _: Instant) {}
+/// # fn emergency_stop(&mut self) {}
 /// # }
 /// # impl Platform for Toy {
-/// #     type Clock = StillClock;
-/// #     fn clock(&self) -> StillClock { StillClock }
-/// #     fn now(&self) -> Instant { self.now }
-/// #     fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
+/// # type Clock = StillClock;
+/// # fn clock(&self) -> StillClock { StillClock }
+/// # fn now(&self) -> Instant { self.now }
+/// # fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
 /// # }
 ///
 /// struct Toy {
@@ -86,50 +87,50 @@ pub trait Robot: Platform {
     /// Its devices.
     type Devices: Devices;
 
-    /// What its devices declare and it has not: `camera`, `wheels.slip`.
+    /// Devices and faults that are declared but that this robot lacks: `camera`, `wheels.slip`.
     const LACKS: &'static [&'static str] = &[];
 
-    /// Holds a control down or lets it go.
+    /// Presses or releases a control.
     ///
     /// # Errors
-    /// Nobody can press it here.
+    /// The control cannot be pressed by software.
     fn press(&mut self, control: ControlOf<Self>, held: bool) -> Result<(), Refused> {
         let _ = (control, held);
         Err(Refused)
     }
 
-    /// Breaks exactly these, and mends everything else.
+    /// Activates exactly these faults.
     ///
     /// # Errors
-    /// Nothing can be broken here.
+    /// The robot has no faults to activate.
     fn set_faults(&mut self, active: &Active<'_, FaultOf<Self>>) -> Result<(), Refused> {
         let _ = active;
         Err(Refused)
     }
 
-    /// Puts something of its world somewhere, as a hand would: what it touches there is not pushed, and no wheel turns.
+    /// Places an object of the world, as a hand would: nothing is pushed, and no wheel turns.
     ///
     /// # Errors
-    /// There is no hand here, no such thing, or no room.
+    /// The world has no such object, no room, or objects cannot be placed in it.
     fn put(&mut self, what: &Put, at: Pose2) -> Result<(), RequestError> {
         let _ = (what, at);
         Err(RequestError::Refused)
     }
 
-    /// Whether something could be put somewhere now, as [`Robot::put`] does it.
+    /// Whether [`Robot::put`] would succeed now.
     ///
     /// # Errors
-    /// As of [`Robot::put`].
+    /// As [`Robot::put`].
     fn check_put(&self, what: &Put, at: Pose2) -> Result<(), RequestError> {
         let _ = (what, at);
         Err(RequestError::Refused)
     }
 
-    /// Says what its signals are now; one that is not said has no value now, whatever it said before. What is dear to compute is
-    /// asked for with [`Samples::wants`].
+    /// Gives the present values of the signals; a signal without one has no value now.
+    /// [`Samples::wants`] tells whether an expensive value is needed.
     fn sample(&self, to: &mut Samples<'_, '_>);
 
-    /// The same robot at the same instant, with a clock of its own; none where there is no such thing.
+    /// A copy of the robot at this instant, with its own clock; `None` if it cannot be copied.
     fn keyframe(&self) -> Option<Self>
     where
         Self: Sized,
@@ -137,22 +138,22 @@ pub trait Robot: Platform {
         None
     }
 
-    /// What it came to so far, beyond what measures say.
+    /// The results of the robot so far, in addition to measures.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()
     }
 }
 
-/// Something that can be put into a world while a plan runs.
+/// A thing that can be added to a world during a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Droppable {
-    /// What it is called in [`Put::New`].
+    /// Its name in [`Put::New`].
     pub shape: &'static str,
-    /// Its outline around its middle, metres, counter-clockwise.
+    /// Its outline around its centre, metres, counter-clockwise.
     pub outline: &'static [[f64; 2]],
 }
 
-/// A robot in a world, in virtual time.
+/// A simulated robot in a world, in virtual time.
 ///
 /// ```
 /// use afp_session::{NoWorld, Simulated, WorldError};
@@ -162,25 +163,25 @@ pub struct Droppable {
 /// # use afp_core::{Environment, Instant, Platform, StillClock};
 /// # struct NoDevices;
 /// # impl Devices for NoDevices {
-/// #     const TABLE: &'static [DeviceRow] = &[];
-/// #     type Control = Infallible;
-/// #     type Fault = Infallible;
-/// #     fn control(_: ControlId) -> Option<Infallible> { None }
-/// #     fn fault(_: FaultId, _: Option<f64>) -> Option<Infallible> { None }
+/// # const TABLE: &'static [DeviceRow] = &[];
+/// # type Control = Infallible;
+/// # type Fault = Infallible;
+/// # fn control(_: ControlId) -> Option<Infallible> { None }
+/// # fn fault(_: FaultId, _: Option<f64>) -> Option<Infallible> { None }
 /// # }
 /// # impl Environment for Toy {
-/// #     fn stop(&mut self, _: Instant) {}
-/// #     fn emergency_stop(&mut self) {}
+/// # fn stop(&mut self, _: Instant) {}
+/// # fn emergency_stop(&mut self) {}
 /// # }
 /// # impl Platform for Toy {
-/// #     type Clock = StillClock;
-/// #     fn clock(&self) -> StillClock { StillClock }
-/// #     fn now(&self) -> Instant { self.now }
-/// #     fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
+/// # type Clock = StillClock;
+/// # fn clock(&self) -> StillClock { StillClock }
+/// # fn now(&self) -> Instant { self.now }
+/// # fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
 /// # }
 /// # impl Robot for Toy {
-/// #     type Devices = NoDevices;
-/// #     fn sample(&self, _: &mut Samples<'_, '_>) {}
+/// # type Devices = NoDevices;
+/// # fn sample(&self, _: &mut Samples<'_, '_>) {}
 /// # }
 ///
 /// struct Toy {
@@ -204,32 +205,33 @@ pub trait Simulated:
 {
     /// The world.
     type World: World;
-    /// Why the robot cannot be built in a world: a [`WorldError`](crate::WorldError), or any error or `String`.
+    /// The reason why the robot cannot be built in a world: a [`WorldError`](crate::WorldError), or
+    /// any error or `String`.
     type Error: Into<Box<dyn Error + Send + Sync>>;
 
-    /// The robot at its start, at time zero; `seed` decides on every noise.
+    /// The robot at its start, at time zero; `seed` determines all noise.
     ///
     /// # Errors
-    /// Why the world cannot be built.
+    /// The world cannot be built.
     fn new(world: &Self::World, seed: u64) -> Result<Self, Self::Error>;
 
-    /// The shapes that can be put into its world while a plan runs.
+    /// The shapes that can be added to its world during a run.
     const DROPS: &'static [Droppable] = &[];
 
-    /// What logs say of it beyond that it is simulated: name and value.
+    /// Additional facts for logs: name and value.
     const FACTS: &'static [(&'static str, &'static str)] = &[];
 
     /// The names of its measures.
     const MEASURES: &'static [&'static str] = &[];
 
-    /// A measure of that name.
+    /// The measure of that name.
     fn measure(name: &str) -> Option<Box<dyn Measure<Self>>> {
         let _ = name;
         None
     }
 }
 
-/// Judges a run, with all that the robot's own crate knows of the robot.
+/// Judges a run with knowledge of the robot's crate.
 ///
 /// ```
 /// use afp_core::Instant;
@@ -259,7 +261,7 @@ pub trait Simulated:
 /// # assert_eq!(farthest.figures()[0].text, "0.50 m");
 /// ```
 pub trait Measure<R>: Send {
-    /// Takes a record of the step that is over.
+    /// Takes a record of the step that ended.
     fn on_record(&mut self, record: &NamedRecord<'_>, robot: &R) {
         let _ = (record, robot);
     }
@@ -269,16 +271,16 @@ pub trait Measure<R>: Send {
         let _ = (at, robot);
     }
 
-    /// What it came to.
+    /// Its results.
     fn figures(&self) -> Vec<Figure>;
 
-    /// The same judge at the same instant.
+    /// A copy of the measure at this instant.
     fn keyframe(&self) -> Option<Box<dyn Measure<R>>> {
         None
     }
 }
 
-/// What a signal of a robot is now; `to` is not called where the robot has no value for it.
+/// Reads a signal of a robot; `to` is not called if the signal has no value.
 pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
     let table = <R::Devices as Devices>::TABLE;
     robot.sample(&mut Samples::of_one(robot.now(), table, signal, to));

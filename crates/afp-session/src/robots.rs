@@ -1,4 +1,4 @@
-//! Kinds of simulated robots, whatever they are: what a program links in.
+//! Kinds of simulated robots that a program links in.
 
 use std::error::Error;
 use std::marker::PhantomData;
@@ -21,41 +21,41 @@ pub trait AnyRobot: Sync {
     /// Its devices.
     fn devices(&self) -> &'static [DeviceRow];
 
-    /// What logs say of it: name and value.
+    /// Facts for logs: name and value.
     fn facts(&self) -> &'static [(&'static str, &'static str)];
 
     /// The names of its measures.
     fn measures(&self) -> &'static [&'static str];
 
-    /// The shapes that can be put into its world while a plan runs.
+    /// The shapes that can be added to its world during a run.
     fn drops(&self) -> &'static [Droppable];
 
-    /// The text of the world for plans that come without one.
+    /// The text of the default world.
     fn default_world(&self) -> &'static str;
 
-    /// The text of a world made up from a seed; none where there is no such thing.
+    /// The text of a world generated from a seed; `None` if that is not supported.
     fn made_up_world(&self, seed: u64) -> Option<String>;
 
-    /// The name of the picture that a map is drawn in.
+    /// The name of the picture file of a map.
     ///
     /// # Errors
-    /// What is wrong with the map.
+    /// The map is wrong.
     fn picture_of_map(&self, map: &str) -> Result<String, WorldError>;
 
     /// The text of the world that a map and its picture show.
     ///
     /// # Errors
-    /// What is wrong with the map.
+    /// The map is wrong.
     fn text_of_map(&self, name: &str, map: &str, picture: &[u8]) -> Result<String, WorldError>;
 
     /// Reads a world.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place.
+    /// The first mistake, with its place.
     fn world(&self, text: &str) -> Result<Arc<dyn AnyWorld>, WorldError>;
 }
 
-/// Why there is no session.
+/// The reason why a session cannot be created.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SessionError {
@@ -66,18 +66,18 @@ pub enum SessionError {
     /// The world cannot be built.
     #[error("{0}")]
     World(#[source] Box<dyn Error + Send + Sync>),
-    /// The world is that of another robot.
+    /// The world belongs to another robot.
     #[error("the world is that of another robot")]
     OtherWorld,
-    /// The robot that is there cannot be reached.
+    /// The real robot cannot be reached.
     #[error("the robot cannot be reached: {0}")]
     Hardware(#[source] Box<dyn Error + Send + Sync>),
-    /// The robot has no such measure; it has these.
+    /// The robot has no such measure, only these.
     #[error("the robot has no measure '{0}'")]
     Measure(String, &'static [&'static str]),
 }
 
-/// A kind of simulated robot by its type.
+/// A kind of simulated robot, by its type.
 pub struct Kind<R>(PhantomData<fn() -> R>);
 
 /// The kind of a simulated robot.
@@ -128,10 +128,10 @@ where
     P: NamedPlan + Plan<R>,
     R: Simulated,
 {
-    /// A plan on a robot at its start in a world, judged by some measures.
+    /// A plan on a robot at its start in a world, judged by measures.
     ///
     /// # Errors
-    /// The world is another robot's or cannot be built, the robot has no such measure.
+    /// The world belongs to another robot or cannot be built; the robot has no such measure.
     pub fn in_world(
         plan: P,
         world: &dyn AnyWorld,
@@ -159,14 +159,15 @@ fn robot_in<R: Simulated>(world: &dyn AnyWorld, seed: u64) -> Result<R, SessionE
 /// A kind of simulated robot on which plans can be loaded.
 #[cfg(feature = "load")]
 pub trait Loader: Sync {
-    /// The kind: its devices and its worlds.
+    /// The kind, with its devices and worlds.
     fn kind(&self) -> &dyn AnyRobot;
 
-    /// A session of the main plan of a graph on a robot at its start in a world, judged by some measures.
+    /// A session of the main plan of a graph on a robot at its start in a world, judged by
+    /// measures.
     ///
     /// # Errors
-    /// A template that this program does not know or that the robot does not serve, a world of another robot or one
-    /// that cannot be built, a measure that the robot has not.
+    /// A template is unknown to this program or does not work on the robot; the world belongs to
+    /// another robot or cannot be built; the robot has no such measure.
     fn session(
         &self,
         plan: &Graph,
@@ -176,14 +177,14 @@ pub trait Loader: Sync {
     ) -> Result<Box<dyn AnySession>, SessionError>;
 }
 
-/// A kind of simulated robot with the templates that plans for it may use.
+/// A kind of simulated robot with the templates for its plans.
 #[cfg(feature = "load")]
 struct Simulator<R, F> {
     kind: Kind<R>,
     register: F,
 }
 
-/// A kind of simulated robot, with a function that registers the templates that plans for it may use.
+/// A kind of simulated robot. `register` registers the templates for its plans.
 #[cfg(feature = "load")]
 pub const fn simulated<R: Simulated, F: Fn(&mut Registry<R>) + Sync>(register: F) -> impl Loader {
     Simulator { kind: kind::<R>(), register }
@@ -211,7 +212,7 @@ impl<R: Simulated, F: Fn(&mut Registry<R>) + Sync> Loader for Simulator<R, F> {
 }
 
 impl SessionError {
-    /// What to do about it.
+    /// A hint for the error.
     pub fn help(&self) -> String {
         match self {
             #[cfg(feature = "load")]

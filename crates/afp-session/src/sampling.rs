@@ -1,4 +1,4 @@
-//! Who gets the samples of an instant.
+//! Distributes the samples of an instant.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -10,38 +10,36 @@ use crate::observer::{Observer, Sampling};
 use crate::sample::SampleRef;
 use crate::session::grid::Stretch;
 
-/// A signal is given as another type than its toolbox declares.
 const SIGNAL_TYPE: &str = "signal-type";
 
-/// Takes the samples of an instant from a robot and gives each to whoever wants it.
+/// Takes the samples of an instant from a robot and gives them to the observers that want them.
 pub struct Samples<'a, 'o> {
     at: Instant,
-    /// What the robot declares.
     table: &'static [DeviceRow],
     to: To<'a, 'o>,
-    /// What was wrong with the first sample that is of another type than is declared.
+    /// The fault of the first sample with a wrong type.
     wrong: Option<Fault>,
 }
 
 enum To<'a, 'o> {
-    /// Those observers whose turn it is.
+    /// The observers whose turn it is.
     Observers(&'a mut [&'o mut dyn Observer], Turn),
-    /// Somebody who asks for one signal.
+    /// A reader of one signal.
     One(SignalId, &'a mut dyn FnMut(SampleRef<'_>)),
 }
 
-/// Whose turn it is.
+/// The observers whose turn it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// Those of whose grid an instant has come; those that sample at each step have their turn after it, where
-    /// there is one.
+    /// Those with a grid point in `stretch`. If a step follows, those that sample after steps wait
+    /// for it.
     Grid {
-        /// Whether a step is about to be made.
+        /// Whether a step follows.
         before_step: bool,
-        /// What has come since the last time.
+        /// The time since the last turn.
         stretch: Stretch,
     },
-    /// A step is over: those that sample at each step.
+    /// Those that sample after each step.
     Step,
 }
 
@@ -64,7 +62,7 @@ impl<'a, 'o> Samples<'a, 'o> {
         Samples { at, table, to: To::One(signal, to), wrong: None }
     }
 
-    /// Whether anybody wants a signal: to be asked before what is dear to compute.
+    /// Whether an observer wants a signal; for signals that are expensive to compute.
     pub fn wants(&self, signal: SignalId) -> bool {
         match &self.to {
             To::Observers(all, turn) => {
@@ -74,7 +72,8 @@ impl<'a, 'o> Samples<'a, 'o> {
         }
     }
 
-    /// Gives a sample to whoever wants it. One of another type than the robot's toolbox declares ends the run in `Error`.
+    /// Gives a sample to the observers that want it. A type other than the declared one ends the
+    /// run in `Error`.
     pub fn put(&mut self, signal: SignalId, value: SampleRef<'_>) {
         if let Some(wrong) = wrong_type(self.table, signal, &value) {
             self.wrong.get_or_insert(wrong);
@@ -93,7 +92,7 @@ impl<'a, 'o> Samples<'a, 'o> {
         }
     }
 
-    /// The samples of this instant are complete; what was wrong with one of them, if something was.
+    /// Ends the samples of this instant. Returns the fault of a sample, if there was one.
     pub(crate) fn finish(self) -> Option<Fault> {
         if let To::Observers(all, turn) = self.to {
             for each in all.iter_mut() {
@@ -107,7 +106,6 @@ impl<'a, 'o> Samples<'a, 'o> {
 }
 
 impl Turn {
-    /// Whether it is the turn of an observer of that sampling.
     fn includes(self, sampling: Sampling) -> bool {
         match (self, sampling) {
             (_, Sampling::Never) | (Turn::Step, Sampling::Every(_)) => false,
@@ -120,7 +118,7 @@ impl Turn {
     }
 }
 
-/// What is wrong with a sample: it is of another type than the table declares.
+/// The fault of a sample whose type is not the declared one.
 fn wrong_type(table: &[DeviceRow], signal: SignalId, value: &SampleRef<'_>) -> Option<Fault> {
     let (_, device, row) = signals(table).nth(signal.0.into())?;
     match value.is(row.ty) {
@@ -135,7 +133,7 @@ fn wrong_type(table: &[DeviceRow], signal: SignalId, value: &SampleRef<'_>) -> O
     }
 }
 
-/// A fault points to its words: those of each signal are kept once, as long as the program runs.
+/// A fault refers to a static text; the texts are leaked, one for each signal.
 #[cold]
 fn signal_type(text: String) -> Fault {
     static KNOWN: Mutex<BTreeMap<String, &'static Reason>> = Mutex::new(BTreeMap::new());

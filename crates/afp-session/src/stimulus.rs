@@ -1,4 +1,4 @@
-//! Requests with names in place of ids, so that they outlive the program and the plan that they were made for.
+//! Requests with names in place of ids, so that they remain valid beyond the program and the plan.
 
 use std::fmt;
 
@@ -11,10 +11,11 @@ use crate::datum::{Datum, Holder};
 use crate::request::{HOLD, Held, Put, Request, RequestError, RequestOf};
 use crate::sample::Pose2;
 
-/// A request by names: a component by its path, a control or a fault by device and name, `wheels.slip`.
+/// A request by names: a component by its path, a control or fault by device and name,
+/// `wheels.slip`.
 pub type Stimulus = RequestOf<ByNames>;
 
-/// By names, values with names in them.
+/// References and values by name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByNames;
 
@@ -27,12 +28,12 @@ impl Held for ByNames {
     type Outcome = Report;
 }
 
-/// A name, and the SI unit of its value.
+/// A name and the SI unit of its value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NameWithUnit {
     /// The name.
     pub name: String,
-    /// The SI unit, empty for a plain number; what asks need not say it.
+    /// The SI unit, empty for a plain number; requests may omit it.
     pub unit: String,
 }
 
@@ -41,12 +42,12 @@ pub struct NameWithUnit {
 pub struct Report {
     /// Its name.
     pub outcome: String,
-    /// Whether it is a state, by which an element ends.
+    /// Whether it is a state, which ends an element.
     pub ends: bool,
 }
 
 impl Stimulus {
-    /// A request of a session with those devices and names.
+    /// Replaces the ids of a session's request by names.
     pub fn new(
         request: &Request,
         devices: &[DeviceRow],
@@ -90,10 +91,10 @@ impl Stimulus {
         }
     }
 
-    /// The request of a session with those devices and names.
+    /// Replaces the names by ids of a session.
     ///
     /// # Errors
-    /// A name that is not known there.
+    /// A name that the session does not know.
     pub fn request(
         &self,
         devices: &[DeviceRow],
@@ -138,7 +139,7 @@ impl Stimulus {
 }
 
 impl fmt::Display for Stimulus {
-    /// In the words of scenarios, as far as they have such words.
+    /// In the words of scenarios, as far as they exist.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Stimulus::Write(NameWithUnit { name, unit }, value) if unit.is_empty() => {

@@ -1,4 +1,4 @@
-//! Where the robot went, and what happened on the way.
+//! The path of the robot and the events on it.
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, find_signal, signals};
@@ -12,20 +12,20 @@ use crate::world::Outlines;
 /// A point of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Waypoint {
-    /// When the robot was there.
+    /// The time.
     pub at: Instant,
-    /// Where it was.
+    /// The pose of the robot.
     pub pose: Pose2,
-    /// The actor that was active.
+    /// The active actor.
     pub actor: Option<ComponentId>,
 }
 
 /// An event on a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// When it was taken.
+    /// The time.
     pub at: Instant,
-    /// Where the robot was then, between the samples before and after it.
+    /// The pose of the robot, interpolated between the samples before and after.
     pub pose: Pose2,
     /// Its supervisor.
     pub supervisor: ComponentId,
@@ -33,36 +33,35 @@ pub struct Mark {
     pub event: Outcome,
 }
 
-/// Follows the pose of a robot that signals one (`robot.pose`), every [`SAMPLE`]; or a run that is over, from what is told of
-/// it.
+/// Follows the pose of a robot (signal `robot.pose`) every [`SAMPLE`], or that of a finished run.
 #[derive(Clone, Debug)]
 pub struct Track {
-    /// Where the robot was.
+    /// The path of the robot.
     pub path: Vec<Waypoint>,
     /// The events that were taken.
     pub marks: Vec<Mark>,
-    /// Where what moves was last, as far as the robot's devices tell it truly.
+    /// The last outlines of moving things, from signals of the true world.
     pub things: Outlines,
-    /// How far the robot went, metres.
+    /// The length of the path, metres.
     pub distance: f64,
     /// Whether path, marks and things are kept.
     keeps: bool,
-    /// When and where the robot was last.
+    /// The last pose and its time.
     last: Option<(Instant, Pose2)>,
     signal: Option<SignalId>,
     outlines: Vec<SignalId>,
     actor: Option<ComponentId>,
-    /// Marks since the robot was seen last are from here on.
+    /// The index of the first mark since the last pose.
     unplaced: usize,
 }
 
 impl Track {
-    /// The distance alone, in memory that does not grow with time.
+    /// Measures the distance only, in constant memory.
     pub fn distance_alone(devices: &[DeviceRow]) -> Self {
         Track { keeps: false, outlines: Vec::new(), ..Track::new(devices) }
     }
 
-    /// For a robot with those devices.
+    /// Follows a robot with those devices.
     pub fn new(devices: &[DeviceRow]) -> Self {
         let is_outline = |row: &SignalRow| row.truth && row.ty == SignalType::Outline;
         Track {
@@ -84,12 +83,12 @@ impl Track {
 }
 
 impl Track {
-    /// How far the robot went, metres; none where nobody said where it was.
+    /// The length of the path, metres; `None` without a pose.
     pub fn way(&self) -> Option<f64> {
         self.last.map(|_| self.distance)
     }
 
-    /// Something happened, after all that was told before.
+    /// Notes a record, in order of time.
     pub fn note_record(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
         match *record {
             Record::Started { component }
@@ -112,7 +111,7 @@ impl Track {
         }
     }
 
-    /// The robot was seen somewhere, before what happened at the same instant.
+    /// Notes a pose, before the records of the same instant.
     pub fn note_pose(&mut self, at: Instant, pose: Pose2) {
         let seen = (at, pose);
         let before = self.last.replace(seen).unwrap_or(seen);
@@ -128,7 +127,7 @@ impl Track {
 
     fn note_actor(&mut self, at: Instant, actor: Option<ComponentId>) {
         self.actor = actor;
-        // The path begins with the actor that starts first.
+        // The first point belongs to the actor that starts first.
         if let [only] = &mut self.path[..]
             && only.at == at
         {

@@ -1,15 +1,15 @@
-//! Which of the units that fit an error names.
+//! Selects the units that an error lists.
 
-/// What people write most, first what is most usual.
+/// Common units, the most common first.
 const USUAL: [&str; 20] = [
     "m", "cm", "mm", "km", "deg", "rad", "s", "ms", "min", "h", "m/s", "cm/s", "mm/s", "km/h",
     "deg/s", "rad/s", "kg", "g", "degC", "K",
 ];
 
-/// So many are named.
+/// The number of units that are listed.
 const NAMED: usize = 8;
 
-/// Some of the units, the usual ones first: `m/s, cm/s, mm/s, km/h, ...`.
+/// Lists some of the units, common ones first: `m/s, cm/s, mm/s, km/h, ...`.
 pub fn some_units<'a>(units: impl IntoIterator<Item = &'a str>) -> String {
     let mut units: Vec<&str> = units.into_iter().collect();
     units.sort_by_key(|unit| USUAL.iter().position(|usual| usual == unit).unwrap_or(USUAL.len()));

@@ -9,11 +9,11 @@ use afp_core::{Duration, Instant};
 /// The signs of life of a control loop.
 #[derive(Debug, Default)]
 pub(crate) struct Pulse {
-    /// When time has passed last, in nanoseconds.
+    /// The last time at which time passed, in nanoseconds.
     beat: AtomicU64,
     /// The component that was called last.
     called: AtomicU32,
-    /// Whether another thread has stopped the robot.
+    /// Whether another thread stopped the robot.
     cut: AtomicBool,
 }
 
@@ -43,12 +43,12 @@ impl Watch {
         Watch { pulse, clock }
     }
 
-    /// Counts from now on, for a control loop that begins now.
+    /// Starts the watch when the control loop begins.
     pub fn begin(&self) {
         self.pulse.beat((self.clock)());
     }
 
-    /// How long ago the control loop let time pass last.
+    /// The time since the last sign of life.
     pub fn late(&self) -> Duration {
         let beat = Instant::from_nanos(self.pulse.beat.load(Ordering::Relaxed));
         (self.clock)().since(beat)
@@ -59,7 +59,7 @@ impl Watch {
         ComponentId(self.pulse.called.load(Ordering::Relaxed))
     }
 
-    /// Ends the run with the control loop's next sign of life: the robot was stopped without it.
+    /// Ends the run at the next sign of life, because another thread stopped the robot.
     pub fn cut(&self) {
         self.pulse.cut.store(true, Ordering::Relaxed);
     }

@@ -1,4 +1,4 @@
-//! Worlds of simulated robots, whatever they are.
+//! Worlds of simulated robots of all kinds.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -9,7 +9,7 @@ use afp_excerpt::Mistake;
 
 use crate::sample::{Pose2, Shape};
 
-/// What a simulated robot is put into, as read from a text.
+/// The world of a simulated robot, read from a text.
 ///
 /// ```
 /// use afp_session::{Drawing, Pose2, Shape, World, WorldError};
@@ -53,25 +53,25 @@ use crate::sample::{Pose2, Shape};
 /// # Ok::<(), WorldError>(())
 /// ```
 pub trait World: Clone + fmt::Debug + Send + Sync + 'static {
-    /// The text of the world for plans that come without one.
+    /// The text of the default world.
     const DEFAULT: &'static str;
 
     /// Reads a world.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place.
+    /// The first mistake, with its place.
     fn read(text: &str) -> Result<Self, WorldError>;
 
-    /// The text of a world made up from a seed; none where there is no such thing.
+    /// The text of a world generated from a seed; `None` if that is not supported.
     fn made_up(seed: u64) -> Option<String> {
         let _ = seed;
         None
     }
 
-    /// The name of the picture that a map (a file of `map_server`) is drawn in.
+    /// The name of the picture file of a map (a file of `map_server`).
     ///
     /// # Errors
-    /// What is wrong with the map; worlds of this kind are no maps.
+    /// The map is wrong, or worlds of this kind cannot be maps.
     fn picture_of_map(map: &str) -> Result<String, WorldError> {
         let _ = map;
         Err(WorldError::new(None, "this robot's worlds are no maps"))
@@ -86,51 +86,51 @@ pub trait World: Clone + fmt::Debug + Send + Sync + 'static {
         Self::picture_of_map(map)
     }
 
-    /// What it is called.
+    /// Its name.
     fn name(&self) -> &str;
 
-    /// The same world with the robot at another start.
+    /// The same world with another start of the robot.
     ///
     /// # Errors
-    /// Why it cannot start there.
+    /// The robot cannot start there.
     fn started_at(&self, start: Pose2) -> Result<Self, WorldError>;
 
-    /// Everything that stands in it, and the robot's body, as a scene shows them at the start.
+    /// The things of the world and the robot's body at the start, for a scene.
     fn scene(&self) -> Vec<Shape>;
 
-    /// What a picture shows of it.
+    /// The content of a picture of it.
     fn drawing(&self) -> Drawing;
 }
 
-/// A world, whatever robot it is for.
+/// A world of any kind of robot.
 pub trait AnyWorld: fmt::Debug + Send + Sync {
-    /// What it is called.
+    /// Its name.
     fn name(&self) -> &str;
 
-    /// The same world with the robot at another start.
+    /// The same world with another start of the robot.
     ///
     /// # Errors
-    /// Why it cannot start there.
+    /// The robot cannot start there.
     fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, WorldError>;
 
-    /// Everything that stands in it, and the robot's body, as a scene shows them at the start.
+    /// The things of the world and the robot's body at the start, for a scene.
     fn scene(&self) -> Vec<Shape>;
 
-    /// What a picture shows of it.
+    /// The content of a picture of it.
     fn drawing(&self) -> Drawing;
 
-    /// Itself, for who knows what it is.
+    /// The world itself, for a downcast.
     fn as_any(&self) -> &dyn Any;
 }
 
-/// What a picture shows of a world, seen from above: metres.
+/// The content of a picture of a world from above: metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
-    /// Where the robot starts.
+    /// The start of the robot.
     pub start: Pose2,
     /// The outline of the robot at the origin, counter-clockwise.
     pub body: Vec<[f64; 2]>,
-    /// What stands or moves.
+    /// Fixed and moving things.
     pub things: Vec<Thing>,
     /// Patches of colour on the floor.
     pub patches: Vec<Patch>,
@@ -138,14 +138,14 @@ pub struct Drawing {
     pub lights: Vec<[f64; 2]>,
 }
 
-/// Outlines of things in metres, by what scenes know them by.
+/// Outlines of things in metres, by their ids in scenes.
 pub type Outlines = BTreeMap<String, Vec<[f64; 2]>>;
 
-/// How far a corner of a thing has to be from where it was for the thing to stand elsewhere, metres.
+/// The least distance of a corner that counts as a move of the thing, metres.
 const ELSEWHERE: f64 = 0.004;
 
 impl Drawing {
-    /// The same after a run that left things at these places.
+    /// The drawing after a run, with the final places of things.
     pub fn ended(mut self, places: &Outlines) -> Drawing {
         let far =
             |(a, b): (&[f64; 2], &[f64; 2])| libm::hypot(a[0] - b[0], a[1] - b[1]) > ELSEWHERE;
@@ -158,30 +158,30 @@ impl Drawing {
 }
 
 impl Thing {
-    /// Its outline at the end of a run, as far as that is known.
+    /// The outline at the end of a run, if known; else at the start.
     pub fn last(&self) -> &[[f64; 2]] {
         self.end.as_ref().unwrap_or(&self.outline)
     }
 }
 
-/// Something that stands or moves on the floor.
+/// A thing on the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thing {
-    /// What scenes know it by.
+    /// Its id in scenes.
     pub id: String,
     /// Its name.
     pub name: String,
     /// Its outline at the start, counter-clockwise.
     pub outline: Vec<[f64; 2]>,
-    /// The same at the end of a run, where it stands elsewhere then.
+    /// Its outline at the end of a run, if it has moved.
     pub end: Option<Vec<[f64; 2]>>,
     /// Whether sensors look over it.
     pub low: bool,
-    /// Whether a hand can put it elsewhere.
+    /// Whether it can be placed by hand.
     pub movable: bool,
-    /// Whether there is room for its name.
+    /// Whether it has room for its name.
     pub labelled: bool,
-    /// Where its middle goes; empty for what does not go its own way.
+    /// The path of its centre; empty if it does not move by itself.
     pub path: Vec<[f64; 2]>,
 }
 
@@ -194,7 +194,7 @@ pub struct Patch {
     pub color: [u8; 3],
 }
 
-/// What is wrong with the text of a world, or with that of a map.
+/// A mistake in the text of a world or map.
 pub type WorldError = Mistake;
 
 impl<W: World> AnyWorld for W {

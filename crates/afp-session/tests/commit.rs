@@ -1,4 +1,4 @@
-//! Which commit a build says that it is of.
+//! The commit that a build names.
 
 use std::fs;
 use std::path::Path;

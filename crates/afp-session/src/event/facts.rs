@@ -1,20 +1,20 @@
-//! What events say, for readers that show all kinds of them alike: lines of JSON, Python.
+//! The content of events in a uniform form, for lines of JSON and Python.
 
 use super::{
     EndingKind, EventKind, FaultText, Miss, NamedComponent, NamedOutcome, Requested, RunEvent,
 };
 use crate::datum::Datum;
 
-/// What an event says besides its component; what its kind has not is empty.
+/// The content of an event, without its component. Fields that the kind lacks are empty.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Facts<'a> {
     /// The state or event.
     pub outcome: Option<&'a NamedOutcome>,
-    /// The element that was active or being entered when an event was taken, or was not.
+    /// The element that was active or starting at an event.
     pub element: Option<&'a NamedComponent>,
-    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
+    /// Whether the target comes from an `on` of the element and not from the supervisor.
     pub on: bool,
-    /// The supervisor that diverted a start, or whose event resumed.
+    /// The supervisor that diverted a start, or whose event resumed an element.
     pub supervisor: Option<&'a NamedComponent>,
     /// The entry that was written.
     pub entry: &'a str,
@@ -26,18 +26,18 @@ pub struct Facts<'a> {
     pub value: Option<&'a Datum>,
     /// The SI unit of the values.
     pub unit: &'a str,
-    /// Why something failed.
+    /// The fault.
     pub fault: Option<&'a FaultText>,
-    /// By how much a deadline was missed.
+    /// The missed deadline.
     pub miss: Option<&'a Miss>,
-    /// How a plan ended.
+    /// The ending of a plan.
     pub ending: Option<EndingKind>,
-    /// What came from outside.
+    /// The request from outside.
     pub request: Option<&'a Requested>,
 }
 
 impl RunEvent {
-    /// What it says, whatever its kind is.
+    /// The content of the event.
     pub fn facts(&self) -> Facts<'_> {
         let none = Facts::default();
         match &self.kind {
@@ -78,7 +78,7 @@ impl RunEvent {
 }
 
 impl EventKind {
-    /// The kind in a word, as JSON and Python have it.
+    /// The kind as a word, for JSON and Python.
     pub fn word(&self) -> &'static str {
         match self {
             EventKind::Unknown => "unknown",

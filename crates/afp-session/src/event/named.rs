@@ -1,4 +1,4 @@
-//! Records of a trace as events with names.
+//! Replaces the ids in records by names.
 
 use afp_core::Fault;
 use afp_core::trace::{ComponentId, Ending, EntryName, Names, Outcome, PortName, Record, Verdict};
@@ -9,13 +9,13 @@ use super::{
 };
 use crate::datum::Holder;
 
-/// Puts names in place of ids.
+/// Replaces ids by names.
 pub(super) struct Namer<'a, N: ?Sized> {
     pub(super) names: &'a N,
 }
 
 impl<N: Names + ?Sized> Namer<'_, N> {
-    /// What a record says, and the number of the component that it is about.
+    /// The content of a record, and the number of its component.
     pub(super) fn describe(&self, record: &Record<'_>) -> (ComponentId, EventKind) {
         let plan = ComponentId(0);
         match *record {
@@ -90,7 +90,7 @@ impl<N: Names + ?Sized> Namer<'_, N> {
         NamedComponent { path: path.to_owned(), id }
     }
 
-    /// An outcome before it is taken, which decides where it leads.
+    /// An outcome before it is taken; its target is not known yet.
     fn reported(&self, id: ComponentId, outcome: Outcome) -> NamedOutcome {
         let name = self.names.outcome(id, outcome).to_owned();
         NamedOutcome { name, outcome, target: String::new() }
@@ -101,7 +101,7 @@ impl<N: Names + ?Sized> Namer<'_, N> {
         NamedOutcome { target, ..self.reported(id, outcome) }
     }
 
-    /// An event, which leads where the element that is active or being entered says.
+    /// An event, with the target that the active or starting element gives it.
     fn event_at(&self, supervisor: ComponentId, event: Outcome, element: ComponentId) -> EventAt {
         let mut reactions = (0..u16::MAX).map_while(|n| self.names.reaction(element, n));
         let own = reactions.find(|each| (each.supervisor, each.outcome) == (supervisor, event));

@@ -1,5 +1,5 @@
-//! Runs that lost their trust end in `Error`: a component panics, the robot's own Rust is wrong, or the control
-//! loop of a real robot is late.
+//! Ends runs in `Error` if they can no longer be trusted: a component panics, the robot's Rust code
+//! is wrong, or the control loop of a real robot is late.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -11,16 +11,14 @@ use crate::observer::{Go, Observer};
 use crate::record::Keep;
 use crate::robot::Robot;
 
-/// So often in a row the time of a simulated robot may stand still.
+/// The limit of consecutive steps without progress of a simulated robot's time.
 const PATIENCE: u32 = 1_000;
 
-/// The time of a simulated robot does not go on.
 const STUCK: Fault = Fault::new(&Reason {
     code: "robot-stuck",
     text: "the robot's time does not go on: 'advance' must bring 'now' up to the instant",
 });
 
-/// The control loop of a real robot came too late.
 const STALLED: Fault = Fault::new(&Reason {
     code: "stalled",
     text: "the control loop was held up or suspended, so the robot was stopped",
@@ -32,20 +30,20 @@ where
     R: Robot,
     S: Keep,
 {
-    /// Time was to pass up to an instant and has not.
+    /// Notes that time has not advanced although it should.
     #[cold]
     pub(super) fn stood_still(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
         self.still = self.still.saturating_add(1);
-        // That of a robot that is there passes by itself.
+        // The time of a real robot passes by itself.
         if self.still >= PATIENCE && self.stall.is_none() {
             self.distrust(STUCK, to);
-            // A robot that never comes to rest is not waited for.
+            // The session must not wait for such a robot to come to rest.
             self.last = now;
         }
     }
 
-    /// Does something with this session. Where a component panics meanwhile, nothing of the plan can be trusted any
-    /// more: the run ends, and there is more to do. A panic of anybody else goes on.
+    /// Calls `drive`. If a component panics, the plan cannot be trusted: the run ends, and the
+    /// caller calls again. Other panics continue.
     pub(super) fn guarded(
         &mut self,
         to: &mut [&mut dyn Observer],
@@ -62,7 +60,7 @@ where
         }
     }
 
-    /// Time has passed.
+    /// Notes that time has passed.
     #[inline]
     pub(super) fn passes(&mut self, now: Instant) {
         self.passed = now;
@@ -71,8 +69,8 @@ where
         }
     }
 
-    /// Ends the plan if the control loop of a real robot is too late: it must not drive on, because the world has changed
-    /// meanwhile. Whether it did.
+    /// Ends the plan if the control loop of a real robot is too late: the world has changed
+    /// meanwhile, so the robot must not drive on. Returns whether it ended the plan.
     #[inline]
     pub(super) fn has_stalled(&mut self, late: Duration, to: &mut [&mut dyn Observer]) -> bool {
         let is_cut = self.pulse.as_ref().is_some_and(|pulse| pulse.is_cut());
@@ -84,7 +82,7 @@ where
         ends
     }
 
-    /// Ends the plan, if it has not ended, because of what the robot's own Rust did.
+    /// Ends the plan, unless it has ended, because of a fault in the robot's Rust code.
     pub(super) fn distrust(&mut self, fault: Fault, to: &mut [&mut dyn Observer]) {
         if self.ending().is_none() {
             self.abort(fault, to);

@@ -1,4 +1,4 @@
-//! Robots whose own Rust is wrong end the run, with what is wrong.
+//! Mistakes in the robot's Rust code end the run, with an explanation.
 
 use std::sync::atomic::Ordering;
 
@@ -80,7 +80,7 @@ fn a_control_loop_that_is_late_ends_the_run_of_a_real_robot_and_does_not_drive_o
     assert_eq!(ending(real(300), more), ("interrupted", false));
     assert_eq!(ending(real(301), more), ("stalled", true));
     assert_eq!(ending(Session::loaded(plan(PLAN), held_up(300)), None), ("interrupted", false));
-    // Before the start, and after the end, nothing moves that could drive on.
+    // Before the start and after the end, the robot cannot move, so a delay is harmless.
     let mut toy = Toy::new();
     toy.held_up = Some((at(0), Duration::from_secs(1)));
     let mut ended = Session::on_hardware(plan(PLAN), toy);
@@ -90,7 +90,7 @@ fn a_control_loop_that_is_late_ends_the_run_of_a_real_robot_and_does_not_drive_o
     assert_eq!(ended.ending(), Some(Ending::Interrupted));
 }
 
-/// Hears of faults.
+/// Counts faults.
 #[derive(Default)]
 struct Faults(u32);
 

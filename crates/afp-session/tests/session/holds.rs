@@ -1,11 +1,11 @@
-//! Who presses a control, and when it is let go.
+//! Holds of a control and their ends.
 
 use afp_core::{Duration, Instant, Platform as _};
 use afp_session::{AnySession, Applied, Observer, Open, Request, Stimulus};
 
 use super::{FRONT, at, session};
 
-/// Requests, and whether the control is held down: each with its milliseconds.
+/// Requests, and changes of the control, each with its time in milliseconds.
 type Case<'a> = (&'a [(u64, Request)], &'a [(u64, bool)]);
 
 #[test]
@@ -21,12 +21,12 @@ fn a_control_is_held_down_until_the_last_who_presses_it_lets_go() {
             &[(100, hold(100)), (200, hold(100))],
             &[(199, true), (200, true), (299, true), (301, false)],
         ),
-        // Made in the other order it is the same.
+        // The order of the requests does not matter.
         (
             &[(200, hold(100)), (100, hold(100))],
             &[(199, true), (200, true), (299, true), (301, false)],
         ),
-        // Who lets go does so for all, and what was to end later ends nothing of what is pressed then.
+        // A release ends all holds, and their later ends do not affect new holds.
         (
             &[(100, hold(500)), (200, release), (300, hold(600))],
             &[(190, true), (250, false), (310, true), (650, true), (890, true), (910, false)],
@@ -43,7 +43,7 @@ fn a_control_is_held_down_until_the_last_who_presses_it_lets_go() {
             session.run(at(*millis), &mut Open, &mut [&mut told]).unwrap();
             assert_eq!(session.robot().is_pressed(), *pressed, "{requests:?} at {millis} ms");
         }
-        // A repetition of what was told, as from a log, is the same run.
+        // The requests of a run, repeated as from a log, make the same run.
         let end = session.robot().now();
         let mut repeated = super::session();
         for (at, what) in &told.0 {
@@ -57,7 +57,7 @@ fn a_control_is_held_down_until_the_last_who_presses_it_lets_go() {
     }
 }
 
-/// What has come from outside.
+/// Collects requests from outside.
 #[derive(Default)]
 struct Told(Vec<(Instant, Stimulus)>);
 

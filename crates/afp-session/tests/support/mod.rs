@@ -25,7 +25,6 @@ mod templates {
     afp_macros::toolbox!("tests/toy.afp", robot: super::Rolls);
 }
 
-/// What breaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToyFault {
     Lost,
@@ -87,7 +86,6 @@ impl Devices for ToyDevices {
     }
 }
 
-/// The robot.
 #[derive(Default)]
 pub struct Toy {
     now: Instant,
@@ -96,13 +94,13 @@ pub struct Toy {
     pressed: bool,
     lost: bool,
     grip: f64,
-    /// Its time stands still from here on.
+    /// The time at which its clock stops.
     pub stuck_from: Option<Instant>,
-    /// The first `advance` up to here or beyond takes longer by the duration.
+    /// The first `advance` to this instant or later takes longer by the duration.
     pub held_up: Option<(Instant, Duration)>,
-    /// It says from here on whether it is touched with a text.
+    /// From this time on, it gives a text for the bumper signal.
     pub wordy_from: Option<Instant>,
-    /// How often it was stopped by the strongest means, for who outlives it.
+    /// Counts emergency stops; shared, to be read after the robot is dropped.
     pub stops: Arc<AtomicU64>,
 }
 
@@ -111,12 +109,12 @@ impl Toy {
         Toy { grip: 1.0, ..Toy::default() }
     }
 
-    /// Whether its bumper is held down.
+    /// Whether the bumper is pressed.
     pub fn is_pressed(&self) -> bool {
         self.pressed
     }
 
-    /// One whose time does not begin at zero.
+    /// A robot whose time does not begin at zero.
     pub fn at(now: Instant) -> Self {
         Toy { now, ..Toy::new() }
     }
@@ -197,7 +195,7 @@ impl Hardware for Toy {
     }
 }
 
-/// What templates ask of it.
+/// The interface for templates.
 pub trait Rolls: Environment {
     fn roll(&mut self, speed: f64);
     fn touched(&self) -> bool;
