@@ -1,5 +1,3 @@
-//! `--again`: repeats the run of a log.
-
 use std::path::{Path, PathBuf};
 
 use afp_core::Instant;
@@ -12,13 +10,11 @@ use crate::run::HARDWARE;
 use crate::stderr::warn;
 use crate::world::{self, LoadedWorld};
 
-/// A run to be repeated.
 pub(crate) struct Again {
     /// Its log.
     pub(crate) path: PathBuf,
-    /// All that it takes.
     pub(crate) recipe: Recipe,
-    /// The hash of its trace; none where its log breaks off or misses something.
+    /// The hash of its trace; `None` if the log is incomplete.
     trace: Option<String>,
 }
 
@@ -26,7 +22,7 @@ impl Again {
     /// Reads a log.
     ///
     /// # Errors
-    /// It cannot be read, or says nothing of its plan or its world.
+    /// The log cannot be read, or lacks the plan or the world.
     pub(crate) fn read(path: &Path) -> Result<Self, RunError> {
         let log = afp_log::read(path)?;
         let recipe = log.recipe();
@@ -50,7 +46,7 @@ impl Again {
     /// The world of the run.
     ///
     /// # Errors
-    /// This robot knows no such world.
+    /// The robot cannot read the world.
     pub(crate) fn world(&self, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
         let TextFile { name, text } = &self.recipe.world;
         let world = world::parse(text.clone(), Some(self.path.clone()), name, robot)?;
@@ -58,10 +54,10 @@ impl Again {
         world.started_at(start).map_err(RunError::content(&self.path, ""))
     }
 
-    /// Says where this run, to which something came from outside so many times, differs from that of the log, if it does.
+    /// Compares this run with that of the log. `requests` counts the requests from outside.
     ///
     /// # Errors
-    /// Both have the same plan, but another trace.
+    /// The plans are the same, but the traces differ.
     pub(crate) fn compare(
         &self,
         program: &Program<'_>,
@@ -70,7 +66,7 @@ impl Again {
         trace: TraceHash,
     ) -> Result<(), RunError> {
         let (texts, toolboxes) = program.text_files();
-        // Logs of built programs hold none, those of Python the ones that their plan uses.
+        // Logs of built programs hold no toolboxes; logs of Python hold those that their plan uses.
         let is_another = |old: &TextFile| {
             toolboxes.iter().any(|new| new.name == old.name && new.text != old.text)
         };

@@ -1,4 +1,4 @@
-//! Pictures of logged runs: the world of a log, and what is wrong with a log that cannot be drawn.
+//! Pictures of logged runs, and errors for logs without a picture.
 
 use std::sync::Arc;
 
@@ -11,10 +11,10 @@ use crate::error::RunError;
 use crate::run::HARDWARE;
 use crate::world::named;
 
-/// Draws the path of a logged run over its world.
+/// Draws the path of a logged run in its world.
 ///
 /// # Errors
-/// The log has no world, or one that this release does not understand.
+/// The log has no world, or one that this release cannot read.
 pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
     let world = world_of(log, robot)?;
     let names = &log.names;
@@ -35,10 +35,10 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
     Ok(svg::draw_run(&run, names))
 }
 
-/// Draws the echoes of a logged run over the walls of its world.
+/// Draws the echoes of a logged run and the walls of its world.
 ///
 /// # Errors
-/// The log has no world or one that this release does not understand, or no echoes.
+/// The log has no echoes, or no world that this release can read.
 pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
     let world = world_of(log, robot)?;
     svg::draw_sonar(log, &*world).ok_or_else(|| {
@@ -50,7 +50,7 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
 /// Draws the film strip of a logged run.
 ///
 /// # Errors
-/// The log has no pictures of a camera.
+/// The log has no camera pictures.
 pub fn draw_film(log: &LogData) -> Result<String, RunError> {
     svg::draw_film(log).ok_or_else(|| {
         let help = "log a run with them: 'afpc run plan.afp --camera --log run.mcap'";
@@ -58,12 +58,12 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
     })
 }
 
-/// Whether a logged run was one of the robot itself, which is in no world that a program knows.
+/// Whether a logged run took place on a real robot, whose world no program knows.
 pub fn is_of_hardware(log: &LogData) -> bool {
     log.facts.get("robot").is_some_and(|robot| robot == HARDWARE)
 }
 
-/// A run without a world, on a robot that does not say where it is, has no picture.
+/// The error for a run without a world on a robot without a pose.
 pub(crate) fn nothing_to_draw() -> RunError {
     let message =
         "there is nothing to draw: the run has no world, and the robot reports no position";
@@ -71,10 +71,10 @@ pub(crate) fn nothing_to_draw() -> RunError {
     RunError::Missing { message: message.to_owned(), help: help.to_owned() }
 }
 
-/// The world of a logged run; an empty one where that was one of the robot itself.
+/// The world of a logged run; empty for a real robot.
 ///
 /// # Errors
-/// The log has none, or one that this release does not understand.
+/// The log has no world, or one that this release cannot read.
 fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, RunError> {
     if is_of_hardware(log) {
         return Ok(Arc::new(NoWorld));
@@ -83,7 +83,7 @@ fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, Ru
         let help = "name the log of a run, which begins with its world";
         return Err(RunError::usage("the log does not say in which world the plan ran", help));
     };
-    // What helps with a file helps with no log.
+    // The hint is for files, not for logs.
     let wrong = |why| RunError::content(WORLD, text)(WorldError { help: String::new(), ..why });
     let world = robot.world(text).map_err(wrong)?;
     let recipe = log.recipe();

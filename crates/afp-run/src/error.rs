@@ -1,4 +1,4 @@
-//! Why a run cannot begin or go on, and the exit code that says so.
+//! Errors of runs, with their exit codes.
 
 use std::fmt;
 use std::io;
@@ -12,52 +12,51 @@ use afp_session::SessionError;
 
 use crate::stderr::say;
 
-/// The process did what was asked.
+/// Success.
 pub const EXIT_OK: u8 = 0;
 /// The plan is wrong, or a file cannot be read or written.
 pub const EXIT_FAILED: u8 = 1;
-/// The command line makes no sense or asks for what is not there.
+/// The command line is wrong or names something that does not exist.
 pub const EXIT_USAGE: u8 = 2;
-/// The plan ended in `Error`.
 pub const EXIT_PLAN_ERROR: u8 = 3;
 
-/// Why a run cannot begin or go on.
+/// The reason why a run cannot begin or continue.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The command line makes no sense or asks for what is not there.
+    /// The command line is wrong or names something that does not exist.
     Usage {
-        /// What is wrong.
+        /// The mistake.
         message: String,
-        /// What to write instead.
+        /// A hint.
         help: Option<String>,
     },
-    /// Something that this machine should have is not there.
+    /// The machine lacks something that the run needs.
     Missing {
-        /// What is missing.
+        /// The missing part.
         message: String,
         /// How to get it.
         help: String,
     },
     /// A file cannot be read or written.
     File {
-        /// What was tried: `cannot read the world`.
+        /// The operation that failed: `cannot read the world`.
         what: &'static str,
         path: PathBuf,
-        /// Why not.
+        /// The cause.
         error: io::Error,
     },
-    /// A file says something wrong.
+    /// The content of a file is wrong.
     Content { path: PathBuf, text: String, mistake: Mistake },
-    /// A run did not come out as it did before.
+    /// A repeated run differs from the original.
     Differs {
         message: String,
-        /// What may be the reason.
+        /// Possible reasons.
         help: String,
     },
-    /// What the run needs panicked: the robot, or what drives it.
+    /// The robot or its driver panicked.
     Panicked {
-        /// What was said, and where.
+        /// The message of the panic and its place.
         said: String,
     },
     /// The project file is wrong.
@@ -67,12 +66,11 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// A mistake on the command line.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
         RunError::Usage { message: message.into(), help: Some(help.into()) }
     }
 
-    /// For `map_err` around what reads the text of a file.
+    /// For `map_err` on functions that read the text of a file.
     pub fn content(
         path: impl Into<PathBuf>,
         text: impl Into<String>,
@@ -81,13 +79,12 @@ impl RunError {
         |mistake| RunError::Content { path, text, mistake }
     }
 
-    /// For `map_err` around file operations.
+    /// For `map_err` on file operations.
     pub fn file(what: &'static str, path: &Path) -> impl FnOnce(io::Error) -> RunError {
         let path = path.to_owned();
         move |error| RunError::File { what, path, error }
     }
 
-    /// The exit code that tells of it.
     pub fn code(&self) -> u8 {
         match self {
             RunError::Usage { .. } => EXIT_USAGE,
@@ -101,18 +98,17 @@ impl RunError {
         }
     }
 
-    /// Tells standard error and gives the exit code.
+    /// Prints the error to standard error and returns the exit code.
     pub fn report(&self) -> ExitCode {
         say(self.styled());
         ExitCode::from(self.code())
     }
 
-    /// The text for a terminal.
     pub fn styled(&self) -> String {
         self.render(true)
     }
 
-    /// The text for tools: an object on a line for each thing that is wrong, as diagnostics of plans are.
+    /// The text for tools: one JSON object a line for each mistake, like diagnostics of plans.
     pub fn json_lines(&self) -> String {
         self.reports(|report| format!("{}\n", report.json())).concat()
     }
@@ -121,7 +117,6 @@ impl RunError {
         self.reports(|report| report.render(colour)).join("\n\n")
     }
 
-    /// What is made of each thing that is wrong.
     fn reports<T>(&self, make: impl Fn(&Report<'_>) -> T) -> Vec<T> {
         let report = |message: &str, help: &str| {
             let marks = Vec::new();

@@ -8,10 +8,10 @@ use afp_session::{AnyRobot, AnySession, NotSet, what_it_takes};
 use crate::error::RunError;
 use crate::world::{LoadedWorld, change};
 
-/// Changes values of a world as the command line says.
+/// Changes values of a world.
 ///
 /// # Errors
-/// A value that is not there or does not fit.
+/// The value does not exist in the world or does not fit.
 pub fn change_world(
     world: &mut LoadedWorld,
     set: &[(String, String)],
@@ -25,10 +25,10 @@ pub fn change_world(
     Ok(())
 }
 
-/// Sets `in` entries of a plan as the command line says.
+/// Sets `in` entries of a plan.
 ///
 /// # Errors
-/// An entry that is not there or cannot be set, a value that does not fit.
+/// An entry does not exist or cannot be set; a value does not fit.
 pub fn set_all(session: &mut dyn AnySession, set: &[(String, String)]) -> Result<(), RunError> {
     for (name, text) in set.iter().filter(|(name, _)| change::key(name).is_none()) {
         self::set(session, name, text)?;
@@ -36,15 +36,15 @@ pub fn set_all(session: &mut dyn AnySession, set: &[(String, String)]) -> Result
     Ok(())
 }
 
-/// Sets an `in` entry; gives the value that it has now.
+/// Sets an `in` entry and returns its new value.
 ///
 /// # Errors
-/// An entry that is not there or cannot be set, a value that does not fit.
+/// The entry does not exist or cannot be set; the value does not fit.
 pub fn set(session: &mut dyn AnySession, name: &str, text: &str) -> Result<Value, RunError> {
     session.set(name, text).map_err(|NotSet { why, help, .. }| RunError::usage(why, help))
 }
 
-/// Why a plan does not start, as an error of the command line.
+/// Converts the error of a start to an error of the command line.
 pub fn missing(error: StartError, names: &dyn Names) -> RunError {
     match error {
         StartError::InputMissing(entry) => {

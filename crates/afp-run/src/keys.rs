@@ -1,4 +1,4 @@
-//! The Escape key of the terminal, which presses the control that stops what runs.
+//! The Escape key of the terminal, which presses the stop control of the robot.
 
 use std::io;
 use std::sync::Arc;
@@ -69,24 +69,24 @@ mod terminal {
     };
 
     const ESCAPE: u8 = 0x1b;
-    /// A special code that no key has.
+    /// A special code that disables the key.
     const NO_KEY: u8 = if cfg!(target_os = "linux") { 0 } else { 0xff };
-    /// A process that suspends itself is still awake for so long at most.
+    /// The greatest time between the signal and the suspension of the process.
     const FALLING_ASLEEP: Duration = Duration::from_millis(50);
 
-    /// How the terminal was before it was taken; `None` while it is not. The process has one
-    /// terminal, and whoever ends the process must be able to give it back.
+    /// The settings of the terminal before it was taken; `None` while it is not taken. Global,
+    /// because any thread that ends the process must restore them.
     static BEFORE: Mutex<Option<Termios>> = Mutex::new(None);
 
-    /// Standard input without line editing and echo, for as long as this lives and the process is
-    /// in the foreground.
+    /// Standard input without line editing and echo, while this value lives and the process is in
+    /// the foreground.
     pub(crate) struct Keys {
-        /// Whether the key that suspends the process does so; otherwise it counts as Escape.
+        /// Whether the suspend key suspends the process; otherwise it counts as Escape.
         suspends: bool,
     }
 
     impl Keys {
-        /// Takes over standard input; `None` when it is no terminal.
+        /// Takes standard input; `None` if it is not a terminal.
         pub(crate) fn take(suspends: bool) -> Option<Keys> {
             if !io::stdin().is_terminal() {
                 return None;
@@ -95,8 +95,8 @@ mod terminal {
             Some(Keys { suspends })
         }
 
-        /// Whether Escape was pressed since the last time. Does not wait, unless the key that
-        /// suspends the process was pressed.
+        /// Whether Escape was pressed since the last call. Blocks only if the suspend key was
+        /// pressed.
         pub(crate) fn escape_pressed(&self) -> bool {
             let Some(suspend_key) = take() else { return false };
             let mut bytes = [0; 32];
@@ -114,8 +114,9 @@ mod terminal {
         }
     }
 
-    /// Whether Escape is among what was typed. A byte behind it that is no Escape makes an arrow, a function key or a key
-    /// held with Alt of it; with `anyhow` those count as well: what stops a robot may not be missed.
+    /// Whether the input contains Escape. An Escape byte before another byte is part of an arrow
+    /// key, a function key or Alt; with `anyhow` it counts too, because a stop of the robot must
+    /// not be missed.
     fn has_escape(typed: &[u8], anyhow: bool) -> bool {
         let alone = |at: usize| typed.get(at + 1).is_none_or(|next| *next == ESCAPE);
         (0..typed.len()).any(|at| typed[at] == ESCAPE && (anyhow || alone(at)))
@@ -127,16 +128,17 @@ mod terminal {
         }
     }
 
-    /// Gives the terminal back as it was, if it is taken.
+    /// Restores the terminal if it is taken.
     pub(crate) fn give_back() {
         without_terminal(|| ());
     }
 
-    /// Gives the terminal back, if it is taken, and does something before anybody can take it again.
+    /// Restores the terminal if it is taken, and calls `act` before another thread can take it
+    /// again.
     pub(crate) fn without_terminal(act: impl FnOnce()) {
         let mut taken = before();
         if let Some(before) = taken.take() {
-            // Nothing can be done about a terminal that is gone.
+            // If the terminal is gone, nothing can be done.
             let _ = tcsetattr(io::stdin(), OptionalActions::Now, &before);
         }
         act();
@@ -146,10 +148,10 @@ mod terminal {
         BEFORE.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes the terminal unless it is taken; gives the key that suspends the process. `None` in
-    /// the background, where the terminal is somebody else's.
+    /// Takes the terminal unless it is taken; returns the suspend key. `None` in the background,
+    /// where the terminal belongs to another process.
     fn take() -> Option<u8> {
-        // One that is not ours to control is always in the foreground.
+        // A terminal that does not control this process has no background.
         let mut taken = before();
         if tcgetpgrp(io::stdin()).is_ok_and(|group| group != getpgrp()) {
             *taken = None;
@@ -158,8 +160,8 @@ mod terminal {
         if taken.is_none() {
             let now = tcgetattr(io::stdin()).ok()?;
             let mut raw = now.clone();
-            // Signals stay: Ctrl-C must go on working. But before the process is suspended, it
-            // gives the terminal back, so it reads that key itself.
+            // Signals stay enabled for Ctrl-C. The process reads the suspend key itself, because it
+            // must restore the terminal before it is suspended.
             raw.local_modes.remove(LocalModes::ICANON | LocalModes::ECHO);
             raw.special_codes[SpecialCodeIndex::VSUSP] = NO_KEY;
             raw.special_codes[SpecialCodeIndex::VMIN] = 0;
@@ -170,10 +172,10 @@ mod terminal {
         taken.as_ref().map(|before| before.special_codes[SpecialCodeIndex::VSUSP])
     }
 
-    /// Does what the terminal does on that key; returns when the process is to go on.
+    /// Suspends the process as the terminal would; returns when the process continues.
     fn suspend() {
         give_back();
-        // The signal goes to the pipeline that the process is part of, too.
+        // The signal goes to the whole pipeline.
         let _ = kill_current_process_group(Signal::TSTP);
         thread::sleep(FALLING_ASLEEP);
     }
@@ -195,7 +197,7 @@ mod terminal {
     }
 }
 
-/// There is no Escape key to read on this platform.
+/// This platform has no Escape key to read.
 #[cfg(not(unix))]
 pub(crate) struct Keys;
 

@@ -1,7 +1,7 @@
-//! What `afpc run` and every generated binary share: options, timeline, summary, pictures.
+//! The common part of `afpc run` and all generated binaries: options, timeline, summary, pictures.
 //!
-//! [`main()`] is the whole of a generated binary; [`run`] drives the session of any plan on any simulated robot.
-//! Neither knows the language or a robot.
+//! [`main()`] is the complete main function of a generated binary; [`run`] drives the session of
+//! any plan on any simulated robot. Neither depends on the language or a robot.
 
 mod again;
 mod drawn;
@@ -46,22 +46,21 @@ pub use run::{MakeSession, OpenHardware, hashes, run, run_on_hardware};
 pub use stderr::{say, warn};
 pub use stop::StopFlag;
 
-/// A plan and where it comes from.
+/// A plan and its sources.
 #[derive(Clone, Copy, Debug)]
 pub struct Program<'a> {
-    /// The plan's name in the text.
     pub name: &'a str,
-    /// The plan's file, as it was named; the world is looked for beside its folder.
+    /// The plan's file, as given; the default world is found relative to its folder.
     pub file: &'a str,
-    /// Path and text of the plan's file, then of those that it uses, then of toolboxes ([`toolbox_attachment`]), for the
-    /// log.
+    /// Path and text of the plan's file, then of the files that it uses, then of toolboxes
+    /// ([`toolbox_attachment`]), for the log.
     pub texts: &'a [(&'a str, &'a str)],
-    /// What the project says of the robot's hardware, name and value.
+    /// The hardware settings of the project: name and value.
     pub hardware: &'a [(&'a str, &'a str)],
 }
 
 impl Program<'_> {
-    /// The texts of the plan, and those of toolboxes by their names.
+    /// The texts of the plan, and the texts of toolboxes by name.
     pub(crate) fn text_files(&self) -> (Vec<TextFile>, Vec<TextFile>) {
         let file =
             |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
@@ -76,7 +75,8 @@ impl Program<'_> {
     }
 }
 
-/// The whole of a generated binary: reads the command line, runs the plan, tells what happened.
+/// The main function of a generated binary: reads the command line, runs the plan, reports the
+/// result.
 pub fn main<R, P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
 where
     R: Simulated,
@@ -90,7 +90,7 @@ where
     finish(simulate::<R, P>(&program, new, &options))
 }
 
-/// The whole of a generated binary with the robot itself linked in, too: `--robot hardware` runs the plan on it.
+/// As [`main()`], with the real robot linked in: `--robot hardware` runs the plan on it.
 pub fn main_with<R, H, P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
 where
     R: Simulated,
@@ -112,7 +112,6 @@ where
     })
 }
 
-/// Runs a plan in simulation.
 fn simulate<R, P>(
     program: &Program<'_>,
     new: impl FnOnce() -> P,
@@ -130,17 +129,17 @@ where
     run(program, &kind::<R>(), Box::new(make), options, None)
 }
 
-/// What the command line of a generated binary says; where it is wrong or asks for help, what to tell.
+/// Parses the command line of a generated binary.
 fn options_of(program: &Program<'static>, robot: &dyn AnyRobot) -> Result<RunOptions, clap::Error> {
     let about = format!("Runs the plan {}.", program.name);
-    // The help of the options' own struct must not take the place of the program's.
+    // The help must be that of the program and not of the struct of options.
     let command = RunOptions::augment_args(Command::new(program.name)).about(about);
     let command = command.long_about(None).after_help(EXAMPLES);
     let command = options::for_robot(command, robot);
     RunOptions::from_arg_matches(&command.get_matches())
 }
 
-/// Tells of an error and gives the exit code.
+/// Reports an error and returns the exit code.
 pub fn finish(result: Result<u8, RunError>) -> ExitCode {
     match result {
         Ok(code) => ExitCode::from(code),
@@ -148,7 +147,7 @@ pub fn finish(result: Result<u8, RunError>) -> ExitCode {
     }
 }
 
-/// What the help ends with.
+/// The end of the help.
 pub const EXAMPLES: &str = "\
 Examples:
   --seed 7                        another robot, another noise

@@ -1,4 +1,4 @@
-//! A live stream of a run for clients that watch it, with the feature `live`.
+//! A live stream of a run for other programs, with the feature `live`.
 
 use std::net::SocketAddr;
 
@@ -8,19 +8,19 @@ use afp_session::AnySession;
 
 use crate::error::RunError;
 
-/// A server over a run; dropped, it gives the rest to those who still read.
+/// A server for a run. When dropped, it sends the rest to connected clients.
 pub(crate) trait Live {
-    /// What takes the messages of the run.
+    /// Receives the messages of the run.
     fn messages(&self) -> Box<dyn Messages>;
 
-    /// Whether somebody has asked for something.
+    /// Whether a client has made a request.
     fn is_asked(&self) -> bool;
 
-    /// Does what was asked for, at an instant that is not over.
+    /// Answers requests, at an instant that has not passed.
     fn serve(&self, session: &mut dyn AnySession, at: Instant);
 }
 
-/// No program that was built without the feature `live` serves.
+/// The error of a program without the feature `live`.
 #[cfg(not(feature = "live"))]
 pub(crate) fn begin(_: SocketAddr, _: &str, _: &dyn AnySession) -> Result<Box<dyn Live>, RunError> {
     Err(RunError::usage(
@@ -29,7 +29,7 @@ pub(crate) fn begin(_: SocketAddr, _: &str, _: &dyn AnySession) -> Result<Box<dy
     ))
 }
 
-/// Begins to serve, and says at which addresses.
+/// Begins to serve and prints the addresses.
 #[cfg(feature = "live")]
 pub(crate) fn begin(
     at: SocketAddr,

@@ -17,7 +17,7 @@ use clap::{Args, ValueEnum};
 use crate::error::RunError;
 use crate::world::change;
 
-/// What the name of a setting begins with that is one of the robot itself.
+/// The prefix of settings of a real robot.
 pub const OF_ROBOT: &str = "robot.";
 
 pub(crate) use help::words;
@@ -146,19 +146,19 @@ pub enum OnRobot {
     Hardware,
 }
 
-/// Who sees to it that time passes no faster than it should.
+/// The part that limits the speed of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TimeKeeper {
-    /// Nobody: a simulation computes as fast as it can.
+    /// No limit: a simulation runs as fast as it can.
     Nobody,
-    /// The gate of the run, at so many times real time.
+    /// The gate of the run, at a multiple of real time.
     Gate(f64),
     /// The robot, which sleeps.
     Robot,
 }
 
 impl RunOptions {
-    /// The files that output shall go into.
+    /// The output files.
     pub fn outputs(&self) -> impl Iterator<Item = &Path> {
         [&self.log, &self.svg].into_iter().filter_map(|output| match output {
             Some(Destination::File(path)) => Some(path.as_path()),
@@ -166,10 +166,10 @@ impl RunOptions {
         })
     }
 
-    /// Refuses what this release does not have.
+    /// Refuses options that this release lacks.
     ///
     /// # Errors
-    /// [`RunError::Usage`] says what the option waits for.
+    /// [`RunError::Usage`] explains the option.
     pub fn check(&self) -> Result<(), RunError> {
         if self.rt_report {
             return Err(RunError::usage(
@@ -195,7 +195,7 @@ impl RunOptions {
         }
     }
 
-    /// Refuses what only the robot itself has.
+    /// Refuses options for real robots.
     fn check_sim(&self) -> Result<(), RunError> {
         let Some((name, _)) = self.set.iter().find(|(name, _)| name.starts_with(OF_ROBOT)) else {
             return Ok(());
@@ -206,7 +206,7 @@ impl RunOptions {
         ))
     }
 
-    /// Refuses what only a simulation can do.
+    /// Refuses options for simulations.
     fn check_hardware(&self) -> Result<(), RunError> {
         let of_simulation = [
             ("--world", self.world.is_some()),
@@ -230,7 +230,6 @@ impl RunOptions {
         }
     }
 
-    /// Who sees to it that time passes no faster than it should.
     pub(crate) fn time_keeper(&self) -> TimeKeeper {
         match (self.robot, self.speed()) {
             (OnRobot::Hardware, _) => TimeKeeper::Robot,
@@ -239,14 +238,14 @@ impl RunOptions {
         }
     }
 
-    /// How fast time passes: as fast as it goes, in real time where others watch, unless that is said.
+    /// The speed of time; by default unlimited, or real time while other programs watch.
     pub fn speed(&self) -> Speed {
         let real = self.live.is_some() || self.robot == OnRobot::Hardware;
         let usual = if real { Speed::Times(1.0) } else { Speed::Max };
         self.speed.unwrap_or(usual)
     }
 
-    /// When the run is stopped at the latest.
+    /// The time limit of the run.
     pub fn end(&self) -> Instant {
         match (self.until, self.speed()) {
             (Some(until), _) => Instant::ZERO + until,

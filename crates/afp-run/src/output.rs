@@ -1,13 +1,13 @@
-//! Outputs of a run, with errors that say what could not be written.
+//! Outputs of a run, with errors that name the output.
 
 use std::path::{Path, PathBuf};
 
 use crate::error::RunError;
 
-/// Writes a file that appears under its name only when it is whole.
+/// Writes a file that appears under its name only when it is complete.
 ///
 /// # Errors
-/// As of [`afp_output::write_whole`].
+/// As [`afp_output::write_whole`].
 pub fn write_whole(
     what: &'static str,
     path: &Path,
@@ -16,18 +16,18 @@ pub fn write_whole(
     afp_output::write_whole(path, bytes.as_ref()).map_err(RunError::file(what, path))
 }
 
-/// Finds out early whether a file can be written later.
+/// Checks in advance that a file can be written.
 ///
 /// # Errors
-/// As of [`afp_output::check_writable`].
+/// As [`afp_output::check_writable`].
 pub fn check_writable(what: &'static str, path: &Path) -> Result<(), RunError> {
     afp_output::check_writable(path).map_err(RunError::file(what, path))
 }
 
-/// Refuses an output that would take the place of a file that is read, or of another output.
+/// Refuses an output that would overwrite an input or another output.
 ///
 /// # Errors
-/// There is one.
+/// The paths name one file.
 pub fn check_apart<'a>(
     outputs: impl IntoIterator<Item = &'a Path>,
     inputs: impl IntoIterator<Item = &'a Path>,
@@ -49,12 +49,12 @@ pub fn check_apart<'a>(
     Ok(())
 }
 
-/// Whether two paths are of one file, which may yet have to be made.
+/// Whether two paths name one file, which need not exist.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     place(one).is_some_and(|one| place(other) == Some(one))
 }
 
-/// The one path of a file; none of a device or a pipe, which are no worse for being written.
+/// The canonical path of a file; `None` for a device or a pipe, which may be written twice.
 fn place(path: &Path) -> Option<PathBuf> {
     if let Ok(real) = path.canonicalize() {
         return real.is_file().then_some(real);

@@ -1,25 +1,26 @@
-//! Runs that panic, one among many: what was said is kept for the outcome of the run instead of printed.
+//! Panics of one run among many: the message becomes part of the result instead of being printed.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::sync::Once;
 
 thread_local! {
-    /// What the last panic of this thread said; `None` while panics of this thread are printed.
+    /// The message of the last panic of this thread; `None` while panics of this thread are
+    /// printed.
     static SAID: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// What became of work that may panic.
+/// The result of work that may panic.
 #[derive(Clone, Debug)]
 pub struct Caught<T> {
-    /// What it gave; none where a panic ended it.
+    /// The result; `None` after a panic.
     pub done: Option<T>,
-    /// What the last panic said, and where it was; empty without one. A component that panics ends its run and no more, so
-    /// there may be both.
+    /// The message and place of the last panic; empty without one. A panic of a component ends only
+    /// its run, so both fields may be set.
     pub said: String,
 }
 
-/// Does something on this thread that may panic. Panics of other threads are printed as before.
+/// Calls a function that may panic. Panics of other threads are printed as before.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Caught<T> {
     hook();
     let before = SAID.replace(Some(String::new()));
@@ -28,7 +29,7 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Caught<T> {
     Caught { done, said }
 }
 
-/// Panics of threads that keep them are kept. Those of others go where they went before.
+/// Installs a hook that keeps the panics of threads in [`caught`], and passes on all others.
 fn hook() {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

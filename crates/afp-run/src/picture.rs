@@ -1,26 +1,26 @@
-//! Kinds of pictures, by the names of their files.
+//! Formats of pictures, by file extension.
 
 use std::path::Path;
 
 use crate::error::RunError;
 
-/// What a picture's file is.
+/// The format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureFormat {
     /// For browsers and papers.
     Svg,
-    /// Pixels, with fonts of its own.
+    /// Pixels, with embedded fonts.
     Png,
 }
 
-/// Makes the bytes of a PNG file from those of an SVG.
+/// Converts an SVG to the bytes of a PNG file.
 pub type Rasterizer<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, RunError>;
 
 impl PictureFormat {
-    /// What the name of a file asks for: SVG, unless it has an ending.
+    /// The format for a file extension; SVG without one.
     ///
     /// # Errors
-    /// It ends neither in `.svg` nor in `.png`.
+    /// The extension is neither `.svg` nor `.png`.
     pub fn of(path: &Path) -> Result<Self, RunError> {
         let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
         match ending.as_ref().and_then(|ending| ending.to_str()) {
@@ -34,7 +34,7 @@ impl PictureFormat {
         }
     }
 
-    /// The ending of its files.
+    /// The file extension.
     pub fn ending(self) -> &'static str {
         match self {
             PictureFormat::Svg => "svg",

@@ -11,26 +11,25 @@ use afp_session::{AnySession, HOLD, Recipe, Request, RequestError};
 use crate::error::RunError;
 use crate::options::{Failure, Press, words};
 
-/// Looks whether a robot with those devices has the controls and faults that the options name.
+/// Checks that the devices have the controls and faults of the options.
 ///
 /// # Errors
-/// The robot has no such control or fault.
+/// A control or fault does not exist.
 pub fn check(table: &[DeviceRow], presses: &[Press], failures: &[Failure]) -> Result<(), RunError> {
     failures.iter().try_for_each(|failure| find_fault(table, failure).map(|_| ()))?;
     presses.iter().try_for_each(|press| control(table, press).map(|_| ()))
 }
 
-/// The control of an option.
 fn control(table: &[DeviceRow], press: &Press) -> Result<ControlId, RunError> {
     find_control(table, &press.control).ok_or_else(|| {
         RunError::usage(no_control(table, &press.control), such_control(table, press))
     })
 }
 
-/// Asks a session for what the options say.
+/// Makes the requests of the options in a session.
 ///
 /// # Errors
-/// The robot has no such control or fault.
+/// A control or fault does not exist.
 pub fn make(
     session: &mut dyn AnySession,
     presses: &[Press],
@@ -51,20 +50,20 @@ pub fn make(
     Ok(())
 }
 
-/// Asks a session for all that came from outside in a run that is repeated.
+/// Makes the requests of a repeated run.
 ///
 /// # Errors
-/// Its plan or its robot are others.
+/// The plan or robot is another one.
 pub(crate) fn repeat(session: &mut dyn AnySession, recipe: &Recipe) -> Result<(), RunError> {
     recipe.ask(session).map_err(|error| {
         RunError::usage(error.to_string(), "the plan or the robot are not those of the log")
     })
 }
 
-/// Presses the control that stops what runs, for the Escape key of the terminal; a robot may have none.
+/// Presses the stop control of the robot, if it has one, for the Escape key.
 pub(crate) fn press_stop(session: &mut dyn AnySession, at: Instant) {
     if let Some(id) = find_stop(session.devices()) {
-        // It refuses nothing but what is over, and that makes no difference any more.
+        // The only possible error is that the run has ended.
         let _ = session.at(at, Request::Hold(id, HOLD));
     }
 }
@@ -73,7 +72,7 @@ fn refused(what: &str, why: &RequestError) -> RunError {
     RunError::usage(format!("'{what}': {why}"), "leave it out")
 }
 
-/// A control that may have been meant, at that time.
+/// A hint with a similar control and the same time.
 fn such_control(table: &[DeviceRow], press: &Press) -> String {
     let known = words(table);
     let names = || known.iter().map(|(word, _)| word.as_str());
@@ -83,7 +82,7 @@ fn such_control(table: &[DeviceRow], press: &Press) -> String {
     }
 }
 
-/// What cannot be pressed, and what can.
+/// The error for an unknown control; lists the known ones.
 pub fn no_control(table: &[DeviceRow], name: &str) -> String {
     let known: Vec<_> = words(table).into_iter().map(|(word, _)| format!("'{word}'")).collect();
     match known.is_empty() {
@@ -108,7 +107,7 @@ fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option
     Ok((id, amount))
 }
 
-/// What can fail and may have been meant: at that time, if it is of the same device.
+/// A hint with a similar fault, if possible of the same device and with the same time.
 fn such(table: &[DeviceRow], failure: &Failure) -> String {
     let ways = || faults(table).filter(|(_, at, _)| at.name == failure.device);
     let same = nearest(&failure.kind, ways().map(|(.., row)| row.name));
@@ -126,7 +125,7 @@ fn such(table: &[DeviceRow], failure: &Failure) -> String {
     }
 }
 
-/// How much of a fault, in SI units.
+/// The amount of a fault, in SI units.
 fn amount(text: &str, of: Option<AmountRow>) -> Result<f64, String> {
     let of = of.ok_or_else(|| format!("there is no more or less of it: leave '={text}' out"))?;
     let AmountRow { name, unit, from, to, .. } = of;
@@ -139,7 +138,7 @@ fn amount(text: &str, of: Option<AmountRow>) -> Result<f64, String> {
     of.checked(Some(amount)).ok_or_else(wrong)
 }
 
-/// What cannot fail so, and what can.
+/// The error for an unknown fault; lists the known ones.
 pub fn no_fault(table: &[DeviceRow], device: &str, kind: &str) -> String {
     let of_device = faults(table).filter(|(_, at, _)| at.name == device);
     let kinds: Vec<_> = of_device.map(|(_, _, row)| row.name).collect();
@@ -194,7 +193,7 @@ mod tests {
             ("touch.slow=3@1s", "20s or 500ms"),
         ] {
             let error = find_fault(TABLE, &failure(text).unwrap()).unwrap_err().to_string();
-            // Whoever does as the help says is understood.
+            // The option that the help suggests must be valid.
             let such =
                 error.rsplit("such as ").next().unwrap_or_default().trim().trim_matches('\'');
             assert!(find_fault(TABLE, &failure(such).unwrap()).is_ok(), "{error}");

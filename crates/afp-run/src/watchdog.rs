@@ -1,4 +1,4 @@
-//! A thread that watches the control loop of a real robot: if a component hangs, the robot is stopped without it.
+//! A thread that watches the control loop of a real robot and stops the robot if a component hangs.
 
 use std::io;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ impl Watchdog {
     /// Watches a control loop, which may be late by less than `stall`, from a thread above the control loop's priority.
     ///
     /// # Errors
-    /// There is no thread for it.
+    /// The thread cannot be created.
     pub(crate) fn start(
         watch: Watch,
         stall: Duration,
@@ -33,7 +33,7 @@ impl Watchdog {
     ) -> io::Result<Self> {
         let done: Arc<AtomicBool> = Arc::default();
         let is_done = done.clone();
-        // The rest is time for its action.
+        // The rest is time for the stop itself.
         let limit = Duration::from_nanos(stall.as_nanos() / 10 * 9);
         watch.begin();
         let watches = move || {
@@ -51,7 +51,7 @@ impl Watchdog {
     }
 }
 
-/// Stops the robot, then says why.
+/// Stops the robot, then prints the reason.
 fn act(watch: &Watch, late: Duration, stop: &StopFlag, names: &dyn Names) {
     let is_stopped = stop.take_power();
     watch.cut();
@@ -70,7 +70,7 @@ fn act(watch: &Watch, late: Duration, stop: &StopFlag, names: &dyn Names) {
 impl Drop for Watchdog {
     fn drop(&mut self) {
         self.done.store(true, Ordering::Relaxed);
-        // It is not waited for: it may be writing to an output that nobody reads.
+        // No join: the thread may be blocked by an output.
         self.thread.unpark();
     }
 }

@@ -19,38 +19,36 @@ use crate::error::RunError;
 pub(crate) use measure::Measure;
 pub(crate) use named::named;
 
-/// What the world is called that has no file.
+/// The name of the world without a file.
 pub(crate) const BUILT_IN: &str = "built-in room";
 
-/// What was tried with a world that is not there.
 const NO_WORLD: &str = "cannot read the world";
 
-/// The greatest length of the picture of a map, in bytes.
+/// The limit for the picture of a map, in bytes.
 const LONGEST_PICTURE: u64 = 64 << 20;
 
 /// A world and its text.
 #[derive(Clone, Debug)]
 pub struct LoadedWorld {
     pub world: Arc<dyn AnyWorld>,
-    /// The text of its file.
     pub text: String,
     /// Its file; `None` for the built-in room.
     pub path: Option<PathBuf>,
-    /// Where the robot starts instead of where the file says.
+    /// The start of the robot, if it differs from that of the file.
     pub start: Option<Pose2>,
 }
 
 impl LoadedWorld {
-    /// The same world with the robot at another start.
+    /// The same world with another start of the robot.
     ///
     /// # Errors
-    /// Why it cannot start there.
+    /// The robot cannot start there.
     pub fn started_at(self, start: Pose2) -> Result<LoadedWorld, WorldError> {
         let world = self.world.started_at(start)?;
         Ok(LoadedWorld { world, start: Some(start), ..self })
     }
 
-    /// Why there is no session in this world, with its file.
+    /// The error of a session in this world, with the file.
     pub fn no_session(&self, why: SessionError) -> RunError {
         let SessionError::World(why) = why else { return why.into() };
         let help = match self.path {
@@ -62,7 +60,7 @@ impl LoadedWorld {
         RunError::content(path, &*self.text)(why)
     }
 
-    /// What is strange about where the robot starts, but usually does not.
+    /// A warning if the robot starts outside of its world, but `usual` is inside.
     pub fn warning(&self, usual: Pose2) -> Option<&'static str> {
         let drawing = self.world.drawing();
         let strange = is_outside(&drawing, drawing.start) && !is_outside(&drawing, usual);
@@ -70,7 +68,7 @@ impl LoadedWorld {
     }
 }
 
-/// Whether a place is left or right of everything that stands in a world, or above or below of it.
+/// Whether a place is outside of the bounding box of a world.
 fn is_outside(world: &Drawing, at: Pose2) -> bool {
     let beyond = |of: fn(&[f64; 2]) -> f64, at: f64| {
         let all = || world.things.iter().flat_map(|thing| thing.outline.iter().map(of));
@@ -79,14 +77,15 @@ fn is_outside(world: &Drawing, at: Pose2) -> bool {
     beyond(|corner| corner[0], at.x) || beyond(|corner| corner[1], at.y)
 }
 
-/// What asks for a room made up instead of a file, before the seed.
+/// The prefix of a seed for a generated room.
 pub const RANDOM: &str = "random:";
 
-/// The world of a plan: the file asked for, which may also be a map (`.yaml`) or `random:SEED`, else `[run] world` of `afp.toml`, else
-/// `worlds/<plan file>.toml` beside the plan's folder, else the built-in room.
+/// Finds the world of a plan: the requested file (a world, a map `.yaml` or `random:SEED`), else
+/// `[run] world` of `afp.toml`, else `worlds/<plan file>.toml` beside the plan's folder, else the
+/// built-in room.
 ///
 /// # Errors
-/// A file that is named but not there; a world that says something wrong.
+/// The requested file does not exist; the world is wrong.
 pub fn find(
     asked: Option<&Path>,
     plan: &Path,
@@ -106,10 +105,10 @@ pub fn find(
     }
 }
 
-/// Looks whether a world that is asked for is there, without a robot that reads it.
+/// Checks that a requested world exists, without a robot to read it.
 ///
 /// # Errors
-/// There is no such file.
+/// The file does not exist.
 pub fn check(asked: &Path) -> Result<(), RunError> {
     let is_made_up = asked.to_str().is_some_and(|name| name.starts_with(RANDOM));
     match is_made_up {
@@ -118,9 +117,9 @@ pub fn check(asked: &Path) -> Result<(), RunError> {
     }
 }
 
-/// The worlds that a run of a plan may take place in, as `--world` takes them, each with where it comes from in words: first the
-/// one that [`find`] takes without a word, then the other files in the folders of these, then one that is made up. The
-/// built-in one has no name.
+/// Lists possible worlds for a plan as arguments of `--world`, each with its origin in words: first
+/// the default of [`find`], then the other files in the same folders, then a generated one. The
+/// built-in world has no name.
 ///
 /// # Errors
 /// The project file is wrong.
@@ -153,7 +152,7 @@ pub fn all(plan: &Path, robot: &dyn AnyRobot) -> Result<Vec<(String, &'static st
     Ok(all)
 }
 
-/// The files in the folder of a world that end like it, by name.
+/// The files in the folder of a world with the same extension, by name.
 fn files_like(world: &Path) -> Vec<PathBuf> {
     let Some(Ok(entries)) = world.parent().map(fs::read_dir) else { return Vec::new() };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -162,7 +161,7 @@ fn files_like(world: &Path) -> Vec<PathBuf> {
     alike
 }
 
-/// Where the world of a plan is if nobody says another one.
+/// The default path of a plan's world.
 fn beside(plan: &Path) -> PathBuf {
     let folder = match plan.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -172,7 +171,7 @@ fn beside(plan: &Path) -> PathBuf {
     folder.join("..").join(file).with_extension("toml")
 }
 
-/// `plans/../worlds/x.toml` as `worlds/x.toml`, as long as the folder is a plain name.
+/// `plans/../worlds/x.toml` as `worlds/x.toml`, if the folder is a plain name.
 fn tidy(path: &Path) -> PathBuf {
     let mut tidy = PathBuf::new();
     for part in path.components() {
@@ -205,12 +204,12 @@ fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
     parse(text, Some(path.to_owned()), &stem(path), robot)
 }
 
-/// What a world is called whose file gives it no name.
+/// The default name of a world, from its file.
 fn stem(path: &Path) -> Cow<'_, str> {
     path.file_stem().unwrap_or_default().to_string_lossy()
 }
 
-/// The text of the world of a map, with the picture that lies beside it.
+/// The text of the world of a map, with its picture.
 fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunError> {
     let wrong = || RunError::content(path, &*yaml);
     let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong())?);
@@ -219,7 +218,7 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
     robot.text_of_map(&stem(path), &yaml, &bytes).map_err(wrong())
 }
 
-/// A picture that cannot be read, as an error of the map that names it.
+/// The error for a picture that cannot be read, at the map that names it.
 fn no_picture(picture: &Path, map: &Path, error: std::io::Error) -> RunError {
     let message = format!("cannot read the map's picture '{}': {error}", picture.display());
     let help =
@@ -227,10 +226,10 @@ fn no_picture(picture: &Path, map: &Path, error: std::io::Error) -> RunError {
     RunError::Missing { message, help }
 }
 
-/// The world of a text, which `path` is called in errors; it has a `name` where the text has none.
+/// Reads the text of a world. `path` names it in errors; `name` is its default name.
 ///
 /// # Errors
-/// The first thing that is wrong with it.
+/// The first mistake.
 pub(crate) fn parse(
     text: String,
     path: Option<PathBuf>,

@@ -1,4 +1,4 @@
-//! A plan on a robot whose time passes by itself: it is stopped however the run ends.
+//! A plan on a robot whose time passes by itself; the robot is stopped after every end of the run.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,16 +26,16 @@ mod templates {
     afp_macros::toolbox!("tests/board.afp", robot = super::Board);
 }
 
-/// What is left of a board when it is gone.
+/// Data about a board, kept after it is dropped.
 #[derive(Default)]
 struct Seen {
     stops: AtomicU64,
     polls: AtomicU64,
-    /// How often it was asked where it is.
+    /// The number of pose requests.
     samples: AtomicU64,
 }
 
-/// A robot that moves whenever it is not told to stand.
+/// A robot that moves unless it is stopped.
 struct Board {
     time: Time,
     seen: Arc<Seen>,
@@ -105,12 +105,10 @@ impl Hardware for Board {
 }
 
 mod work {
-    //! What the board does.
-
     use super::{Board, Ordering, Span, templates};
     use afp_core::{Actor, Fault, Instant, Poll};
 
-    /// Polls that take their time, and break in the end.
+    /// Slow polls, which fail in the end.
     #[derive(Clone)]
     pub struct Work {
         cost: Span,
@@ -164,7 +162,7 @@ fn plan(text: &str) -> afp_dsl::graph::Graph {
 const WAITS: &str = "use std\nplan Waits {\n    in time: duration = 300 ms\n    start rest\n    \
     actor rest: Wait(duration = time) { Elapsed -> terminate }\n}";
 
-/// Runs a plan on the board; what came of it, how long it took, and what the board has seen.
+/// Runs a plan on the board; returns the result, its duration and the data of the board.
 fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<Seen>) {
     let graph = plan(text);
     let seen: Arc<Seen> = Arc::default();
@@ -174,7 +172,7 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
     });
     let open = |settings: &Settings| {
         let robot = Board::open(settings).map_err(|why| SessionError::Hardware(why.into()))?;
-        // The board of the opener is gone with its run; this one is looked at afterwards.
+        // The opener's board is dropped with its run; this one can be examined later.
         drop(board.open(&graph, settings)?);
         let mut registry = afp::load::Registry::new();
         standard(&mut registry);
@@ -185,7 +183,7 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
         Ok(Opened { session, last_resort: None, watch: None })
     };
     let texts = [("plan.afp", text)];
-    // A machine that is busy is no stall.
+    // A busy machine must not count as a stall.
     let hardware = [("port", "ttyUSB0"), ("realtime.stall", "10 s")];
     let program = Program { name: "P", file: "plan.afp", texts: &texts, hardware: &hardware };
     let began = Wall::now();
@@ -211,7 +209,7 @@ fn a_plan_ends_by_its_own_clock_and_the_robot_stands() {
 
 #[test]
 fn until_ends_a_run_however_late_its_steps_are() {
-    // Polls every 10 ms that take 15 ms each.
+    // Polls every 10 ms take 15 ms each.
     let text = "use board\nplan Late {\n    start go\n    \
         actor go: Work(cost = 15 ms) { Never -> terminate }\n}";
     let (ran, took, seen) = on_board(text, &["--until", "200ms"]);
@@ -258,7 +256,7 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
     let read = afp_log::read(Path::new(name)).unwrap();
     assert_eq!((&*read.recipe().robot, &read.cut_short), ("hardware", &None));
     let robot = simulated::<Simulation, _>(|_| {});
-    // It is in no world that the robot of the simulation knows, and nobody said where it was.
+    // The simulation knows no world of it, and its pose is unknown.
     let drawn = afp_run::draw_log(&read, robot.kind()).unwrap_err().to_string();
     assert!(drawn.contains("nothing to draw") && drawn.contains("'pose'"), "{drawn}");
     let none = afp_run::draw_sonar(&read, robot.kind()).unwrap_err().to_string();
@@ -280,7 +278,7 @@ fn a_robot_that_is_there_is_sampled_although_its_time_hits_no_grid() {
     let log = folder.path().join("a.mcap");
     let (ran, _, seen) = on_board(WAITS, &["--until", "200ms", "--log", log.to_str().unwrap()]);
     assert_eq!(ran.unwrap(), EXIT_OK);
-    // Every 20 ms, as in the simulator; a machine that is busy leaves some out.
+    // Every 20 ms, as in the simulator; a busy machine skips some.
     let samples = seen.samples.load(Ordering::Relaxed);
     assert!((4..=25).contains(&samples), "{samples}");
 }

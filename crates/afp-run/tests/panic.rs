@@ -1,4 +1,4 @@
-//! A component that panics ends the run in `Error`; the robot stands, the log is whole.
+//! A panic of a component ends the run in `Error`: the robot is stopped and the log complete.
 
 use afp_carbot::devices::Navigator;
 use afp_core::quantity::{AngularSpeed, Speed};

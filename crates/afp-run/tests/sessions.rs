@@ -1,4 +1,4 @@
-//! What everybody who drives the simulator has in common: one clock, one trace, whoever looks.
+//! All drivers of the simulator share one clock and one trace, whatever observers they have.
 
 use afp::load::{LoadedPlan, Registry};
 use afp_carbot::table::{TABLE, signal};
@@ -15,7 +15,7 @@ use afp_sim::{Simulation, World};
 use afp_syntax::source::Source;
 
 const PLAN: &str = include_str!("../../../plans/wall_following.afp");
-/// Watches the flow of the camera's pictures while it turns about.
+/// Watches the optical flow of the camera during a turn.
 const MOTION: &str = "use carbot
 plan Watch {
     var bearing: angle = 0 deg
@@ -135,8 +135,7 @@ fn looking_judging_logging_and_pausing_do_not_change_the_run() {
 
 #[test]
 fn a_keyframe_goes_on_as_its_run_does() {
-    // With noise, a fault that begins before and one that ends behind, a press under way, and a plan that watches the
-    // flow of pictures.
+    // With noise, a fault across each end, a held control, and a plan that watches optical flow.
     for (plan, seed) in [(PLAN, 3), (MOTION, 5)] {
         let mut session = session_of(plan, seed);
         let fault = |device, kind| find_fault(TABLE, device, kind).unwrap();
@@ -151,7 +150,7 @@ fn a_keyframe_goes_on_as_its_run_does() {
         session.run(middle, &mut Open, &mut []).unwrap();
         let mut copy = AnySession::keyframe(&session).unwrap();
         let mut track = Track::new(session.devices());
-        // One goes first, so that what they share would show.
+        // One runs first, to reveal shared state.
         copy.run(at(26), &mut Open, &mut [&mut track]).unwrap();
         session.run(at(26), &mut Open, &mut []).unwrap();
         assert_eq!((copy.trace(), copy.now()), (session.trace(), session.now()));
@@ -177,7 +176,7 @@ fn every_sample_is_of_the_type_that_its_row_says() {
             assert!(value.is(row.ty), "{}.{}: {value:?}", device.name, row.name);
             seen += 1;
         });
-        // Nothing moves or glows in that room, nothing sounds, and nobody asks where the robot is.
+        // The room has nothing that moves, glows or sounds, and the plan needs no pose.
         let silent = ["world", "infrared", "localisation"].contains(&device.name)
             || (device.name, row.name) == ("signals", "tone");
         assert_eq!(seen > 0, !silent, "{}.{}", device.name, row.name);

@@ -1,6 +1,7 @@
-//! Every way out of a run on a robot: the robot hears `stop` last, or falls silent with its program, and the exit code says why.
+//! All ends of a run on a robot: the robot receives `stop` last, or nothing after the end of its
+//! program, and the exit code names the reason.
 //!
-//! The program runs in a process of its own. The robot is the other end of a pseudo-terminal.
+//! The program runs in its own process; the robot is the other end of a pseudo-terminal.
 #![cfg(unix)]
 
 #[path = "ways_out/program.rs"]
@@ -19,12 +20,13 @@ use rustix::process::{Pid, Signal, kill_process};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::stdio::dup2_stdout;
 
-/// Names the port in the environment of the program.
+/// The environment variable with the port.
 const PORT: &str = "AFP_TEST_PORT";
-/// Has the options of the program, line by line; the first line names the action of its actor.
+/// The environment variable with the options of the program, one a line; the first line names the
+/// action of its actor.
 const OPTIONS: &str = "AFP_TEST_OPTIONS";
 
-/// Names the file that the program writes its output to, if there is one.
+/// The environment variable with the output file of the program, if any.
 const OUT: &str = "AFP_TEST_OUT";
 
 /// Is set if the system is to trap the control thread.
@@ -32,10 +34,10 @@ const TRAP: &str = "AFP_TEST_TRAP";
 
 /// The limit for a stop.
 const LIMIT: Duration = Duration::from_secs(2);
-/// A busy machine needs this long for anything else.
+/// The limit for everything else on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Not a test of its own: the other tests start it as their program.
+/// Not a test: the other tests start it as their program.
 #[test]
 fn program() {
     let (Ok(port), Ok(options)) = (std::env::var(PORT), std::env::var(OPTIONS)) else { return };
@@ -61,9 +63,9 @@ fn terminal() -> (File, String) {
 /// The robot's end of a port.
 struct Robot {
     path: String,
-    /// The lines that it hears.
+    /// The lines that it receives.
     heard: Receiver<String>,
-    /// Keeps the port until the program has ended.
+    /// Keeps the port open until the program has ended.
     end: Option<File>,
 }
 
@@ -73,14 +75,14 @@ impl Robot {
         let end = File::options().read(true).write(true).open(&path).unwrap();
         let (hears, heard) = channel();
         thread::spawn(move || {
-            // Reading ends with an error once nobody holds the other end.
+            // Reading fails after the other end is closed.
             let lines = BufReader::new(port).lines().map_while(Result::ok);
             lines.for_each(|line| drop(hears.send(line.trim().to_owned())));
         });
         Robot { path, heard, end: Some(end) }
     }
 
-    /// Waits until it hears a word; gives what it heard before.
+    /// Waits for a word; returns the words before it.
     fn waits_for(&self, word: &str, limit: Duration) -> Vec<String> {
         let (until, mut before) = (Instant::now() + limit, Vec::new());
         loop {
@@ -92,7 +94,7 @@ impl Robot {
         }
     }
 
-    /// All that it hears until the program has ended.
+    /// All words until the program has ended.
     fn rest(&mut self) -> Vec<String> {
         self.end = None;
         let mut rest = Vec::new();
@@ -106,7 +108,7 @@ impl Robot {
     }
 }
 
-/// Starts the program, which does something and has options.
+/// Starts the program with an action and options.
 fn start(robot: &Robot, does: &str, options: &[&str]) -> Command {
     let mut command = Command::new(std::env::current_exe().unwrap());
     command.args(["--exact", "program", "--nocapture", "--test-threads=1"]);
@@ -117,7 +119,7 @@ fn start(robot: &Robot, does: &str, options: &[&str]) -> Command {
     command
 }
 
-/// Waits until a program has ended; gives what it said on standard error, too.
+/// Waits for the end of a program; returns its standard error too.
 fn ended(mut child: Child) -> (ExitStatus, String) {
     let mut stderr = child.stderr.take().unwrap();
     let (end, said) = channel();
@@ -179,7 +181,7 @@ fn a_program_that_is_killed_leaves_the_robot_to_its_own_dead_man() {
     robot.waits_for("drive", PATIENCE);
     send(&child, Signal::KILL);
     assert_eq!(ended(child).0.code(), None);
-    // Nothing speaks for the program.
+    // No thread sends `stop` for the program.
     let rest = robot.rest();
     assert!(rest.iter().all(|word| word == "drive"), "{rest:?}");
 }
@@ -191,7 +193,7 @@ fn a_run_that_was_suspended_does_not_drive_on() {
     let child = start(&robot, "drives", &stall).spawn().unwrap();
     robot.waits_for("drive", PATIENCE);
     send(&child, Signal::STOP);
-    // All that was sent before.
+    // Discards all earlier words.
     thread::sleep(Duration::from_secs(1));
     while robot.heard.try_recv().is_ok() {}
     send(&child, Signal::CONT);
@@ -270,7 +272,7 @@ fn a_component_that_hangs_loses_the_robot_and_is_named() {
     let child = start(&robot, "hangs", &stall).spawn().unwrap();
     robot.waits_for("drive", PATIENCE);
     robot.waits_for("cut", PATIENCE);
-    // The program is not to be waited for: one signal ends it.
+    // The program hangs, so one signal ends it.
     send(&child, Signal::TERM);
     let (status, said) = ended(child);
     assert_eq!(status.code(), Some(130), "{said}");
@@ -283,7 +285,7 @@ fn a_component_that_hangs_loses_the_robot_and_is_named() {
 
 #[test]
 fn an_output_that_takes_no_more_stops_the_robot() {
-    // A device that is always full, and a limit of the system for files.
+    // A device that is always full, and a file size limit.
     let mut robot = Robot::new();
     let child = start(&robot, "drives", &[]).env(OUT, "/dev/full").spawn().unwrap();
     let (status, said) = ended(child);
@@ -312,11 +314,11 @@ fn a_reader_that_is_slow_does_not_hold_up_a_stop() {
     let out = File::options().write(true).open(&path).unwrap();
     let mut robot = Robot::new();
     let child = start(&robot, "laps", &["--json"]).stdout(out).spawn().unwrap();
-    // Each lap is some lines, and the terminal takes some thousand bytes.
+    // Each lap prints some lines, and the terminal buffers some thousand bytes.
     (0..200).for_each(|_| drop(robot.waits_for("drive", PATIENCE)));
     send(&child, Signal::TERM);
     robot.waits_for("stop", LIMIT);
-    // The robot stands, so the rest of the report may wait for its reader.
+    // The robot stands still, so the rest of the report may wait for its reader.
     send(&child, Signal::TERM);
     let (status, said) = ended(child);
     assert!(matches!(status.code(), Some(130 | 143)), "{status} {said}");
@@ -333,7 +335,7 @@ fn two_programs_do_not_drive_one_robot_and_the_second_names_the_first() {
     let by = format!("process {} ", first.id());
     assert!(said.contains("has it open"), "{said}");
     assert!(said.contains(&by) || !cfg!(target_os = "linux"), "{said}");
-    // The first one drives on as before.
+    // The first program continues as before.
     robot.waits_for("drive", LIMIT);
     send(&first, Signal::TERM);
     let before = robot.waits_for("stop", LIMIT);

@@ -1,10 +1,10 @@
-//! What the help says of `--press`, `--fail` and `--measure`: the words of the robot at hand.
+//! The help texts of `--press`, `--fail` and `--measure`, with the names of the robot at hand.
 
 use afp_core::devices::{DeviceRow, FaultRow, controls, faults};
 use afp_session::AnyRobot;
 use clap::Command;
 
-/// The command with the words of a robot in its help; [`RunOptions`] are among its arguments.
+/// Adds the names of a robot to the help of a command with the arguments of [`RunOptions`].
 ///
 /// [`RunOptions`]: super::RunOptions
 pub fn for_robot(command: Command, robot: &dyn AnyRobot) -> Command {
@@ -12,7 +12,7 @@ pub fn for_robot(command: Command, robot: &dyn AnyRobot) -> Command {
     for_devices(command, robot.devices()).mut_arg("measure", |argument| argument.help(measures))
 }
 
-/// The same with the words of devices alone, where nothing more is known of the robot.
+/// As [`for_robot`], if only the devices of the robot are known.
 pub fn for_devices(command: Command, devices: &[DeviceRow]) -> Command {
     let (press, fail) = (press(devices), fail(devices));
     command
@@ -20,7 +20,7 @@ pub fn for_devices(command: Command, devices: &[DeviceRow]) -> Command {
         .mut_arg("fail", |argument| argument.help(fail.0).long_help(fail.1))
 }
 
-/// A control as it is pressed: by its own name where one device alone has it.
+/// The controls as written in options: the name alone if only one device has it.
 pub(crate) fn words(devices: &[DeviceRow]) -> Vec<(String, &'static str)> {
     let alone = |name: &str| controls(devices).filter(|(.., row)| row.name == name).count() == 1;
     let word = |device: &DeviceRow, name: &str| match alone(name) {
@@ -38,7 +38,7 @@ fn measures(names: &[&str]) -> String {
     }
 }
 
-/// In short, and with everything that there is.
+/// The short and the long help.
 fn press(devices: &[DeviceRow]) -> (String, String) {
     let words = words(devices);
     let Some((first, _)) = words.first() else {
@@ -55,7 +55,7 @@ fn press(devices: &[DeviceRow]) -> (String, String) {
     (short, long)
 }
 
-/// In short, and with everything that there is.
+/// The short and the long help.
 fn fail(devices: &[DeviceRow]) -> (String, String) {
     let mut plain = faults(devices).filter(|(.., row)| row.amount.is_none());
     let mut measured =
@@ -75,7 +75,7 @@ fn fail(devices: &[DeviceRow]) -> (String, String) {
     (short, long)
 }
 
-/// Which devices fail in which ways, those together that fail alike.
+/// The faults of devices; devices with the same faults form a group.
 fn groups(devices: &[DeviceRow]) -> Vec<String> {
     let mut groups: Vec<(Vec<&str>, Vec<String>)> = Vec::new();
     let mut seen: Vec<String> = Vec::new();

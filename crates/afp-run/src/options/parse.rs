@@ -1,4 +1,4 @@
-//! The values of options as people write them.
+//! The syntax of option values.
 
 use std::fmt;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -11,34 +11,31 @@ use afp_session::Pose2;
 
 use crate::world::Measure;
 
-/// How fast simulated time passes.
+/// The speed of simulated time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Speed {
     /// As fast as the machine allows.
     Max,
-    /// So many times as fast as real time.
+    /// A multiple of real time.
     Times(f64),
 }
 
-/// A control that is pressed at an instant.
+/// A press of a control at an instant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Press {
     pub control: String,
-    /// When.
     pub at: Instant,
 }
 
-/// Something that breaks at an instant.
+/// A fault that begins at an instant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// What breaks.
     pub device: String,
     pub kind: String,
-    /// By how much, as it is written.
+    /// The amount as written.
     pub amount: Option<String>,
-    /// From when on.
     pub from: Instant,
-    /// Up to when; `None` for good.
+    /// `None`: until the end of the run.
     pub to: Option<Instant>,
 }
 
@@ -59,10 +56,8 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Where output goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Destination {
-    /// Nowhere.
     None,
     File(PathBuf),
 }
@@ -81,12 +76,12 @@ pub(super) fn speed(text: &str) -> Result<Speed, String> {
 /// Reads a whole number, such as a seed.
 ///
 /// # Errors
-/// It is none, or negative.
+/// It is negative or not a whole number.
 pub fn whole(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
 }
 
-/// Reads `8765`, a port of this machine alone, or `0.0.0.0:8765`.
+/// Reads `8765`, a port of this machine only, or `0.0.0.0:8765`.
 pub(super) fn address(text: &str) -> Result<SocketAddr, String> {
     match text.parse::<u16>() {
         Ok(port) => Ok((Ipv4Addr::LOCALHOST, port).into()),
@@ -96,20 +91,20 @@ pub(super) fn address(text: &str) -> Result<SocketAddr, String> {
     }
 }
 
-/// Reads `start@20s`. Whether there is such a control, the robot knows.
+/// Reads `start@20s`. Does not check that the robot has the control.
 ///
 /// # Errors
-/// It is not written so.
+/// A syntax error.
 pub fn press(text: &str) -> Result<Press, String> {
     let (control, time) =
         text.split_once('@').ok_or("expected a control and a time, CONTROL@20s")?;
     Ok(Press { control: control.to_owned(), at: instant(time)? })
 }
 
-/// Reads `wheels.slip=0.2@3s..5s`. Whether there is such a fault, the robot knows.
+/// Reads `wheels.slip=0.2@3s..5s`. Does not check that the robot has the fault.
 ///
 /// # Errors
-/// It is not written so.
+/// A syntax error.
 pub fn failure(text: &str) -> Result<Failure, String> {
     let (what, when) = text
         .split_once('@')

@@ -1,15 +1,15 @@
-//! How far a long run has come, on one line of a terminal.
+//! The progress of a long run, on one line of a terminal.
 
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration as Span, Instant as Wall};
 
 use afp_core::Instant;
 
-/// Short runs need no progress.
+/// A run shorter than this shows no progress.
 const FIRST: Span = Span::from_millis(700);
 const EVERY: Span = Span::from_millis(200);
 
-/// A line on standard error that is written over again and again.
+/// A line on standard error that is overwritten with each update.
 pub(crate) struct Progress {
     end: Instant,
     begun: Wall,
@@ -19,14 +19,14 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Without `shown` there is no line: a terminal that does not take it would hold up whoever writes.
+    /// Shows nothing unless `shown`: a blocked terminal would block the run.
     pub(crate) fn new(end: Instant, shown: bool) -> Self {
         let begun = Wall::now();
         let terminal = shown && io::stderr().is_terminal();
         Progress { end, begun, next: begun + FIRST, shows: false, terminal }
     }
 
-    /// Shows where the run is, now and then; whether it was time to.
+    /// Updates the line from time to time; returns whether it did.
     pub(crate) fn pass(&mut self, now: Instant) -> bool {
         let wall = Wall::now();
         if wall < self.next {
@@ -47,7 +47,7 @@ impl Progress {
         true
     }
 
-    /// Takes the line away.
+    /// Removes the line.
     pub(crate) fn clear(&mut self) {
         if self.shows {
             let _ = write!(io::stderr(), "\r\x1b[K");

@@ -1,4 +1,4 @@
-//! The timeline for people: what became active, why, and what was written.
+//! The timeline for people: active components, their causes, written entries.
 
 use std::fmt::Write;
 
@@ -24,7 +24,7 @@ pub(super) fn logs(names: &(impl Names + ?Sized), id: ComponentId) -> bool {
         && names.outputs(id) == 0
 }
 
-/// The lines that say what runs.
+/// The first lines, which name the plan and its robot.
 pub(super) fn head(what: &[(&str, String)]) -> String {
     let mut text = String::new();
     for (key, value) in what {
@@ -88,7 +88,7 @@ fn outcome(path: &str, outcome: &NamedOutcome) -> String {
     }
 }
 
-/// What came from outside, in the words of scenarios.
+/// A request from outside, in the words of scenarios.
 fn requested(request: &Requested) -> String {
     let what = stimulus(&request.what);
     match &request.done {
@@ -101,7 +101,7 @@ fn requested(request: &Requested) -> String {
     }
 }
 
-/// A stimulus with its quantities as people write them.
+/// A stimulus with readable quantities.
 pub(super) fn stimulus(what: &Stimulus) -> String {
     match what {
         Stimulus::Write(NameWithUnit { name, unit }, value) => {
@@ -122,7 +122,7 @@ fn missed(component: &str, miss: &Miss) -> String {
         1 => "1 release skipped".to_owned(),
         many => format!("{many} releases skipped"),
     };
-    // The poll after skipped releases may be in time itself.
+    // The lateness is zero if only releases were skipped and the poll itself was in time.
     if miss.lateness == Duration::ZERO {
         return format!("{BAD}! {component}: {skipped}{BAD:#}");
     }

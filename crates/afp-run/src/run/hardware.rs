@@ -1,4 +1,4 @@
-//! One run on the robot itself, which is stopped at every end.
+//! A run on a real robot, which is stopped at every end.
 
 use std::sync::Arc;
 
@@ -12,19 +12,18 @@ use crate::picture::Rasterizer;
 use crate::world::LoadedWorld;
 use crate::{Program, inputs};
 
-/// What recipes call the robot itself.
+/// The name of a real robot in recipes.
 pub(crate) const HARDWARE: &str = "hardware";
 
-/// Opens the robot and puts the plan on it.
 pub type OpenHardware<'a> = dyn FnOnce(&Settings) -> Result<Opened, SessionError> + 'a;
 
-/// Runs a plan on the robot itself; gives the exit code. A `rasterizer` makes PNG pictures; without one they are SVG
-/// alone.
+/// Runs a plan on a real robot; returns the exit code. PNG pictures need a `rasterizer`.
 ///
-/// However the run ends, by itself, by a signal, by a panic, because an output cannot be written, the robot is stopped.
+/// The robot is stopped after every end of the run: normal, by a signal, by a panic, by an output
+/// error.
 ///
 /// # Errors
-/// Options of the simulation, a robot that cannot be reached, an output that does not work.
+/// Options for simulations only, a robot that cannot be reached, an output that cannot be written.
 pub fn run_on_hardware(
     program: &Program<'_>,
     open: Box<OpenHardware<'_>>,
@@ -53,7 +52,7 @@ pub fn run_on_hardware(
     drive(&mut *session, guards, &setting)
 }
 
-/// The settings of the robot and of its control loop: of the project, unless the command line has others.
+/// The settings of the robot and its control loop; the command line overrides the project.
 fn settings(
     program: &Program<'_>,
     set: &[(String, String)],
@@ -77,7 +76,7 @@ fn settings(
     Ok((Settings::new(of_driver), realtime))
 }
 
-/// The robot has no setting of that name.
+/// The error for an unknown setting.
 fn unknown(name: &str, known: &[&str]) -> RunError {
     let all: Vec<_> = known.iter().map(|name| format!("'{PREFIX}{name}'")).collect();
     let help = match all.is_empty() {

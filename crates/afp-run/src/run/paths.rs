@@ -1,4 +1,4 @@
-//! Where the output of a run goes.
+//! The paths of the outputs of a run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,17 +11,17 @@ use crate::options::{Destination, OnRobot, RunOptions};
 use crate::output::{check_apart, check_writable, is_same_file};
 use crate::picture::{PictureFormat, Rasterizer};
 
-/// Where logs and pictures go unless told otherwise.
+/// The default folder of logs and pictures.
 const RUNS: &str = "target/afp/runs";
 
-/// Where output goes.
 pub(super) struct Paths {
     pub(super) log: Option<PathBuf>,
     pub(super) svg: Option<PathBuf>,
 }
 
 impl Paths {
-    /// Makes the default folder where it is needed, and finds out now what would fail later, or cost what is read.
+    /// Creates the default folder if needed, and finds errors early: paths that cannot be written,
+    /// or that would overwrite an input.
     pub(super) fn new(
         program: &Program<'_>,
         options: &RunOptions,
@@ -43,13 +43,13 @@ impl Paths {
             }
         };
         let mut log = path(&options.log, ".mcap")?;
-        // The log that is repeated lies where logs go unless told otherwise, and stays.
+        // The log that is repeated may be at the default path and must not be overwritten.
         let is_repeated =
             |log: &PathBuf| options.again.as_ref().is_some_and(|it| is_same_file(it, log));
         if options.log.is_none() && log.as_ref().is_some_and(is_repeated) {
             log = path(&options.log, ".again.mcap")?;
         }
-        // Nobody knows where the robot itself is, unless it says so: a picture of that is asked for.
+        // The pose of a real robot is usually unknown, so its picture must be asked for.
         let svg = match (&options.svg, options.robot) {
             (None, OnRobot::Hardware) => None,
             (asked, _) => path(asked, ".svg")?,
@@ -64,7 +64,7 @@ impl Paths {
         Ok(paths)
     }
 
-    /// What makes the picture's bytes of an SVG; `None` where it is one.
+    /// Converts the SVG to the bytes of the picture; `None` for an SVG.
     pub(super) fn raster<'a>(
         &self,
         all: Option<Rasterizer<'a>>,

@@ -1,6 +1,6 @@
-//! One value of a world's file in place of another: `--set world.robot.charge=0.5`.
+//! Changes a value of a world's file: `--set world.robot.charge=0.5`.
 //!
-//! Keys of a file carry their units (`height_m`); what is written here carries its own.
+//! Keys of a file contain units (`height_m`); here the value carries its unit.
 
 use toml_edit::{DocumentMut, Item, Value};
 
@@ -10,7 +10,7 @@ use super::place::Place;
 use super::{LoadedWorld, Measure};
 use crate::error::RunError;
 
-/// What the name of a setting begins with that is one of the world.
+/// The prefix of settings of the world.
 const PREFIX: &str = "world.";
 
 /// The key of a setting of the world; `None` for an entry of the plan.
@@ -19,12 +19,12 @@ pub fn key(name: &str) -> Option<&str> {
 }
 
 impl LoadedWorld {
-    /// This world with values of its file changed, all at once: `key` is the way to one: names of tables and keys, in
-    /// a list the name or the number from 0 of what is meant: `robot.charge`, `box.sofa.height_m`,
-    /// `robot.pose_m_deg.0`, `wall.0.points_m.1.0`.
+    /// Changes values of the world's file, all at once. A key is a path of names of tables and
+    /// keys; an element of a list is given by name or by number from 0: `robot.charge`,
+    /// `box.sofa.height_m`, `robot.pose_m_deg.0`, `wall.0.points_m.1.0`.
     ///
     /// # Errors
-    /// There is no such thing, a unit does not fit, or the world makes no sense with those values.
+    /// The key does not exist, a unit does not fit, or the changed world is wrong.
     pub fn with(
         &self,
         changes: &[(&str, &str)],
@@ -41,16 +41,16 @@ impl LoadedWorld {
         world.started_at(start).map_err(|why| RunError::usage(why.message, "choose another start"))
     }
 
-    /// What a value for a key is in SI units; `None` for what is no number.
+    /// The value for a key in SI units; `None` if it is not a number.
     ///
     /// # Errors
-    /// As [`LoadedWorld::with`], but for worlds that make no sense.
+    /// As [`LoadedWorld::with`], but the world itself is not checked.
     pub fn si(&self, key: &str, text: &str) -> Result<Option<f64>, RunError> {
         Ok(changed(&self.text, key, text)?.1)
     }
 }
 
-/// The text with a value changed, and the value in SI units.
+/// The changed text, and the value in SI units.
 fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), RunError> {
     let refused = |why: &str| refused(key, text, why);
     let mut document: DocumentMut = world
@@ -60,7 +60,7 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
     let Place { item, listed } =
         Place::find(document.as_item_mut(), &parts).map_err(|why| refused(&why))?;
     let measure = measure(&parts, listed);
-    // A name that is a number stays a text.
+    // A name that looks like a number stays a text.
     let is_text = !listed && item.is_str();
     let to = if is_text { Ok(Value::from(text)) } else { read(text, measure) };
     let to = to.map_err(|why| refused(&why))?;
@@ -73,7 +73,7 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
     Ok((document.to_string(), si))
 }
 
-/// An error in a world that was changed: the excerpt is of a text that no file has.
+/// An error in a changed world: the excerpt shows a text that no file contains.
 fn with_changes(error: RunError, changes: &[(&str, &str)]) -> RunError {
     let RunError::Content { path, text, mistake } = error else { return error };
     let list = changes.iter().map(|(key, value)| format!("{PREFIX}{key}={value}"));
@@ -89,7 +89,7 @@ fn refused(key: &str, text: &str, why: &str) -> RunError {
     )
 }
 
-/// What the value at the end of the way measures, by its key and, in a list, its number.
+/// The measure of a value, from its key and its position in a list.
 fn measure(parts: &[&str], listed: bool) -> Option<Measure> {
     let is_key = |part: &&&str| !listed || part.parse::<usize>().is_err();
     let key = parts.iter().rev().find(is_key).copied().unwrap_or_default();
@@ -97,7 +97,7 @@ fn measure(parts: &[&str], listed: bool) -> Option<Measure> {
     Measure::of(key, number)
 }
 
-/// Puts a value in the place of another one; lines and comments around it stay where they are.
+/// Replaces a value; the lines and comments around it stay.
 fn replace(was: &mut Item, mut to: Value) {
     if let Some(was) = was.as_value() {
         to.decor_mut().clone_from(was.decor());
@@ -105,7 +105,7 @@ fn replace(was: &mut Item, mut to: Value) {
     *was = Item::Value(to);
 }
 
-/// A value as it stands in the file.
+/// The value in the form of the file.
 fn read(text: &str, measure: Option<Measure>) -> Result<Value, String> {
     if let Some(measure) = measure {
         return measure.read(text).map(Value::from);
@@ -188,7 +188,7 @@ mod tests {
 
     #[test]
     fn values_count_together() {
-        // The second alone puts the robot into the sofa.
+        // The second change alone would put the robot into the sofa.
         let (x, y) = (("robot.pose_m_deg.0", "5m"), ("robot.pose_m_deg.1", "4.5m"));
         let tried = |changes: &[(&str, &str)]| room().with(changes, &ROBOT).map(|it| it.world);
         let refused = tried(&[y]).unwrap_err().to_string();

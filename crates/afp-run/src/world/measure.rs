@@ -1,4 +1,5 @@
-//! What the numbers of a world's file measure, and the units in which they may be written on a command line: those of plans.
+//! The measures of numbers in a world's file, and their units on a command line, which are those of
+//! plans.
 
 use afp_core::rt::{Scale, Unit, parse_quantity};
 use afp_session::some_units;
@@ -14,7 +15,8 @@ pub(crate) enum Measure {
 }
 
 impl Measure {
-    /// That of a key, by the end of its name, or of a place in its list; none for plain numbers.
+    /// The measure of a key, from the end of its name, or of a position in its list; `None` for
+    /// plain numbers.
     pub(super) fn of(key: &str, place: Option<usize>) -> Option<Measure> {
         let ends = |end: &str| key.ends_with(end);
         match place {
@@ -27,10 +29,10 @@ impl Measure {
         }
     }
 
-    /// A number with its unit, in the unit of files: SI units, but degrees.
+    /// Reads a number with a unit and converts it to the unit of files: SI units, but degrees.
     ///
     /// # Errors
-    /// What was expected.
+    /// The expected form.
     pub(crate) fn read(self, text: &str) -> Result<f64, String> {
         let units = self.units();
         let all = units.iter().map(|(name, scale)| Unit { name, scale: *scale });
@@ -40,7 +42,7 @@ impl Measure {
         })
     }
 
-    /// The units, as parts of that of files.
+    /// The units, as multiples of the unit of files.
     fn units(self) -> Vec<(String, Scale)> {
         let (quantity, base) = match self {
             Measure::Length => ("length", "m"),
@@ -55,7 +57,7 @@ impl Measure {
     }
 }
 
-/// A length over a time each.
+/// All lengths over all times.
 fn speeds() -> Vec<(String, Scale)> {
     let per = |time: &'static SingleUnit| {
         SingleUnit::of("length")

@@ -1,18 +1,18 @@
-//! Worlds whose text gives them no name.
+//! Worlds whose text contains no name.
 
 use std::any::Any;
 use std::sync::Arc;
 
 use afp_session::{AnyWorld, Drawing, Pose2, Shape, WorldError};
 
-/// A world that is called by its file, or as the log of its run says.
+/// A world with the name of its file or of the log.
 #[derive(Debug)]
 struct Named {
     world: Arc<dyn AnyWorld>,
     name: String,
 }
 
-/// The same world, by a name where it has none of its own.
+/// The world, with a default name.
 pub(crate) fn named(world: Arc<dyn AnyWorld>, name: &str) -> Arc<dyn AnyWorld> {
     match world.name().is_empty() {
         true => Arc::new(Named { world, name: name.to_owned() }),

@@ -1,21 +1,21 @@
-//! Places of a world's file: what is inside of a table or of a list, by name or by number.
+//! Paths in a world's file: elements of tables and lists, by name or by number.
 
 use toml_edit::{Item, Table};
 
-/// Where one value is, or will be.
+/// The place of a value.
 pub struct Place<'a> {
-    /// The value; none yet where a table is to get it.
+    /// The value; empty if a table is about to get it.
     pub item: &'a mut Item,
-    /// Whether it is one of a list.
+    /// Whether it is an element of a list.
     pub listed: bool,
 }
 
 impl<'a> Place<'a> {
-    /// What a way leads to: in a table the name of a key, in a list the name or the number from 0 of what is meant.
-    /// Tables that are missing on the way are made.
+    /// Finds the value of a path: a key in a table, a name or a number from 0 in a list. Missing
+    /// tables are created.
     ///
     /// # Errors
-    /// There is no such thing, or it is more than one value.
+    /// The value does not exist, or is more than one value.
     pub fn find(root: &'a mut Item, way: &[&str]) -> Result<Self, String> {
         let mut place = Place { item: root, listed: false };
         let mut holder = "";
@@ -37,7 +37,7 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// What a table has by that name; a new table where something is to be in it that is no number.
+    /// The value of a key; a new table if it is missing and `next` is not a number.
     fn key(self, name: &str, next: Option<&str>) -> Result<Self, String> {
         let table = self.item.as_table_like_mut().ok_or_else(|| absent(name))?;
         if let Some(next) = next.filter(|_| !table.contains_key(name)) {
@@ -51,7 +51,7 @@ impl<'a> Place<'a> {
         Ok(Place { item, listed: false })
     }
 
-    /// The one of that name or number in the list that is called `holder`.
+    /// The element of that name or number in the list `holder`.
     fn one_of(self, holder: &str, part: &str) -> Result<Self, String> {
         let number = part.parse::<usize>().ok();
         let shown = number.map_or_else(|| format!("'{part}'"), |number| format!("number {number}"));
@@ -73,7 +73,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// What those in a list are called; nothing for what is no list.
+/// The names of the elements of a list; `None` for other items.
 fn names(item: &Item) -> Option<Vec<Option<String>>> {
     let tables = item.as_array_of_tables();
     let named = |table: &Table| Some(table.get("name")?.as_str()?.to_owned());
@@ -85,7 +85,7 @@ fn names(item: &Item) -> Option<Vec<Option<String>>> {
     Some(item.as_array()?.iter().map(named).collect())
 }
 
-/// Names, and numbers of what has none.
+/// The names, and numbers for elements without one.
 fn listed(names: &[Option<String>]) -> String {
     let one = |(number, name): (usize, &Option<String>)| match name {
         Some(name) => format!("'{name}'"),

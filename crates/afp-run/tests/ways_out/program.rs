@@ -1,4 +1,4 @@
-//! The program under test: a plan on a robot that speaks over a serial line, in a process of its own.
+//! The program under test: a plan on a robot with a serial line, in its own process.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -24,7 +24,7 @@ mod templates {
     afp_macros::toolbox!("tests/port.afp", robot = super::Rover);
 }
 
-/// A robot that hears `drive` every 10 ms while it moves, and `stop`.
+/// A robot that receives `drive` every 10 ms during motion, and `stop`.
 pub struct Rover {
     time: RealTime,
     port: File,
@@ -70,7 +70,7 @@ impl Rover {
     fn trap(&mut self) {}
 
     fn say(&mut self, word: &str) {
-        // A line that is full loses it.
+        // A full line loses the word.
         let _ = writeln!(self.port, "{word}");
     }
 }
@@ -185,7 +185,7 @@ pub fn drive(plan: &str, port: &str, options: &[&str]) -> ! {
     let own = ["--robot", "hardware"];
     let options = command.get_matches_from(own.iter().chain(options));
     let options = RunOptions::from_arg_matches(&options).unwrap();
-    // A machine that is busy is no stall.
+    // A busy machine must not count as a stall.
     let hardware = [("port", port), ("realtime.stall", "10 s")];
     let program = Program { name: "Rove", file: "plan.afp", texts: &[], hardware: &hardware };
     let open = |settings: &Settings| Opened::new::<_, Rover>(plan, settings);
