@@ -1,5 +1,5 @@
-//! Prints which of the files in a list, one on each line, the parser reads without a mistake: what other grammars of
-//! the language are measured by.
+//! Prints the files of a list, one on each line, that the parser reads without an error: the
+//! reference for other grammars of the language.
 
 use std::process::ExitCode;
 use std::{env, fs};

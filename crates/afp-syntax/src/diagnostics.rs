@@ -1,7 +1,7 @@
-//! What the compiler has to say about a text, and how it is shown.
+//! Errors and warnings of the compiler, and their presentation.
 //!
-//! Every diagnostic has a code, one primary span (the smallest text to change) and a help that,
-//! followed, mends it. Stages append to one list and never stop at the first error.
+//! Each diagnostic has a code, a primary span (the smallest text to change) and a help that, if
+//! followed, corrects the error. All stages append to one list and continue after errors.
 
 mod codes;
 mod join;
@@ -30,7 +30,7 @@ struct Label {
     text: Message,
 }
 
-/// A replacement of text that mends the error.
+/// A replacement of text that corrects the error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
     /// The text to replace; an empty range inserts.
@@ -38,20 +38,20 @@ pub struct Edit {
     pub text: String,
 }
 
-/// What a diagnostic is about, for everything that decides by it. The wording of its message decides nothing.
+/// The subject of a diagnostic, for code that depends on it. No code may depend on the wording of a
+/// message.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Subject {
-    /// Nothing that a decision depends on.
+    /// A subject on which no code depends.
     #[default]
     Other,
     /// A name that is missing in the text.
     MissingName,
-    /// A name that nothing has.
+    /// A name that does not exist.
     Unknown {
-        /// What it would be the name of.
         what: Sought,
         name: String,
-        /// The plan in which it was sought, if the text names that.
+        /// The plan in which the name was sought, if the text names one.
         plan: Option<String>,
     },
     /// A path of a scenario.
@@ -62,58 +62,51 @@ pub enum Subject {
     Value,
 }
 
-/// What the help of a diagnostic asks for.
+/// The kind of change that the help asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Aim {
     /// Another text at the place.
     #[default]
     Write,
-    /// No text at the place.
+    /// Removal of the text at the place.
     Remove,
     /// A change elsewhere.
     Elsewhere,
 }
 
-/// What a name can be sought for.
+/// The kinds of items that a name can refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sought {
-    /// A template, a plan, or the toolbox in front of it.
+    /// A template, a plan, or the toolbox before it.
     Template,
-    /// An entry of a plan.
     Entry,
-    /// An element of a plan.
     Element,
-    /// A supervisor of a plan.
     Supervisor,
     Toolbox,
 }
 
-/// One thing the compiler has to say.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Which rule it is about.
     pub code: Code,
-    /// How bad it is.
     pub severity: Severity,
     /// The smallest text to change.
     pub span: Span,
-    /// What it is about.
     pub subject: Subject,
-    /// What is wrong: lower case, no final period, the user's names in single quotes.
+    /// The mistake: lower case, no final period, the user's names in single quotes.
     message: Message,
-    /// What was found instead, which ends the message.
+    /// The text that was found instead, which ends the message.
     found: Option<Box<Message>>,
-    /// Other places that matter.
+    /// Related places.
     notes: Vec<Label>,
     help: Message,
-    /// What that asks for.
+    /// The kind of change that `help` asks for.
     pub aim: Aim,
-    /// The edit that does it, where there is one.
+    /// The edit that follows the help, if possible.
     pub fix: Option<Edit>,
 }
 
 impl Diagnostic {
-    /// A diagnostic whose severity is the one its code has by nature.
+    /// A diagnostic with the default severity of its code.
     pub fn new(code: Code, span: Span, message: impl Into<Message>) -> Diagnostic {
         Diagnostic {
             code,
@@ -129,18 +122,18 @@ impl Diagnostic {
         }
     }
 
-    /// Says what it is about.
+    /// Sets the subject.
     pub fn about(mut self, subject: Subject) -> Diagnostic {
         self.subject = subject;
         self
     }
 
-    /// Is about a name that nothing has.
+    /// Sets the subject: a name that does not exist.
     pub fn unknown(self, what: Sought, name: &str) -> Diagnostic {
         self.about(Subject::Unknown { what, name: name.to_owned(), plan: None })
     }
 
-    /// Is about a name that nothing in a plan has, which is written elsewhere.
+    /// Sets the subject: a name that does not exist in `plan`, which is written elsewhere.
     pub fn unknown_in(self, plan: &str, what: Sought, name: &str) -> Diagnostic {
         let plan = Some(plan.to_owned());
         self.about(Subject::Unknown { what, name: name.to_owned(), plan })
@@ -152,7 +145,7 @@ impl Diagnostic {
         self
     }
 
-    /// Says what was found instead.
+    /// Sets the text that was found instead.
     pub fn found(mut self, found: Message) -> Diagnostic {
         self.found = Some(Box::new(found));
         self
@@ -163,31 +156,31 @@ impl Diagnostic {
         self
     }
 
-    /// Says what to do elsewhere.
+    /// Sets a help for a change elsewhere.
     pub fn elsewhere(mut self, text: impl Into<Message>) -> Diagnostic {
         self.aim = Aim::Elsewhere;
         self.help(text)
     }
 
-    /// Says what to write at another place, with the edit that does it.
+    /// Sets a help and the edit for a new text at another place.
     pub fn write_at(self, span: Span, text: impl Into<String>) -> Diagnostic {
         let text = text.into();
         self.help(message!("write '{}'", text)).fix(span, text)
     }
 
-    /// Says what to write at the primary span, with the edit that does it.
+    /// Sets a help and the edit for a new text at the primary span.
     pub fn write(self, text: impl Into<String>) -> Diagnostic {
         let span = self.span;
         self.write_at(span, text)
     }
 
-    /// Points at another place.
+    /// Adds a related place.
     pub fn note(mut self, span: Span, text: impl Into<Message>) -> Diagnostic {
         self.notes.push(Label { span, text: text.into() });
         self
     }
 
-    /// Gives the edit that follows the help.
+    /// Sets the edit that follows the help.
     pub fn fix(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         let text = text.into();
         if text.is_empty() {
@@ -197,34 +190,32 @@ impl Diagnostic {
         self
     }
 
-    /// Gives the edit that puts `text` in place of the primary span.
+    /// Sets the edit that replaces the primary span by `text`.
     pub fn replace(self, text: impl Into<String>) -> Diagnostic {
         let span = self.span;
         self.fix(span, text)
     }
 
-    /// The diagnostic without notes, help and edit, for those that know better ones.
+    /// The diagnostic without notes, help and edit, for callers with better ones.
     pub fn bare(&self) -> Diagnostic {
         let Diagnostic { subject, message, found, .. } = self.clone();
         Diagnostic { subject, found, ..Diagnostic::new(self.code, self.span, message) }
     }
 
-    /// Replaces what it says to do.
     pub fn set_help(&mut self, text: impl Into<Message>) {
         self.help = text.into();
     }
 
-    /// Replaces what is wrong.
     pub fn change_message(&mut self, change: impl FnOnce(&Message) -> Message) {
         self.message = change(&self.message);
     }
 
-    /// What is wrong, to be compared with others.
+    /// The message, for comparisons with others.
     pub fn message(&self) -> &Message {
         &self.message
     }
 
-    /// The names that the message mentions.
+    /// The names in the message.
     pub fn names(&self) -> Vec<&str> {
         let mut names = Vec::new();
         self.message.names(&mut names);
@@ -232,13 +223,12 @@ impl Diagnostic {
     }
 }
 
-/// The diagnostics of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    /// Where the errors are, since each item asks for its own.
+    /// The places of errors; each item searches its own.
     errors: BTreeSet<Span>,
-    /// Where the text could not be read.
+    /// The places of syntax errors.
     unread: BTreeSet<Span>,
     /// Errors that are counted and not kept.
     counted: Vec<(Span, Code)>,
@@ -251,7 +241,6 @@ const MOST_EXPLAINED: usize = 500;
 const MOST_KEPT: usize = 10_000;
 
 impl Diagnostics {
-    /// Appends one.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.note(&diagnostic);
         match diagnostic.severity {
@@ -262,7 +251,6 @@ impl Diagnostics {
         }
     }
 
-    /// Appends all of `other`.
     pub fn extend(&mut self, other: Diagnostics) {
         self.list.extend(other.list);
         self.errors.extend(other.errors);
@@ -270,7 +258,7 @@ impl Diagnostics {
         self.counted.extend(other.counted);
     }
 
-    /// Drops those for which `keep` does not hold.
+    /// Removes those for which `keep` is false.
     pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
         let before = self.list.len();
         self.list.retain(keep);
@@ -302,12 +290,10 @@ impl Diagnostics {
         self.errors = errors.into_iter().map(|(span, _)| span).collect();
     }
 
-    /// Whether one of them is an error.
     pub fn has_errors(&self) -> bool {
         !self.errors.is_empty()
     }
 
-    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
@@ -322,7 +308,6 @@ impl Diagnostics {
         self.len() < MOST_EXPLAINED
     }
 
-    /// One of them, by its place.
     pub fn get(&self, index: u32) -> Option<&Diagnostic> {
         self.list.get(index as usize)
     }
@@ -331,7 +316,7 @@ impl Diagnostics {
         self.list.iter()
     }
 
-    /// Whether one of them may lie in `span`, or begins in it; they must be sorted.
+    /// Whether one of them begins in `span` or may overlap it; they must be sorted.
     pub fn any_begins_within(&self, span: Span) -> bool {
         let first = self.list.partition_point(|each| each.span < span.before());
         self.list
@@ -352,7 +337,7 @@ impl Diagnostics {
         self.list.dedup();
     }
 
-    /// The places in `span` at which the text could not be read.
+    /// The places of syntax errors in `span`.
     pub fn syntax_errors_within(&self, span: Span) -> impl Iterator<Item = Span> {
         within(&self.unread, span)
     }

@@ -2,7 +2,7 @@
 
 use afp_types::{Powers, SiUnit};
 
-/// Exponents of the base dimensions; all zero is a plain number.
+/// Exponents of the base dimensions; all are zero for a plain number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Metre.
@@ -11,11 +11,11 @@ pub struct Dimension {
     pub mass: i8,
     /// Second.
     pub time: i8,
-    /// Radian: a dimension of its own, so that turns and lengths cannot be mixed up.
+    /// Radian: a separate dimension, so that angles and lengths cannot be confused.
     pub angle: i8,
     /// Kelvin.
     pub temperature: i8,
-    /// Volt: a base dimension here, since plans know no currents.
+    /// Volt: a base dimension here, because plans have no currents.
     pub voltage: i8,
 }
 
@@ -26,7 +26,7 @@ impl Dimension {
     pub const DURATION: Dimension = Dimension { time: 1, ..Dimension::NONE };
 }
 
-/// The dimensions that have a name in the language, with the unit in which people write them.
+/// The dimensions with a name in the language, each with its common unit.
 const NAMED: &[(&str, Dimension, &str)] = &[
     ("length", Dimension { length: 1, ..Dimension::NONE }, "cm"),
     ("angle", Dimension { angle: 1, ..Dimension::NONE }, "deg"),
@@ -42,37 +42,37 @@ const NAMED: &[(&str, Dimension, &str)] = &[
 ];
 
 impl Dimension {
-    /// The names of dimensions that types are written with.
+    /// The names of dimensions in types.
     pub fn names() -> impl Iterator<Item = &'static str> {
         NAMED.iter().map(|(name, ..)| *name)
     }
 
-    /// The dimension of that name, such as `length` or `force`.
+    /// The dimension of a name such as `length` or `force`.
     pub fn named(name: &str) -> Option<Dimension> {
         NAMED.iter().find(|(known, ..)| *known == name).map(|(_, dimension, _)| *dimension)
     }
 
-    /// The dimension of a product; `None` when an exponent leaves -128..=127.
+    /// The dimension of a product; `None` if an exponent leaves -128..=127.
     pub fn times(self, other: Dimension) -> Option<Dimension> {
         self.zip(other, i8::checked_add)
     }
 
-    /// The dimension of a quotient; `None` when an exponent leaves -128..=127.
+    /// The dimension of a quotient; `None` if an exponent leaves -128..=127.
     pub fn over(self, other: Dimension) -> Option<Dimension> {
         self.zip(other, i8::checked_sub)
     }
 
-    /// The dimension of a power; `None` when an exponent leaves -128..=127.
+    /// The dimension of a power; `None` if an exponent leaves -128..=127.
     pub fn power(self, exponent: i8) -> Option<Dimension> {
         self.zip(self, |own, _| own.checked_mul(exponent))
     }
 
-    /// The dimension whose square this is; `None` when an exponent is odd.
+    /// The dimension of a square root; `None` if an exponent is odd.
     pub fn root(self) -> Option<Dimension> {
         self.zip(self, |exponent, _| (exponent % 2 == 0).then_some(exponent / 2))
     }
 
-    /// A unit in which people write quantities of this dimension; empty for a plain number.
+    /// A common unit of the dimension; empty for a plain number.
     pub fn usual_unit(self) -> String {
         match NAMED.iter().find(|(_, dimension, _)| *dimension == self) {
             Some((.., usual)) => (*usual).to_owned(),
@@ -80,12 +80,12 @@ impl Dimension {
         }
     }
 
-    /// The SI unit, in the spelling of literals; empty for a plain number.
+    /// The SI unit as in literals; empty for a plain number.
     pub fn si_unit(self) -> String {
         SiUnit(self.exponents()).to_string()
     }
 
-    /// The name, or the product of names such as `length/duration^2`, in the spelling of types.
+    /// The name, or a product of names such as `length/duration^2`, as in types.
     pub fn name(self) -> String {
         if self == Dimension::NONE {
             return "float".to_owned();

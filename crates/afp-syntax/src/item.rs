@@ -1,8 +1,8 @@
-//! Paths of items: names that lead to a plan, an enum, a table, or something in a plan.
+//! Paths of items: names of a plan, an enum, a table, or an item in a plan.
 
 use std::fmt;
 
-/// An item of a file, found by names.
+/// An item of a file, by its path.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Item {
     Plan {
@@ -14,24 +14,22 @@ pub enum Item {
     Table {
         name: String,
     },
-    /// An entry, an element or a global supervisor, which share one scope.
+    /// An entry, an element or a global supervisor; the three share one scope.
     Inner {
-        /// The plan that it is in.
         plan: String,
         name: String,
     },
     /// A local supervisor, or the reactions to a supervisor of the plan.
     Local {
-        /// The plan that it is in.
         plan: String,
-        /// The element that it belongs to.
+        /// The element.
         owner: String,
-        /// Its name; `on NAME` for reactions, which no supervisor is called.
+        /// Its name; `on NAME` for reactions, because no supervisor has such a name.
         name: String,
     },
 }
 
-/// What the names of reactions begin with.
+/// The prefix of the names of reactions.
 const ON: &str = "on ";
 
 impl Item {
@@ -52,7 +50,6 @@ impl Item {
         Item::Inner { plan: plan.into(), name: name.into() }
     }
 
-    /// A local supervisor of an element.
     pub fn local(
         plan: impl Into<String>,
         owner: impl Into<String>,
@@ -61,12 +58,11 @@ impl Item {
         Item::Local { plan: plan.into(), owner: owner.into(), name: name.into() }
     }
 
-    /// The reactions of an element to a supervisor of the plan.
     pub fn reactions(plan: impl Into<String>, owner: impl Into<String>, supervisor: &str) -> Item {
         Item::local(plan, owner, format!("{ON}{supervisor}"))
     }
 
-    /// The supervisor that it is the reactions to, if it is.
+    /// The supervisor, if the item is reactions.
     pub fn reacts_to(&self) -> Option<&str> {
         match self {
             Item::Local { name, .. } => name.strip_prefix(ON),
@@ -74,7 +70,6 @@ impl Item {
         }
     }
 
-    /// Its own name.
     pub fn name(&self) -> &str {
         match self {
             Item::Plan { name }
@@ -85,7 +80,7 @@ impl Item {
         }
     }
 
-    /// The plan that it is in; its own name when it is one; empty for an enum or a table.
+    /// The plan that contains it; for a plan, its own name; empty for an enum or a table.
     pub fn plan_name(&self) -> &str {
         match self {
             Item::Plan { name } => name,
@@ -94,7 +89,7 @@ impl Item {
         }
     }
 
-    /// Whether it is another item or lies in it.
+    /// Whether it is `item` or lies in it.
     pub fn lies_in(&self, item: &Item) -> bool {
         match (item, self) {
             (Item::Plan { name }, _) => self.plan_name() == name,
@@ -105,7 +100,7 @@ impl Item {
         }
     }
 
-    /// Its path when `from`, which it may lie in, becomes `to`.
+    /// Its path after `from` is renamed to `to`; it may lie in `from`.
     pub fn moved(&self, from: &Item, to: &Item) -> Item {
         match (self, from, to) {
             _ if !self.lies_in(from) => self.clone(),

@@ -1,7 +1,8 @@
-//! Texts of Action Flow Plans: a lossless tree of them, and what is wrong with them.
+//! The lossless syntax tree of Action Flow Plans, and its diagnostics.
 //!
-//! It knows the grammar and nothing of what a text means. It does no I/O. Of the workspace it needs
-//! `afp-excerpt`, which shows where mistakes are, and `afp-types`, which reads numbers.
+//! This crate knows the grammar but not the meaning of a text. It does no I/O. In the workspace it
+//! depends only on `afp-excerpt`, which shows the places of mistakes, and on `afp-types`, which
+//! reads numbers.
 
 pub mod ast;
 pub mod diagnostics;

@@ -1,27 +1,26 @@
-//! Numbers and quantities as they are written, and the exact value they stand for.
+//! Literals of numbers and quantities, and their exact values.
 //!
-//! The value is that of the same text at run time: the double nearest to it (`afp-types`).
+//! The value equals that of the same text at run time: the nearest double (`afp-types`).
 
 use afp_types::{Decimal, Scale, exact, number_length};
 
 use crate::dimension::Dimension;
 use crate::units::Unit;
 
-/// A number with or without a unit, not yet a double.
+/// A number with or without a unit, before conversion to a double.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Literal {
     negative: bool,
     /// Decimal digits without leading zeros, most significant first.
     digits: Vec<u8>,
-    /// Power of ten of the last digit.
+    /// The power of ten of the last digit.
     exponent: i32,
-    /// The unit, where one is written.
     pub unit: Option<Unit>,
 }
 
 impl Literal {
-    /// A number and its unit as they stand in the tree, foreign spellings of units included; `None`
-    /// where the unit is none.
+    /// A number and its unit as in the tree, foreign spellings of units included; `None` if the
+    /// unit is invalid.
     pub fn of_tokens(number: &str, unit: Option<&str>) -> Option<Literal> {
         let mut literal = match number.contains(',') {
             true => Literal::parse(&number.replace(',', "."))?,
@@ -34,8 +33,8 @@ impl Literal {
         Some(literal)
     }
 
-    /// Reads an optional sign, a number and an optional unit; white space may stand between number
-    /// and unit and at both ends. `None` where the text is not that.
+    /// Reads an optional sign, a number and an optional unit, with optional white space before the
+    /// unit and at both ends. `None` for any other text.
     pub fn parse(text: &str) -> Option<Literal> {
         let text = text.trim();
         let (negative, text) = match text.strip_prefix('-') {
@@ -52,23 +51,21 @@ impl Literal {
         Some(Literal { negative, digits, exponent: number.exponent(), unit })
     }
 
-    /// The same number with the other sign.
     pub fn negated(&self) -> Literal {
         Literal { negative: !self.negative, ..self.clone() }
     }
 
-    /// The dimension of its unit.
     pub fn dimension(&self) -> Dimension {
         self.unit.map_or(Dimension::NONE, |unit| unit.dimension)
     }
 
-    /// The double nearest to its value in SI units; `None` when that is infinite.
+    /// The double nearest to its value in SI units; `None` if that is infinite.
     pub fn value(&self) -> Option<f64> {
         let scale = self.unit.map_or(Scale::Decimal(0), Unit::scale);
         exact(self.digits.iter().copied(), self.exponent, self.negative, scale)
     }
 
-    /// The value in nanoseconds when it is a whole, non-negative number of them that fits.
+    /// The value in nanoseconds; `None` if it is negative, not whole or too large.
     pub fn nanoseconds(&self) -> Option<u64> {
         let unit = self.unit.filter(|unit| unit.dimension == Dimension::DURATION)?;
         let mut value: u128 = 0;

@@ -12,9 +12,9 @@ pub use lines::{Encoding, LineColumn, Lines};
 pub struct Span {
     /// The file, an index into the compilation's sources.
     pub file: u16,
-    /// First byte.
+    /// The first byte.
     pub start: u32,
-    /// Byte after the last.
+    /// The byte after the last.
     pub end: u32,
 }
 
@@ -40,23 +40,22 @@ impl Span {
     }
 }
 
-/// A text and the name under which diagnostics show it.
+/// A text and its name for diagnostics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// The file's path as the user wrote it.
+    /// The file's path as written by the user.
     pub name: String,
     pub text: String,
 }
 
 impl Source {
-    /// A text to be compiled.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
         Source { name: name.into(), text: text.into() }
     }
 
     /// Line and column of a byte, both counted from 1; columns count characters.
     ///
-    /// An offset past the end or inside a character stands for the nearest one before it.
+    /// An offset after the end or inside a character means the nearest one before it.
     pub fn line_column(&self, offset: u32) -> (usize, usize) {
         afp_excerpt::line_column(&self.text, offset as usize)
     }
@@ -69,36 +68,32 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Adds a file and returns its index, `None` when 65,536 files are there already.
+    /// Adds a file and returns its index; `None` after 65,536 files.
     pub fn add(&mut self, source: Arc<Source>) -> Option<u16> {
         let index = u16::try_from(self.files.len()).ok()?;
         self.files.push(source);
         Some(index)
     }
 
-    /// How many files there are.
     pub fn len(&self) -> usize {
         self.files.len()
     }
 
-    /// Whether there is no file at all.
     pub fn is_empty(&self) -> bool {
         self.files.is_empty()
     }
 
-    /// A file by [`Span::file`].
     pub fn get(&self, file: u16) -> Option<&Source> {
         self.files.get(usize::from(file)).map(|source| &**source)
     }
 
-    /// The text that a span covers; empty when it fits no file.
+    /// The text of a span; empty if the span fits no file.
     pub fn text(&self, span: Span) -> &str {
         self.get(span.file)
             .and_then(|source| source.text.get(span.start as usize..span.end as usize))
             .unwrap_or("")
     }
 
-    /// All files in order.
     pub fn iter(&self) -> impl Iterator<Item = &Source> {
         self.files.iter().map(|source| &**source)
     }

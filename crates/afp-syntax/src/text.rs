@@ -1,10 +1,10 @@
-//! What a text in double quotes stands for.
+//! The value of a text in double quotes.
 
 use crate::ast::Name;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::message;
 
-/// The text without quotes and with its escapes resolved; reports escapes that do not exist.
+/// The text without quotes and with its escapes resolved; reports unknown escapes.
 ///
 /// Escapes are `\"`, `\\`, `\n` and `\t`.
 pub fn unquote(quoted: &Name, diags: &mut Diagnostics) -> String {

@@ -1,7 +1,7 @@
-//! From text to a lossless tree.
+//! Parses a text to a lossless tree.
 //!
-//! Parsing never fails: whatever the text is, the tree holds every byte of it, holes stay holes, and
-//! every error is reported. The tree knows the grammar only; names and types come later.
+//! Parsing never fails: for any text, the tree holds every byte, and every error is reported. The
+//! tree knows the grammar only; names and types are checked later.
 
 use rowan::{GreenNode, GreenNodeData, GreenTokenData, Language, NodeOrToken};
 
@@ -10,9 +10,7 @@ use crate::kind::Afp;
 use crate::source::Span;
 use crate::{lexer, parser};
 
-/// A node of the tree.
 pub type Node = rowan::SyntaxNode<Afp>;
-/// A token of the tree.
 pub type Token = rowan::SyntaxToken<Afp>;
 
 #[derive(Clone, Debug)]
@@ -22,18 +20,17 @@ pub struct Parse {
 }
 
 impl Parse {
-    /// The root of the tree.
     pub fn root(&self) -> Node {
         Node::new_root(self.green.clone())
     }
 
-    /// The text, byte for byte as it was given.
+    /// The text, byte for byte.
     pub fn text(&self) -> String {
         self.root().text().to_string()
     }
 }
 
-/// Parses a text; `file` is the index that spans shall carry.
+/// Parses a text; `file` is the index for spans.
 ///
 /// Takes time and memory linear in the length of the text, and a stack of bounded depth.
 pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
@@ -43,13 +40,12 @@ pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
     Parse { green, file }
 }
 
-/// Cuts a text into tokens and tells how many there are: the first thing a compilation does, and
-/// the measure for what the rest of it may take.
+/// Counts the tokens of a text. A compilation does this first, to limit the cost of its other
+/// stages.
 pub fn count_tokens(text: &str) -> usize {
     lexer::lex(text, 0, &mut Diagnostics::default()).len()
 }
 
-/// The place of a token.
 pub fn token_span(token: &Token, file: u16) -> Span {
     let range = token.text_range();
     Span { file, start: range.start().into(), end: range.end().into() }
@@ -69,18 +65,19 @@ pub(crate) fn green_span(green: &GreenNodeData, start: u32, file: u16) -> Span {
     }
 }
 
-/// The length of the trivia in front of everything else; of the whole node when it has nothing else.
+/// The length of the trivia at the begin; `Err` with the length of the whole node if it has nothing
+/// else.
 fn leading(node: &GreenNodeData) -> Result<u32, u32> {
     trivia(node.children(), leading)
 }
 
-/// The length of the trivia behind everything else, as in [`leading`].
+/// The length of the trivia at the end, as in [`leading`].
 fn trailing(node: &GreenNodeData) -> Result<u32, u32> {
     trivia(node.children().rev(), trailing)
 }
 
-/// Adds up trivia until something else comes. It goes over the tree's own nodes, because spans are
-/// asked for everywhere and each step of a cursor costs an allocation.
+/// Adds up trivia up to another token. Reads the green tree for speed: spans are needed everywhere,
+/// and each step of a cursor costs an allocation.
 fn trivia<'a>(
     elements: impl Iterator<Item = NodeOrToken<&'a GreenNodeData, &'a GreenTokenData>>,
     within: fn(&GreenNodeData) -> Result<u32, u32>,

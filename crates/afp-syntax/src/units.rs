@@ -1,33 +1,32 @@
-//! Units composed of those of one word ([`SingleUnit`]), such as `cm/s^2`.
+//! Units composed of single units ([`SingleUnit`]), such as `cm/s^2`.
 //!
-//! Lexer, checks and conversions from text all read them here. Where no plan is at hand, as for times and worlds on a
-//! command line, the list of those of one word is read itself.
+//! Lexer, checks and conversions from text read all units here. Values on a command line without a
+//! plan (times, worlds) use the list of single units directly.
 
 use afp_types::{Scale, SingleUnit};
 
 use crate::dimension::Dimension;
 
-/// Greatest exponent of a part of a composed unit, either sign.
+/// The greatest exponent of a part of a composed unit, either sign.
 const MAX_EXPONENT: i8 = 9;
 
-/// A unit, single or composed: how many SI units it is, as an exact fraction and a power of ten.
+/// A unit, single or composed, with its factor to SI as an exact fraction and a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// What it measures.
     pub dimension: Dimension,
-    /// Numerator of the factor to SI.
+    /// The numerator of the factor to SI.
     pub numerator: u64,
-    /// Denominator of the factor to SI.
+    /// The denominator of the factor to SI.
     pub denominator: u64,
-    /// Power of ten of the factor to SI.
+    /// The power of ten of the factor to SI.
     pub exponent: i32,
-    /// Exponent of the degree in it, each worth [`afp_types::RADIANS_PER_DEGREE`].
+    /// The exponent of the degree in it, each worth [`afp_types::RADIANS_PER_DEGREE`].
     pub degrees: i32,
     /// Whether it is `degC`, which has an offset.
     pub celsius: bool,
 }
 
-/// Spellings that people use and the language does not: each with what to write instead.
+/// Common spellings that the language lacks, each with the correct one.
 pub(crate) const FOREIGN: &[(&str, &str)] = &[
     ("°C", "degC"),
     ("°", "deg"),
@@ -37,11 +36,11 @@ pub(crate) const FOREIGN: &[(&str, &str)] = &[
     ("\u{3bc}m", "um"),
 ];
 
-/// Composed units in words, of which there may be an 's' more: each with its symbol.
+/// Composed units as words (also with a final 's'), each with its symbol.
 const WORDS: &[(&str, &str)] = &[("mps", "m/s"), ("kmh", "km/h"), ("kph", "km/h")];
 
 impl Unit {
-    /// The unit that was meant by a word that is none: `degrees`, `CM`.
+    /// The unit that an invalid word means: `degrees`, `CM`.
     pub fn meant(word: &str) -> Option<&'static str> {
         let small = word.to_ascii_lowercase();
         let one = small.strip_suffix('s').unwrap_or(&small);
@@ -49,7 +48,7 @@ impl Unit {
             let first = |text: &str| text.bytes().next().filter(|each| matches!(each, b'm' | b'M'));
             let rest = word.get(1..).unwrap_or_default();
             let alike = |base: &str| base.eq_ignore_ascii_case(rest);
-            // `MM` is shouted.
+            // `MM` is `mm` in capitals.
             let is_prefix = bases().any(|base| base.symbol == rest)
                 || rest.len() > 1 && bases().any(|base| alike(base.symbol));
             is_prefix && first(symbol) != first(word)
@@ -63,8 +62,9 @@ impl Unit {
         })
     }
 
-    /// What a unit with a prefix means that the language does not have: in full, its unit without the prefix, and the
-    /// power of ten of that. `mHz` is a millihertz, and none with another letter, which would be millions of them.
+    /// The meaning of a unit with an invalid prefix: its full name, the unit without the prefix,
+    /// and the power of ten. `mHz` means a millihertz; it is not read as `MHz`, which is 10^9 times
+    /// as much.
     pub fn strange_prefix(word: &str) -> Option<(String, &'static str, i32)> {
         let (prefix, exponent) = match word.bytes().next()? {
             b'm' => ("milli", -3),
@@ -81,7 +81,7 @@ impl Unit {
         Unit::parse(word).is_none().then(|| (format!("{prefix}{name}"), base.symbol, exponent))
     }
 
-    /// The power of a unit that was meant by a word that is none: `s2`, `m3`.
+    /// The power of a unit that an invalid word means: `s2`, `m3`.
     pub fn power_meant(word: &str) -> Option<String> {
         let unit = word.trim_end_matches(|each: char| each.is_ascii_digit());
         let power = format!("{unit}^{}", &word[unit.len()..]);
@@ -93,14 +93,13 @@ impl Unit {
         SingleUnit::ALL.iter().map(|single| single.symbol)
     }
 
-    /// The unit that the whole text spells; `None` when it spells none.
+    /// The unit of the whole text; `None` if it is not a unit.
     pub fn parse(text: &str) -> Option<Unit> {
         let (unit, length) = Unit::scan(text)?;
         (length == text.len()).then_some(unit)
     }
 
-    /// The unit that a token of the tree spells, foreign spellings included, which the lexer has
-    /// reported.
+    /// The unit of a token of the tree, including foreign spellings, which the lexer has reported.
     pub fn of_token(text: &str) -> Option<Unit> {
         match FOREIGN.iter().find(|(sign, _)| text.starts_with(sign)) {
             Some((foreign, ours)) => Unit::parse(&format!("{ours}{}", &text[foreign.len()..])),
@@ -110,8 +109,8 @@ impl Unit {
 
     /// The longest unit at the start of `text` and its length in bytes.
     ///
-    /// Parts are joined by `*` and `/` without white space; what follows a joining sign and is no
-    /// unit is left alone.
+    /// Parts are joined by `*` and `/` without white space; a joining sign without a unit after it
+    /// is left alone.
     pub fn scan(text: &str) -> Option<(Unit, usize)> {
         let (mut unit, mut length) = part(text)?;
         while let Some(sign @ (b'*' | b'/')) = text.as_bytes().get(length) {
@@ -124,7 +123,7 @@ impl Unit {
         Some((unit, length))
     }
 
-    /// How its numbers become SI.
+    /// The conversion of its numbers to SI.
     pub fn scale(self) -> Scale {
         if self.celsius {
             return Scale::Celsius;
@@ -165,7 +164,7 @@ impl Unit {
     }
 }
 
-/// Units before which people write prefixes.
+/// Units that people combine with prefixes.
 fn bases() -> impl Iterator<Item = &'static SingleUnit> {
     SingleUnit::ALL.iter().filter(|single| single.takes_prefix())
 }

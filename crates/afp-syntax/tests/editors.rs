@@ -1,4 +1,4 @@
-//! The grammars of editors colour the words that the parser takes for words of the grammar, and no others. They know each unit:
+//! The grammars of editors highlight exactly the keywords of the parser and all units.
 //! `AFP_BLESS=1` writes the lists of units.
 
 use std::collections::BTreeSet;
@@ -10,7 +10,7 @@ use afp_syntax::kind::Kind;
 use afp_syntax::parse;
 use afp_syntax::units::Unit;
 
-/// Folders of files in which every word of the grammar stands somewhere.
+/// Folders of files that together contain every keyword.
 const FOLDERS: &[&str] = &[
     "plans",
     "plans/parts",
@@ -22,7 +22,7 @@ const FOLDERS: &[&str] = &[
     "crates/afp-dsl/tests/toolboxes",
 ];
 
-/// Words that mean something behind an arrow, and names that need no declaration.
+/// Words with a meaning after an arrow, and names that need no declaration.
 const NAMES: &[&str] = &[
     "terminate",
     "fail",
@@ -36,14 +36,14 @@ const NAMES: &[&str] = &[
     "false",
 ];
 
-/// What the cases have in place of an action: the parser takes any name for one.
+/// Invalid actions in the cases: the parser accepts any name.
 const ACTIONS_OF_NOBODY: &[&str] = &["hit"];
 
 fn path(of: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(of)
 }
 
-/// The words that stand in files as words of the grammar, but for files that cannot be read.
+/// The keywords in the files, except files with errors.
 fn keywords() -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for folder in FOLDERS {
@@ -54,7 +54,7 @@ fn keywords() -> BTreeSet<String> {
             }
             let mut diags = Diagnostics::default();
             let tree = parse(&fs::read_to_string(&path).unwrap(), 0, &mut diags);
-            // A slip is read as a word of the grammar.
+            // A misspelt word is read as a keyword.
             if diags.has_errors() {
                 continue;
             }
@@ -67,7 +67,7 @@ fn keywords() -> BTreeSet<String> {
     found
 }
 
-/// The words in the patterns of the editor's grammar, units not among them.
+/// The words in the patterns of the editor's grammar, without units.
 fn coloured() -> BTreeSet<String> {
     let text = fs::read_to_string(path("editors/vscode/syntaxes/afp.tmLanguage.json")).unwrap();
     let grammar: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -81,7 +81,7 @@ fn coloured() -> BTreeSet<String> {
     of_words.flat_map(|pattern| words(pattern["match"].as_str().unwrap_or_default())).collect()
 }
 
-/// The words of a pattern, without escapes and classes of characters.
+/// The words of a pattern, without escapes and character classes.
 fn words(pattern: &str) -> Vec<String> {
     let mut plain = String::new();
     let mut rest = pattern.chars();
@@ -100,7 +100,7 @@ fn words(pattern: &str) -> Vec<String> {
     plain.split_whitespace().map(str::to_owned).collect()
 }
 
-/// What stands between double quotes, line by line, behind no sign that begins a comment.
+/// The texts in double quotes, line by line, except in comments.
 fn quoted(text: &str, comment: &str) -> BTreeSet<String> {
     let code = text.lines().map(|line| line.split(comment).next().unwrap_or_default());
     code.flat_map(|line| line.split('"').skip(1).step_by(2)).map(str::to_owned).collect()
@@ -115,7 +115,7 @@ fn visual_studio_code_knows_every_word() {
 fn tree_sitter_knows_every_word() {
     let text = fs::read_to_string(path("editors/tree-sitter-afp/queries/highlights.scm")).unwrap();
     let words = quoted(&text, ";").into_iter().filter(|word| word.starts_with(char::is_alphabetic));
-    // Truth values are nodes of their own there.
+    // There, truth values are a separate kind of node.
     let names: Vec<_> =
         NAMES.iter().copied().filter(|name| !["true", "false"].contains(name)).collect();
     compare(&words.collect(), &names);
@@ -138,7 +138,8 @@ fn visual_studio_code_knows_every_unit() {
     compare_part("editors/vscode/syntaxes/afp.tmLanguage.json", around, &wanted);
 }
 
-/// Compares the part of a file between two texts with what it should be; with `AFP_BLESS=1` rewrites it instead.
+/// Compares the part of a file between two texts with the correct text; `AFP_BLESS=1` rewrites it
+/// instead.
 fn compare_part(file: &str, (before, behind): (&str, &str), wanted: &str) {
     let text = fs::read_to_string(path(file)).unwrap();
     let (head, rest) = text.split_once(before).unwrap();
@@ -150,7 +151,8 @@ fn compare_part(file: &str, (before, behind): (&str, &str), wanted: &str) {
     assert_eq!(actual, wanted, "{file} is behind: 'AFP_BLESS=1' writes it");
 }
 
-/// Compares the words that an editor colours with those of the language, names that need no declaration among them.
+/// Compares the words that an editor highlights with those of the language, including names that
+/// need no declaration.
 fn compare(coloured: &BTreeSet<String>, names: &[&str]) {
     let mut keywords = keywords();
     keywords.extend(names.iter().map(|name| (*name).to_owned()));

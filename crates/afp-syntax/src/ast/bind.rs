@@ -15,7 +15,6 @@ pub enum Bind {
         port: Name,
         /// The `=`.
         sign: Span,
-        /// What it gets.
         formula: Option<Formula>,
     },
     /// `port => entry`
@@ -25,7 +24,7 @@ pub enum Bind {
         sign: Span,
         /// The entry that takes the value.
         entry: Option<Name>,
-        /// What stands in place of an entry.
+        /// An invalid formula in place of the entry.
         formula: Option<Formula>,
     },
 }
@@ -36,11 +35,11 @@ impl Bind {
         port
     }
 
-    /// Whether it is a name alone, which stands for the port and for the entry: `goal` is `goal = goal`, or
-    /// `goal => goal` where the port is an output.
+    /// Whether it is only a name, for both the port and the entry: `goal` is `goal = goal`, or
+    /// `goal => goal` if the port is an output.
     pub fn is_alone(&self) -> bool {
         match self {
-            // The start alone is at hand, and tells most of them apart.
+            // A comparison of the starts is cheap and decides most cases.
             Bind::In { port, formula: Some(formula), .. } => {
                 formula.starts_by(port.span.start) && formula.span() == port.span
             }
@@ -49,7 +48,7 @@ impl Bind {
         }
     }
 
-    /// A name alone whose port is an output.
+    /// The same name, if the port is an output.
     #[must_use]
     pub fn as_output(&self) -> Bind {
         let port = self.port().clone();

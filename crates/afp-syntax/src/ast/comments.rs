@@ -4,14 +4,14 @@ use super::kind_of;
 use crate::Node;
 use crate::kind::Kind;
 
-/// Whether nothing stands before a node on its line.
+/// Whether a node is the first on its line.
 fn begins_line(node: &Node) -> bool {
     let before = node.first_token().and_then(|first| first.prev_token());
     before.is_none_or(|before| before.text().contains('\n'))
 }
 
-/// The `//` lines directly above an item, without the slashes and one blank behind them. A comment
-/// on the line of what stands before the item is none of them.
+/// The `//` lines directly above an item, without the slashes and one blank after them. A comment
+/// after other code on its line does not count.
 pub(super) fn note(node: &Node) -> String {
     let first = node.green().children().next().map(|first| kind_of(first.kind()));
     let mut below = first == Some(Kind::Comment) && begins_line(node);
@@ -32,7 +32,7 @@ pub(super) fn note(node: &Node) -> String {
     lines.join("\n")
 }
 
-/// The `///` lines in front of an item, without the slashes and one blank behind them.
+/// The `///` lines above an item, without the slashes and one blank after them.
 pub(super) fn doc(node: &Node) -> String {
     let mut doc = String::new();
     let mut lines = 0;

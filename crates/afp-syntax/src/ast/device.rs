@@ -1,5 +1,3 @@
-//! Devices of a toolbox in the typed view.
-
 use super::{
     Formula, Name, Type, child, children, doc, keyword_token, named, range, range_ends, token,
     views,
@@ -16,7 +14,7 @@ views! {
     Control
     /// A fault of a device.
     Fault
-    /// How much there is of a fault.
+    /// The amount of a fault.
     Amount
     Signal
 }
@@ -26,7 +24,7 @@ named! { Device Control Fault Signal }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DeviceKind {
     Device,
-    /// A sensor: it also fails in the ways in which every sensor does.
+    /// A sensor, which also has the faults of all sensors.
     Sensor,
     /// The robot as a whole.
     Robot,
@@ -35,15 +33,12 @@ pub enum DeviceKind {
 /// A part of a device.
 #[derive(Clone, Debug)]
 pub enum DevicePart {
-    /// What can be pressed.
     Press(Press),
-    /// A way in which it fails.
     Fault(Fault),
     Signal(Signal),
 }
 
 impl Device {
-    /// What its keyword says.
     pub fn kind(&self) -> DeviceKind {
         match self.keyword().map(|word| word.text).as_deref() {
             Some("sensor") => DeviceKind::Sensor,
@@ -52,7 +47,7 @@ impl Device {
         }
     }
 
-    /// `device`, `sensor` or `robot`, and its place.
+    /// `device`, `sensor` or `robot`, with its place.
     pub fn keyword(&self) -> Option<Name> {
         keyword_token(&self.node, self.file)
     }
@@ -72,7 +67,7 @@ impl Device {
 }
 
 impl Press {
-    /// `press` or `stop`, and its place.
+    /// `press` or `stop`, with its place.
     pub fn keyword(&self) -> Option<Name> {
         keyword_token(&self.node, self.file)
     }
@@ -82,7 +77,6 @@ impl Press {
         doc(&self.node)
     }
 
-    /// What can be pressed.
     pub fn controls(&self) -> Vec<Control> {
         let controls = children(&self.node, Kind::Control);
         controls.map(|node| Control::new(node, self.file)).collect()
@@ -90,7 +84,6 @@ impl Press {
 }
 
 impl Fault {
-    /// How much there can be of it.
     pub fn amount(&self) -> Option<Amount> {
         child(&self.node, Kind::Amount).map(|node| Amount::new(node, self.file))
     }
@@ -105,24 +98,24 @@ impl Amount {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
 
-    /// What is taken where nothing is said.
+    /// The amount if a request gives none.
     pub fn default(&self) -> Option<Formula> {
         Formula::child_of(&self.node, self.file)
     }
 
-    /// Least and greatest value, and the place of both.
+    /// The bounds, and the place of both.
     pub fn range(&self) -> Option<(Formula, Formula, Span)> {
         range(&self.node, self.file)
     }
 
-    /// The ends of its range, as far as they are written.
+    /// The bounds, as far as written.
     pub fn ends(&self) -> Vec<Formula> {
         range_ends(&self.node, self.file)
     }
 }
 
 impl Signal {
-    /// `signal` or `truth`, and its place.
+    /// `signal` or `truth`, with its place.
     pub fn keyword(&self) -> Option<Name> {
         keyword_token(&self.node, self.file)
     }

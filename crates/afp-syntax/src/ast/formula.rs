@@ -1,5 +1,3 @@
-//! Formulas in the typed view.
-
 use super::{Name, Operator, Ref, find_token, token, tokens, views};
 use crate::Node;
 use crate::kind::{Afp, Kind};
@@ -12,7 +10,7 @@ views! {
 
 #[derive(Clone, Debug)]
 pub enum FormulaKind {
-    /// Operands with signs between them, from left to right. Holes are `None`.
+    /// Operands with operators between them, from left to right. `None` is a hole.
     Chain(Option<Formula>, Vec<(Sign, Option<Formula>)>),
     /// `-operand`
     Negation(Option<Formula>),
@@ -20,21 +18,19 @@ pub enum FormulaKind {
     Brackets(Option<Formula>),
     /// `function(operand, operand)`
     Call {
-        /// The function.
         name: Name,
-        /// Its operands from left to right.
+        /// From left to right.
         operands: Vec<Formula>,
-        /// Whether one of them is missing, which is reported.
+        /// Whether an operand is missing; already reported.
         broken: bool,
     },
-    /// A number and, behind it, its unit.
+    /// A number with its unit, if any.
     Number {
-        /// The digits.
         number: Name,
         unit: Option<Name>,
-        /// Whether it has neither point nor exponent.
+        /// Whether it lacks a point and an exponent.
         whole: bool,
-        /// Whether something that is no unit stands behind it.
+        /// Whether an invalid unit follows.
         broken: bool,
     },
     /// A text, quotes included.
@@ -43,35 +39,33 @@ pub enum FormulaKind {
     Bool(bool),
     /// An entry or a value of an enum.
     Ref(Ref),
-    /// Nothing that can be understood; reported.
+    /// A formula that cannot be read; already reported.
     Hole,
 }
 
-/// A sign between two operands.
+/// An operator between two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sign {
-    /// What it does.
     pub operator: Operator,
     pub span: Span,
 }
 
 impl Formula {
-    /// The first formula among the children of a node.
     pub(super) fn child_of(node: &Node, file: u16) -> Option<Formula> {
         node.children().by_kind(is_formula).next().map(|node| Formula::new(node, file))
     }
 
-    /// All formulas among the children of a node.
     pub(super) fn children_of(node: &Node, file: u16) -> Vec<Formula> {
         node.children().by_kind(is_formula).map(|node| Formula::new(node, file)).collect()
     }
 
-    /// Whether it is a name alone: an entry or a value of an enum.
+    /// Whether it is only a name: an entry or a value of an enum.
     pub fn is_name(&self) -> bool {
         self.node.kind() == Kind::Ref
     }
 
-    /// How the two are written as one number, where `next` stands behind a comma alone that may be a decimal one: `1,5 m`.
+    /// Joins two formulas into one number if the comma between them may be a decimal comma: `1,5
+    /// m`.
     pub fn with_decimal_point(&self, next: &Formula) -> Option<String> {
         let (FormulaKind::Number { number: whole, unit: None, whole: true, .. }, true) =
             (self.unsigned().kind(), next.span().start == self.span().end + 1)
@@ -85,7 +79,7 @@ impl Formula {
         Some(format!("{}.{}{unit}", whole.text, fraction.text))
     }
 
-    /// Without the sign in front of it.
+    /// The formula without its sign.
     fn unsigned(&self) -> Formula {
         match self.kind() {
             FormulaKind::Negation(Some(inner)) => inner,
@@ -93,7 +87,7 @@ impl Formula {
         }
     }
 
-    /// Whether it begins at a byte or before it, with comments in front of it.
+    /// Whether it begins at or before a byte; comments before it count as its begin.
     pub(super) fn starts_by(&self, byte: u32) -> bool {
         u32::from(self.node.text_range().start()) <= byte
     }

@@ -1,8 +1,6 @@
-//! The text of a node in one line.
-
 use crate::Node;
 
-/// The text of a node in one line: what separates its tokens becomes a blank.
+/// The text of a node on one line: blanks replace other separators.
 pub(crate) fn in_one_line(node: &Node) -> String {
     let all = node.text().to_string();
     let trimmed = all.trim();

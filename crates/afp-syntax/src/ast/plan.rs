@@ -1,5 +1,3 @@
-//! Plans in the typed view.
-
 use super::bind::{Bind, binds};
 use super::{
     Formula, Name, Ref, Timing, Type, child, child_span, children, doc, keyword, keyword_as,
@@ -26,31 +24,26 @@ views! {
 
 named! { Plan Entry Element Guard Reactions }
 
-/// What the keyword in front of an element says.
+/// The kind of an element, from its keyword.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
-    /// `actor`
     Actor,
-    /// `computation`
     Computation,
-    /// `subplan`
     SubPlan,
 }
 
-/// `State -> target`, or `-> target` in the place of braces.
+/// `State -> target`, or `-> target` without braces.
 #[derive(Clone, Debug)]
 pub struct Edge {
-    /// The states or events that lead there. An empty list means the only state of the element.
+    /// The states or events of the edge. An empty list means the only state of the element.
     pub names: Vec<Name>,
-    /// The place of its arrow.
     pub arrow: Option<Span>,
-    /// Where it leads.
     pub target: Option<Name>,
-    /// The text behind `fail`, quotes included.
+    /// The text after `fail`, quotes included.
     pub reason: Option<Name>,
 }
 
-/// What stands around the parts of an element or supervisor.
+/// The parts around the body of an element or supervisor.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// Its `///` lines.
@@ -71,13 +64,13 @@ impl Plan {
         note(&self.node)
     }
 
-    /// The place of `forever`, where written.
+    /// The place of `forever`, if written.
     pub fn forever(&self) -> Option<Span> {
         let mut words = tokens(&self.node, Kind::Keyword, self.file).into_iter().skip(1);
         words.find(|word| word.text == "forever").map(|word| word.span)
     }
 
-    /// Every name in it, of whatever it is.
+    /// All names in it, of any kind.
     pub fn names(&self) -> impl Iterator<Item = String> + use<> {
         let tokens = self.node.descendants_with_tokens().filter_map(|each| each.into_token());
         tokens.filter(|token| token.kind() == Kind::Name).map(|token| token.text().to_owned())
@@ -87,12 +80,12 @@ impl Plan {
         children(&self.node, Kind::Entry).map(|node| Entry::new(node, self.file)).collect()
     }
 
-    /// Its `start` lines; there should be one.
+    /// Its `start` lines; a correct plan has one.
     pub fn starts(&self) -> Vec<Start> {
         children(&self.node, Kind::Start).map(|node| Start::new(node, self.file)).collect()
     }
 
-    /// Its global supervisors as written.
+    /// Its global supervisors.
     pub fn guards(&self) -> Vec<Guard> {
         guards(&self.node, self.file)
     }
@@ -108,7 +101,7 @@ impl Entry {
         keyword(&self.node)
     }
 
-    /// The place of `live`, where written.
+    /// The place of `live`, if written.
     pub fn live(&self) -> Option<Span> {
         live(&self.node, self.file)
     }
@@ -122,17 +115,16 @@ impl Entry {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
 
-    /// Its initial value, where written.
     pub fn init(&self) -> Option<Formula> {
         Formula::child_of(&self.node, self.file)
     }
 
-    /// Least and greatest value, and the place of both.
+    /// The bounds, and the place of both.
     pub fn range(&self) -> Option<(Formula, Formula, Span)> {
         range(&self.node, self.file)
     }
 
-    /// The ends of its range, as far as they are written.
+    /// The bounds, as far as written.
     pub fn ends(&self) -> Vec<Formula> {
         range_ends(&self.node, self.file)
     }
@@ -144,7 +136,7 @@ impl Start {
     }
 }
 
-/// What those have that edges lead away from, and those that are made from a template.
+/// Methods of items that have edges, and of items that are made from templates.
 macro_rules! components {
     ($($name:ident)*; $($made:ident)*) => {
         $(impl $name {
@@ -152,14 +144,12 @@ macro_rules! components {
                 edges(&self.node, self.file)
             }
 
-            /// What stands around its parts.
             pub fn frame(&self) -> Frame {
                 frame(&self.node, self.file)
             }
         })*
 
         $(impl $made {
-            /// What it is made from.
             pub fn template(&self) -> Option<Ref> {
                 child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
             }
@@ -174,7 +164,6 @@ macro_rules! components {
 components! { Element Guard Reactions; Element Guard }
 
 impl Element {
-    /// What its keyword says.
     pub fn kind(&self) -> ElementKind {
         keyword_as(&self.node, |word| match word {
             "computation" => ElementKind::Computation,
@@ -183,43 +172,42 @@ impl Element {
         })
     }
 
-    /// The place of its keyword.
     pub fn keyword_span(&self) -> Span {
         span_of(&self.node, Kind::Keyword, self.file).unwrap_or_else(|| self.span())
     }
 
-    /// Its local supervisors as written.
+    /// Its local supervisors.
     pub fn guards(&self) -> Vec<Guard> {
         guards(&self.node, self.file)
     }
 
-    /// What it does instead where supervisors of the plan report something.
+    /// Its reactions to supervisors of the plan.
     pub fn reactions(&self) -> Vec<Reactions> {
         children(&self.node, Kind::Reactions).map(|node| Reactions::new(node, self.file)).collect()
     }
 }
 
 impl Guard {
-    /// `every` and `deadline` as written.
+    /// `every` and `deadline`.
     pub fn timings(&self) -> Vec<Timing> {
         children(&self.node, Kind::Timing).map(|node| Timing::new(node, self.file)).collect()
     }
 }
 
 impl Edge {
-    /// Its place, from its first part to the last one that is there.
+    /// From its first part to the last one that exists.
     pub fn span(&self) -> Option<Span> {
         let first = self.names.first().map(|name| name.span).or(self.arrow)?;
         Some(first.to(self.end().unwrap_or(first)))
     }
 
-    /// The place of the last part behind its names.
+    /// The place of the last part after its names.
     pub fn end(&self) -> Option<Span> {
         let last = self.reason.as_ref().or(self.target.as_ref());
         last.map(|last| last.span).or(self.arrow)
     }
 
-    /// Whether it leads to a word such as `terminate`.
+    /// Whether its target is a keyword such as `terminate`.
     pub fn leads_to(&self, word: &str) -> bool {
         self.target.as_ref().is_some_and(|target| target.text == word)
     }
@@ -239,8 +227,8 @@ fn guards(node: &Node, file: u16) -> Vec<Guard> {
     children(node, Kind::Guard).map(|node| Guard::new(node, file)).collect()
 }
 
-/// The edges among the children of a node. Reads the tree's own nodes, because there are more of them than of
-/// anything else.
+/// The edges among the children of a node. Reads the green tree for speed, because edges are the
+/// most frequent nodes.
 fn edges(node: &Node, file: u16) -> Vec<Edge> {
     let green = node.green();
     let nodes = parts(&green, node.text_range().start().into()).filter_map(|(child, start)| {

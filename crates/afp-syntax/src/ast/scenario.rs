@@ -1,5 +1,3 @@
-//! Scenarios in the typed view.
-
 use super::bind::binds;
 use super::{Bind, Formula, Name, Ref, child, children, find_token, keyword, token, tokens, views};
 use crate::Node;
@@ -8,36 +6,33 @@ use afp_types::Target;
 
 views! {
     Scenario
-    /// A line of a scenario.
     Line
-    /// What happens in a scenario.
     Action
-    /// What a scenario expects.
     Claim
-    /// `always`, `once`, `within 3 ms` and the like.
+    /// `always`, `once`, `within 3 ms` and others.
     Bound
     /// `a.b.c`
     Path
 }
 
-/// What a line of a scenario is.
+/// The kind and content of a line.
 #[derive(Clone, Debug)]
 pub enum LineKind {
     /// `world "file"`, quotes included.
     World(Option<Name>),
     /// `seed 7`
     Seed(Option<Name>),
-    /// `over seeds 0..20`: the first one and the one behind the last.
+    /// `over seeds 0..20`: the first seed, and the end (excluded).
     OverSeeds(Option<Name>, Option<Name>),
     /// `over worlds "file", "file"`, quotes included.
     OverWorlds(Vec<Name>),
     /// `set path = formula`
     Set(Option<Path>, Option<Formula>),
-    /// `robot at (x, y) heading angle`, the angle perhaps missing.
+    /// `robot at (x, y) heading angle`; the angle may be missing.
     Robot(Vec<Formula>),
     /// `at time: action`
     Stimulus(Option<Formula>, Option<Action>),
-    /// `expect` or, where so marked, `never`.
+    /// `expect` or `never`.
     Expect {
         /// Whether it is `never`.
         never: bool,
@@ -54,11 +49,11 @@ pub enum LineKind {
 pub enum ClaimKind {
     /// `from -> to by cause`
     Transition {
-        /// The element that is left.
+        /// The element that ends.
         from: Path,
-        /// What follows.
+        /// The next element.
         to: ClaimTarget,
-        /// Why.
+        /// The cause.
         by: Option<Path>,
     },
     /// `path active`
@@ -71,19 +66,19 @@ pub enum ClaimKind {
     End(Option<Path>),
     /// `interrupt of path`
     Interrupt(Path),
-    /// `commit of entry by author`, one of them perhaps missing.
+    /// `commit of entry by author`; one of the two may be missing.
     Commit {
-        /// The entry that is written.
+        /// The entry.
         of: Option<Path>,
         by: Option<Path>,
     },
     /// A state, an event or a fact of the world.
     Fact(Path),
-    /// Nothing that can be understood; reported.
+    /// A claim that cannot be read; already reported.
     Hole,
 }
 
-/// What follows an element in a claim; never `ignore`.
+/// The target of an element in a claim; never `ignore`.
 pub type ClaimTarget = Target<Path, ()>;
 
 impl Scenario {
@@ -92,7 +87,7 @@ impl Scenario {
         token(&self.node, Kind::Text, self.file)
     }
 
-    /// The plan behind `for`.
+    /// The plan after `for`.
     pub fn plan(&self) -> Option<Ref> {
         child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
     }
@@ -102,7 +97,6 @@ impl Scenario {
     }
 }
 
-/// The lines in a node as written.
 fn lines(node: &Node, file: u16) -> Vec<Line> {
     let lines = node.children().filter(|node| {
         matches!(
@@ -152,7 +146,7 @@ impl Line {
         }
     }
 
-    /// The word that it begins with.
+    /// Its first word.
     pub fn keyword(&self) -> String {
         keyword(&self.node)
     }
@@ -171,12 +165,12 @@ impl Line {
 }
 
 impl Action {
-    /// The word that says what is done.
+    /// The word for the action.
     pub fn verb(&self) -> Option<Name> {
         token(&self.node, Kind::Keyword, self.file)
     }
 
-    /// What it is done to.
+    /// The object of the action.
     pub fn path(&self) -> Option<Path> {
         path(&self.node, self.file)
     }
@@ -186,12 +180,12 @@ impl Action {
         Formula::child_of(&self.node, self.file)
     }
 
-    /// The time behind `for`.
+    /// The time after `for`.
     pub fn duration(&self) -> Option<Formula> {
         Formula::child_of(&self.node, self.file).filter(|_| self.has("for"))
     }
 
-    /// What stands between the brackets.
+    /// The bindings in brackets.
     pub fn binds(&self) -> Vec<Bind> {
         binds(&self.node, self.file)
     }

@@ -1,5 +1,3 @@
-//! Tables in the typed view.
-
 use super::{Formula, Type, child, children, named, note, views};
 use crate::kind::Kind;
 
@@ -20,28 +18,25 @@ impl Table {
         note(&self.node)
     }
 
-    /// Its columns in order.
     pub fn columns(&self) -> Vec<Column> {
         let columns = child(&self.node, Kind::Columns);
         let columns = columns.iter().flat_map(|node| children(node, Kind::Column));
         columns.map(|node| Column::new(node, self.file)).collect()
     }
 
-    /// Its rows in order.
     pub fn rows(&self) -> Vec<Row> {
         children(&self.node, Kind::Row).map(|node| Row::new(node, self.file)).collect()
     }
 }
 
 impl Column {
-    /// The type of its values.
     pub fn ty(&self) -> Option<Type> {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
 }
 
 impl Row {
-    /// Its values in order; `None` for one that cannot be read.
+    /// Its values in order; `None` for a value that cannot be read.
     pub fn cells(&self) -> Vec<Option<Formula>> {
         children(&self.node, Kind::Cell).map(|node| Formula::child_of(&node, self.file)).collect()
     }

@@ -1,4 +1,4 @@
-//! One cause that is there many times is reported once, with the number of its places.
+//! Reports a repeated cause once, with the number of its places.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -10,16 +10,17 @@ use super::{Code, Diagnostic, Diagnostics, Edit, Message, Words};
 use crate::message;
 use crate::source::Span;
 
-/// An edit of several places covers at most so many bytes of a text.
+/// The limit for the text of an edit that covers several places, in bytes.
 const LONGEST_EDIT: usize = 64 << 10;
 
-/// A sentence about something that is there at so many places.
+/// Adds the number of places to a sentence.
 pub fn places(sentence: &Message, count: usize) -> Message {
     message!("{}, at {} places", sentence.clone(), Words(thousands(count)))
 }
 
 impl Diagnostics {
-    /// Joins what is said of the same characters and names of a file, whose text is at hand.
+    /// Joins the diagnostics of a file about the same characters or names. `text` is the text of
+    /// the file.
     pub(crate) fn join(&mut self, file: u16, text: &str) {
         let mut first: HashMap<(Code, &str), usize> = HashMap::new();
         let mut others: HashMap<usize, Vec<Option<Edit>>> = HashMap::new();
@@ -59,7 +60,7 @@ impl Diagnostics {
     }
 }
 
-/// One edit that does all of them, which are in the order of the text.
+/// Joins edits into one; they must be sorted by place.
 fn in_one(edits: &[Edit], text: &str) -> Option<Edit> {
     let (first, last) = (edits.first()?.span, edits.last()?.span);
     let (mut better, mut at) = (String::new(), first.start as usize);

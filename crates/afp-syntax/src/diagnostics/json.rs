@@ -8,8 +8,8 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Severity};
 use crate::source::Sources;
 
 impl Diagnostics {
-    /// The diagnostics, one JSON object on each line: the first 1,000 errors and 1,000 others. If more are
-    /// left, the last object has no code and no place, and its message counts them.
+    /// The diagnostics, one JSON object on each line: the first 1,000 errors and 1,000 others. If
+    /// more are left, the last object has no code and no place, and its message counts them.
     pub fn json_lines(&self, sources: &Sources) -> String {
         let tables = Tables::new(sources);
         let (shown, left) = self.first(MOST_WRITTEN);
@@ -22,14 +22,14 @@ impl Diagnostics {
     }
 }
 
-/// So many errors are written for tools.
+/// The limit of errors in JSON.
 const MOST_WRITTEN: usize = 1000;
 
 impl Diagnostic {
     /// The diagnostic as one JSON object without line breaks.
     ///
-    /// Keys are those of [`afp_excerpt::Report::json`] and, where there is an edit that follows the help, `fix` (`place`
-    /// and `text`).
+    /// Its keys are those of [`afp_excerpt::Report::json`] and, with an edit, `fix` (`place` and
+    /// `text`).
     pub fn json(&self, sources: &Sources) -> String {
         self.json_by(&Tables::new(sources))
     }

@@ -1,33 +1,35 @@
-//! Sentences of diagnostics. What a sentence mentions is a field of its own, and the text is made when it is shown.
+//! Sentences of diagnostics. The names in a sentence are separate fields, and the text is made only
+//! for display.
 
 use std::fmt::Display;
 
 use super::words;
 
-/// A sentence with holes, and what fills them. Others can ask for its names, and not for its wording.
+/// A sentence with holes and their arguments. Other code can read its names but not its wording.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Message {
-    /// The text with `{}` for each argument; without arguments the text as it is.
+    /// The text with `{}` for each argument; without arguments, the literal text.
     template: &'static str,
     args: Vec<Arg>,
 }
 
-/// What fills a hole of a message.
+/// An argument of a message.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Arg {
     /// A name or another text of the plan.
     Name(String),
-    /// Several of them in single quotes, with a word before the last.
+    /// Several names in single quotes, with a word before the last.
     Names(Vec<String>, &'static str),
     /// Words of the compiler, numbers, kinds.
     Words(String),
-    /// A part of the sentence that has arguments of its own.
+    /// A part of the sentence with its own arguments.
     Part(Message),
 }
 
-/// A message from a text with `{}` for each of the arguments that follow.
+/// Makes a message from a text with `{}` for each of the following arguments.
 ///
-/// Strings and names are names of the plan. Words of the compiler are wrapped in [`Words`](crate::diagnostics::Words).
+/// Strings are names of the plan; words of the compiler are wrapped in
+/// [`Words`](crate::diagnostics::Words).
 #[macro_export]
 macro_rules! message {
     ($template:literal, $($arg:expr),+ $(,)?) => {{
@@ -37,7 +39,7 @@ macro_rules! message {
     }};
 }
 
-/// The number of holes in a template, in which `{{` and `}}` are braces.
+/// The number of holes in a template; `{{` and `}}` are literal braces.
 pub const fn holes(template: &str) -> usize {
     let (bytes, mut at, mut holes) = (template.as_bytes(), 0, 0);
     while at + 1 < bytes.len() {
@@ -60,12 +62,11 @@ impl Message {
         Message { template, args }
     }
 
-    /// Whether it says nothing.
     pub fn is_empty(&self) -> bool {
         self.template.is_empty()
     }
 
-    /// Whether it has this name and no other.
+    /// Whether it consists of this name only.
     pub(super) fn is_name(&self, name: &str) -> bool {
         matches!(&*self.args, [Arg::Name(only)] if only == name)
     }
@@ -82,7 +83,6 @@ impl Message {
         }
     }
 
-    /// Appends the text.
     pub(super) fn write(&self, text: &mut String) {
         let mut rest = self.template;
         for arg in &self.args {
@@ -102,7 +102,7 @@ impl Message {
     }
 }
 
-/// Appends a template up to its first hole and returns what follows that.
+/// Appends a template up to its first hole and returns the text after the hole.
 fn literal<'t>(mut template: &'t str, text: &mut String) -> &'t str {
     while let Some(at) = template.find(['{', '}']) {
         let (before, brace) = template.split_at(at);
@@ -124,7 +124,7 @@ impl From<&'static str> for Message {
     }
 }
 
-/// What a message can mention.
+/// Types that can be arguments of a message.
 pub trait ToArg {
     fn to_arg(&self) -> Arg;
 }
@@ -134,7 +134,7 @@ pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &'static str) -
     Arg::Names(names.into_iter().map(str::to_owned).collect(), joint)
 }
 
-/// Words of the compiler, which are not a name of the plan.
+/// Words of the compiler, as opposed to names of the plan.
 pub struct Words<T>(pub T);
 
 impl<T: Display> ToArg for Words<T> {

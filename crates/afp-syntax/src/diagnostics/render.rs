@@ -1,4 +1,4 @@
-//! Diagnostics for people, in the manner of rustc.
+//! Diagnostics for people, in the style of rustc.
 
 use afp_excerpt::{Mark, Report};
 
@@ -7,8 +7,8 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Severity};
 use crate::source::{Sources, Span};
 
 impl Diagnostics {
-    /// The diagnostics as text, one blank line between them, with terminal colours when asked: the first 20 errors,
-    /// the first 20 others, and how many are left.
+    /// The diagnostics as text, separated by blank lines, with terminal colours on request: the
+    /// first 20 errors, the first 20 others, and the number of the rest.
     pub fn render(&self, sources: &Sources, colour: bool) -> String {
         let tables = Tables::new(sources);
         let (shown, left) = self.first(MOST_SHOWN);
@@ -16,7 +16,7 @@ impl Diagnostics {
         texts.chain(left).collect::<Vec<_>>().join("\n\n")
     }
 
-    /// The first so many errors and as many others, and a line that counts the rest, if there is one.
+    /// The first `most` errors and as many others, and a line that counts the rest, if any.
     pub(super) fn first(&self, most: usize) -> (Vec<&Diagnostic>, Option<String>) {
         let mut counts = [0_usize; 2];
         let is_shown = |each: &&Diagnostic| {
@@ -36,7 +36,7 @@ impl Diagnostics {
     }
 }
 
-/// So many errors are shown: a file that has more is wrong throughout, and the rest may come of these.
+/// The limit of errors for people: in a file with more, most follow from the first ones.
 const MOST_SHOWN: usize = 20;
 
 /// A number with a comma between the thousands.
@@ -47,7 +47,7 @@ pub(crate) fn thousands(number: usize) -> String {
 }
 
 impl Diagnostic {
-    /// The diagnostic as text without a final line break, with terminal colours when asked.
+    /// The diagnostic as text without a final line break, with terminal colours on request.
     pub fn render(&self, sources: &Sources, colour: bool) -> String {
         self.render_by(&Tables::new(sources), colour)
     }
@@ -56,7 +56,7 @@ impl Diagnostic {
         self.report(tables, |report| report.render(colour))
     }
 
-    /// What is made of the diagnostic with the texts that it is about.
+    /// Calls `show` with a report of the diagnostic and its texts.
     pub(super) fn report<T>(&self, tables: &Tables<'_>, show: impl FnOnce(Report<'_>) -> T) -> T {
         let mark = |span: Span, label: String| {
             let source = tables.sources.get(span.file)?;

@@ -1,4 +1,4 @@
-//! The texts of a diagnostic, made when they are shown.
+//! The texts of a diagnostic, made only for display.
 
 use std::cell::Cell;
 
@@ -6,13 +6,15 @@ use super::{Diagnostic, Message};
 use crate::source::Span;
 
 thread_local! {
-    /// Whether each text is the code alone.
+    /// Whether each text consists of the code only.
     static ONLY_CODES: Cell<bool> = Cell::new(std::env::var_os("AFP_ONLY_CODES").is_some());
 }
 
-/// Shows codes in place of all texts on this thread, so that a test fails if something decides by the wording.
+/// Shows codes in place of all texts on this thread, so that a test fails if any code depends on
+/// the wording.
 ///
-/// The variable `AFP_ONLY_CODES` does the same for a whole program. Builds without debug assertions ignore both.
+/// The variable `AFP_ONLY_CODES` does the same for a whole program. Builds without debug assertions
+/// ignore both.
 #[doc(hidden)]
 pub fn show_only_codes(only: bool) {
     ONLY_CODES.set(only);
@@ -23,12 +25,11 @@ fn only_codes() -> bool {
 }
 
 impl Diagnostic {
-    /// What is wrong.
     pub fn message_text(&self) -> String {
         self.message_without("")
     }
 
-    /// What is wrong; that `sign` was found there is left out.
+    /// The message without the part that `sign` was found.
     pub fn message_without(&self, sign: &str) -> String {
         let mut text = self.shown(&self.message);
         let found = self.found.as_ref().filter(|found| !found.is_name(sign) && !only_codes());
@@ -39,12 +40,12 @@ impl Diagnostic {
         text
     }
 
-    /// What to do; empty if nothing is known.
+    /// The help; empty if there is none.
     pub fn help_text(&self) -> String {
         self.shown(&self.help)
     }
 
-    /// Other places that matter, and what is there.
+    /// Related places with their texts.
     pub fn note_texts(&self) -> impl Iterator<Item = (Span, String)> {
         self.notes.iter().map(|note| (note.span, self.shown(&note.text)))
     }

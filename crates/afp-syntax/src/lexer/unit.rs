@@ -1,4 +1,4 @@
-//! Units behind numbers, foreign spellings included.
+//! Units after numbers, foreign spellings included.
 
 use super::{Lexer, is_blank, is_word, run};
 use crate::diagnostics::{Code, Diagnostic};
@@ -7,7 +7,7 @@ use crate::message;
 use crate::units::{FOREIGN, Unit};
 
 impl Lexer<'_, '_> {
-    /// Takes the unit behind the number that has just been taken, if there is one on its line.
+    /// Takes the unit after the number just taken, if it is on the same line.
     pub(super) fn unit(&mut self) {
         let rest = &self.text[self.at..];
         let blank = run(rest, |each| is_blank(each) && each != '\n');
@@ -33,7 +33,7 @@ impl Lexer<'_, '_> {
 
     fn foreign(&mut self, foreign: &str, ours: &str) {
         let rest = &self.text[self.at..];
-        // '90°/s' is one unit: what follows is read as if the sign were ours.
+        // '90°/s' is one unit: the rest is read as if the sign were ours.
         let tail = &rest[foreign.len()..];
         let tail = &tail[..run(tail, |each| is_word(each) || "*/^".contains(each))];
         let spelled = format!("{ours}{tail}");
@@ -51,7 +51,7 @@ impl Lexer<'_, '_> {
     }
 }
 
-/// Whether what looks like a unit is a name that a value is bound to, behind a comma that is missing.
+/// Whether a word that looks like a unit is in fact a name with a binding, after a missing comma.
 fn is_bound(unit: &str, behind: &str) -> bool {
     let behind = behind.trim_start();
     let is_name = unit.chars().all(|each| is_word(each) || each.is_ascii_digit());

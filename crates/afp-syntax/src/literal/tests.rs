@@ -1,5 +1,3 @@
-//! Values of literals.
-
 use afp_types::RADIANS_PER_DEGREE;
 
 use super::Literal;

@@ -1,4 +1,4 @@
-//! Devices of a toolbox: what can be pressed, how they fail, what they signal.
+//! Devices of a toolbox: controls, faults, signals.
 
 use super::Parser;
 use crate::keywords::{self, DEVICE};
@@ -11,7 +11,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Device);
         let is_robot = self.word(0) == "robot";
         self.keyword();
-        // That the robot has no name of its own is said by the check.
+        // A robot has no name; the checker reports one.
         if !is_robot || self.at(Kind::Name) {
             self.name("give the device a name");
         }
@@ -35,7 +35,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// Whether a device begins, whole enough to be no name.
+    /// Whether a device begins here; its brace tells it from a name.
     pub(super) fn at_device(&self) -> bool {
         match self.word(0) {
             "device" | "sensor" => self.nth(1) == Kind::Name && self.nth(2) == Kind::OpenBrace,
@@ -51,13 +51,13 @@ impl Parser<'_, '_> {
         keywords::has(self.word(0), DEVICE)
     }
 
-    /// Whether a line begins with a slip of a part's word and what such a part has behind it.
+    /// Whether a line begins with a misspelt keyword of a part, followed by a name.
     fn at_misspelt_part(&self) -> bool {
         let named = self.nth(1) == Kind::Name;
         named && !self.on_same_line() && self.meant(&keywords::with(DEVICE)).is_some()
     }
 
-    /// Whether a part begins where a control's name could stand, too: surely on a line of its own.
+    /// Whether a part begins where another control's name is possible; certain on a new line.
     fn ends_controls(&self) -> bool {
         let whole = match self.word(0) {
             "signal" | "truth" => self.nth(1) == Kind::Name && self.nth(2) == Kind::Colon,
@@ -82,7 +82,7 @@ impl Parser<'_, '_> {
     fn press(&mut self) {
         self.open_item(Kind::Press);
         self.keyword();
-        // Behind its word on one line every name is one.
+        // On the line of the keyword, every name is a control.
         let mut named = self.at(Kind::Name) && (self.on_same_line() || !self.ends_controls());
         if named {
             while named {

@@ -1,5 +1,3 @@
-//! Scenarios: world, stimuli and expectations.
-
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::{Subject, list};
 use crate::keywords::{self, LINE};
@@ -25,13 +23,13 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// Whether a line of the scenario at hand begins here, so that no value can be meant.
+    /// Whether a line of the present scenario begins here, so that a value is impossible.
     pub(super) fn begins_scenario_line(&self) -> bool {
         let goes_on = matches!(self.nth(1), Kind::Name | Kind::Text | Kind::Int | Kind::Float);
         self.in_scenario && self.at_line() && goes_on && !self.begins_line(1)
     }
 
-    /// The lines of a scenario, or those that count from one of its moments.
+    /// The lines of a scenario or of one of its moments.
     fn lines(&mut self) {
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put the scenario's lines in braces") {
@@ -41,7 +39,7 @@ impl Parser<'_, '_> {
                     if parser.at_word("always") && parser.claims_behind() {
                         parser.always_first();
                     } else if parser.action_without_its_time() || parser.time_first() {
-                        // It is reported.
+                        // Already reported.
                     } else if parser.at_line() || parser.item_meant(what, &keywords::with(LINE)) {
                         parser.line();
                     } else {
@@ -96,7 +94,7 @@ impl Parser<'_, '_> {
             }
             _ => self.expectation(),
         }
-        // The braces of a moment end it.
+        // A moment ends with its braces.
         if first != "from" {
             self.nothing_behind(first);
         }
@@ -157,7 +155,7 @@ impl Parser<'_, '_> {
         let opened = self.here();
         let commas = self.commas_in_brackets();
         if self.expect(Kind::OpenParen, "write the place in brackets") {
-            // Of several commas one stands between the coordinates.
+            // With several commas, one separates the coordinates.
             self.with_commas(commas < 2, |parser| {
                 parser.formula();
                 parser.expect(Kind::Comma, "write the second coordinate behind a comma");
@@ -208,7 +206,7 @@ impl Parser<'_, '_> {
         self.close();
         loop {
             match self.word(0) {
-                // A line of its own is another claim, which says so too early.
+                // On a new line it begins another claim, with the word in the wrong place.
                 "always" if !self.on_same_line() && self.claims_behind() => break,
                 "always" | "once" => {
                     self.open(Kind::Bound);
@@ -233,7 +231,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `befor 3 s`: reports the word, and reads it as the one that is meant. Returns whether one stands there.
+    /// `befor 3 s`: reports a misspelt word and reads it as the correct one. Returns whether it
+    /// did.
     fn bound_meant(&mut self) -> bool {
         let before_time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
         let known: &[&'static str] = match before_time {
@@ -246,7 +245,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// Reports a word in front of a claim that belongs elsewhere: `expect never end`.
+    /// Reports a misplaced word before a claim: `expect never end`.
     fn misplaced_word(&mut self) {
         let help = match self.word(0) {
             "never" | "not" => "write 'never' in place of 'expect'",
@@ -269,12 +268,12 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether a claim stands on the line of the word at hand, behind it.
+    /// Whether a claim follows the present word on its line.
     fn claims_behind(&self) -> bool {
         self.nth(1) == Kind::Name && !self.begins_line(1) && !is_line(self.word(1))
     }
 
-    /// `always x > 1`, as `never x > 1` is written.
+    /// `always x > 1`, by analogy with `never x > 1`.
     fn always_first(&mut self) {
         self.open_item(Kind::Expect);
         let help = "write 'expect' in place of it, and 'always' behind the claim";
@@ -319,7 +318,7 @@ impl Parser<'_, '_> {
         } else if self.unequal_meant() {
             self.formula();
         } else if self.nth(0).is_comparison() || self.comparison_meant() {
-            // A '=' stands for '=='.
+            // '=' is read as '=='.
             self.bump_as(if self.at(Kind::Equal) { Kind::EqualEqual } else { self.nth(0) });
             self.formula();
         } else {
@@ -334,7 +333,6 @@ impl Parser<'_, '_> {
     }
 }
 
-/// Whether a line of a scenario begins with this word.
 pub(super) fn is_line(word: &str) -> bool {
     keywords::has(word, LINE)
 }

@@ -1,4 +1,4 @@
-//! Tables of constants: columns with their types, rows in brackets.
+//! Tables of constants: columns with types, rows in brackets.
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic};
@@ -54,7 +54,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// `way: length from 0 m to 1 m`: reports the range, and reads past it.
+    /// `way: length from 0 m to 1 m`: reports and skips the range.
     fn no_range_of_a_column(&mut self) {
         if self.word(0) != "from" || !self.nth(1).begins_formula() {
             return;
@@ -67,7 +67,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Whether a row begins here, perhaps in the brackets of other languages.
+    /// Whether a row begins here; brackets of other languages count too.
     fn at_row(&self) -> bool {
         matches!(self.nth(0), Kind::OpenParen | Kind::OpenBracket)
     }

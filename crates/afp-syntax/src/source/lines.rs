@@ -1,10 +1,10 @@
-//! Lines and columns as editors count them.
+//! Lines and columns as in editors.
 //!
-//! Protocols of editors count both from zero, and columns mostly in units of UTF-16, whatever the
-//! text is kept in. The starts of lines are found once for a text; a column then takes as long as
-//! its line.
+//! Protocols of editors count both from zero, and columns mostly in units of UTF-16, independent of
+//! the encoding of the text. The starts of lines are computed once for a text; a column then takes
+//! time linear in its line.
 
-/// A position as editors say it.
+/// A position as in editors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LineColumn {
     /// The line, from 0.
@@ -13,16 +13,15 @@ pub struct LineColumn {
     pub column: u32,
 }
 
-/// What columns are counted in.
+/// The unit of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Encoding {
-    /// Bytes.
     Utf8,
-    /// Units of 16 bits: characters beyond the first 65,536 are two.
+    /// Units of 16 bits: characters beyond the first 65,536 count as two.
     Utf16,
 }
 
-/// The lines of a text. They end as editors have it: with `\n`, `\r\n` or `\r`.
+/// The lines of a text. As in editors, they end with `\n`, `\r\n` or `\r`.
 #[derive(Clone, Debug)]
 pub struct Lines<'t> {
     text: &'t str,
@@ -30,7 +29,6 @@ pub struct Lines<'t> {
 }
 
 impl<'t> Lines<'t> {
-    /// Finds the lines of a text.
     pub fn new(text: &'t str) -> Lines<'t> {
         let bytes = text.as_bytes();
         let ends_line = |at: &usize| match bytes[*at] {
@@ -42,8 +40,8 @@ impl<'t> Lines<'t> {
         Lines { text, starts: std::iter::once(0).chain(starts).collect() }
     }
 
-    /// Line and column of a byte. An offset inside a character stands for that character, one past
-    /// the end for the end.
+    /// Line and column of a byte. An offset inside a character means that character, one after the
+    /// end means the end.
     pub fn position(&self, offset: u32, encoding: Encoding) -> LineColumn {
         let offset = self.text.floor_char_boundary(offset as usize);
         let line = self.starts.partition_point(|start| *start <= offset) - 1;
@@ -56,8 +54,8 @@ impl<'t> Lines<'t> {
         LineColumn { line: number(line), column: number(column) }
     }
 
-    /// The byte at a line and column. A column inside a character stands for that character, one
-    /// past the end of its line for that end, a line past the last one for the end of the text.
+    /// The byte at a line and column. A column inside a character means that character, one after
+    /// the end of its line means that end, a line after the last one means the end of the text.
     pub fn offset(&self, position: LineColumn, encoding: Encoding) -> u32 {
         let (line, column) = (position.line as usize, position.column as usize);
         let number = |count| u32::try_from(count).unwrap_or(u32::MAX);
@@ -83,7 +81,7 @@ impl<'t> Lines<'t> {
 mod tests {
     use super::{Encoding, LineColumn, Lines};
 
-    /// Characters of 1, 2, 3 and 4 bytes, the last one two units of UTF-16; all ends of lines.
+    /// Characters of 1, 2, 3 and 4 bytes, the last one with two units of UTF-16; all line endings.
     const TEXT: &str = "a°€𝄞b\r\n\n𝄞\rx\n";
 
     #[test]
@@ -117,7 +115,7 @@ mod tests {
     fn positions_lead_back_to_their_bytes() {
         let lines = Lines::new(TEXT);
         for encoding in [Encoding::Utf8, Encoding::Utf16] {
-            // The line break of two characters has a position only at its first one.
+            // A line break of two characters has a position at the first one only.
             let places = (0..=TEXT.len()).filter(|at| TEXT.is_char_boundary(*at) && *at != 12);
             for place in places.filter_map(|at| u32::try_from(at).ok()) {
                 let position = lines.position(place, encoding);

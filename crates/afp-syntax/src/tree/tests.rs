@@ -1,4 +1,4 @@
-//! Whatever the text is, the tree is that text.
+//! The text of the tree equals the parsed text, whatever that is.
 
 use proptest::prelude::*;
 
@@ -107,7 +107,7 @@ fn nesting_is_reported_once() {
     assert_eq!(codes, [Code::E0111]);
 }
 
-/// Pieces of which broken texts are made.
+/// Fragments for broken texts.
 const PIECES: &[&str] = &[
     "plan",
     "P",

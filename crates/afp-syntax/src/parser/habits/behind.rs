@@ -1,4 +1,4 @@
-//! What stands behind a claim, an action or another line of a scenario and does not belong there.
+//! Invalid text after a claim, an action or another line of a scenario.
 
 use crate::diagnostics::{Code, Diagnostic, Message, Words};
 use crate::keywords::ENDS;
@@ -11,10 +11,10 @@ use crate::source::Span;
 const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 'once' or '3 times'; \
      another claim is a line of its own";
 
-/// How often something happens elsewhere, and here.
+/// Words for a count, and their correct forms.
 const OFTEN: &[(&str, &str)] = &[("twice", "2 times"), ("thrice", "3 times")];
 
-/// Whether a plan can end so.
+/// Whether a plan can end in this way.
 fn is_end(word: &str) -> bool {
     ENDS.into_iter().any(|end| end.eq_ignore_ascii_case(word))
 }
@@ -23,7 +23,7 @@ fn is_end(word: &str) -> bool {
 struct Said(Message, Option<(Span, String)>);
 
 impl Parser<'_, '_> {
-    /// Reports what stands behind a line of a scenario that begins with `first`, and reads past it.
+    /// Reports and skips text after a line of a scenario that begins with `first`.
     pub(in crate::parser) fn nothing_behind(&mut self, first: &str) {
         let ends = |p: &Self| {
             !p.on_same_line()
@@ -59,7 +59,6 @@ impl Parser<'_, '_> {
         self.pass_to(ends);
     }
 
-    /// What is said of something behind a claim.
     fn behind_claim(&self) -> Said {
         let (word, before, here) = (self.word(0), self.word_before(), self.next_span());
         let write = |text: &str, fits: bool| {
@@ -114,7 +113,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// The token behind the path that begins so many tokens ahead, on its line.
+    /// The index of the token after the path that begins `ahead` tokens ahead, on its line.
     fn path_ends(&self, ahead: usize) -> usize {
         let is_name = |at: usize| self.nth(at) == Kind::Name && (at == 0 || !self.begins_line(at));
         if !is_name(ahead) {
@@ -127,21 +126,21 @@ impl Parser<'_, '_> {
         end
     }
 
-    /// The token behind the time that begins so many tokens ahead, on its line.
+    /// The index of the token after the time that begins `ahead` tokens ahead, on its line.
     fn time_behind(&self, ahead: usize) -> Option<usize> {
         let is_number = matches!(self.nth(ahead), Kind::Int | Kind::Float);
         let end = ahead + 1 + usize::from(self.nth(ahead + 1) == Kind::Unit);
         (is_number && !self.begins_line(ahead)).then_some(end)
     }
 
-    /// Whether a number stands here, perhaps with a unit, and nothing else on this line.
+    /// Whether the rest of the line is a number with an optional unit.
     fn quantity_ends_line(&self) -> bool {
         let sign = usize::from(self.at(Kind::Minus));
         let end = self.time_behind(sign);
         end.is_some_and(|end| self.begins_line(end) || self.nth(end) == Kind::CloseBrace)
     }
 
-    /// Whether a claim may end so many tokens ahead.
+    /// Whether a claim may end `ahead` tokens ahead.
     fn claim_ends(&self, ahead: usize) -> bool {
         let bound = match self.word(ahead) {
             "within" | "before" | "after" => self.time_behind(ahead + 1).is_some(),
@@ -172,7 +171,6 @@ impl Parser<'_, '_> {
         Said(message!("write '{}'", times), self.claim_ends(tokens).then_some(place))
     }
 
-    /// What is said of something behind an action.
     fn behind_action(&self) -> Said {
         let time = self.time_behind(1);
         match self.word(0) {
@@ -188,8 +186,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `after 3 s press touch`, `wait 3 s`: reports a line that begins with another word before its time, and reads past
-    /// it. Returns whether one stands here.
+    /// `after 3 s press touch`, `wait 3 s`: reports and skips a line with a wrong word before its
+    /// time. Returns whether it did.
     pub(in crate::parser) fn time_first(&mut self) -> bool {
         let word = self.word(0);
         let known = matches!(word, "after" | "in" | "when" | "on" | "wait" | "sleep" | "delay");
@@ -216,7 +214,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `robot at (1 m, 2 m, 90 deg)`: reports the heading within the brackets that began with `opened`, and reads it.
+    /// `robot at (1 m, 2 m, 90 deg)`: reports and reads a heading within the brackets.
     pub(in crate::parser) fn heading_in_brackets(&mut self) {
         if !self.at(Kind::Comma) || !self.nth(1).begins_formula() {
             return;

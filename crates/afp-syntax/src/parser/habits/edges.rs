@@ -1,4 +1,4 @@
-//! What stands before and behind the arrow of an edge as other languages have it.
+//! Text before and after the arrow of an edge in the style of other languages.
 
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
@@ -6,7 +6,8 @@ use crate::message;
 use crate::parser::Parser;
 
 impl Parser<'_, '_> {
-    /// `fail("why")`, `terminate()`, `home()`: a target with brackets. Reports them and returns how many tokens they are.
+    /// `fail("why")`, `terminate()`, `home()`: reports the brackets after a target and returns
+    /// their number of tokens.
     pub(in crate::parser) fn no_brackets(&mut self) -> usize {
         let is_word = matches!(self.word(0), "terminate" | "fail" | "ignore" | "resume");
         let tokens = match (self.nth(1), self.nth(2), self.nth(3)) {
@@ -31,12 +32,14 @@ impl Parser<'_, '_> {
         tokens
     }
 
-    /// Reads past tokens behind a target of which something has been said; a text among them is its own.
+    /// Takes tokens after a target that were already reported; a text among them belongs to the
+    /// target.
     pub(in crate::parser) fn pass_tokens(&mut self, tokens: usize) {
         (0..tokens).for_each(|_| self.bump());
     }
 
-    /// `-> "home"`, `-> (home)`, `-> [home]`: reports the signs around a target. Returns whether they stand here.
+    /// `-> "home"`, `-> (home)`, `-> [home]`: reports the signs around a target. Returns whether it
+    /// did.
     pub(in crate::parser) fn target_in_signs(&mut self) -> bool {
         if !self.on_same_line() {
             return false;
@@ -72,7 +75,7 @@ impl Parser<'_, '_> {
         in_brackets && !name.is_empty()
     }
 
-    /// What stands behind a target on its line: `-> go.Done`, `-> go -> home`, `-> go, home`.
+    /// `-> go.Done`, `-> go -> home`, `-> go, home`: reports text after a target on its line.
     pub(in crate::parser) fn no_more_targets(&mut self) {
         let more = self.on_same_line() && self.nth(1) == Kind::Name && !self.begins_line(1);
         if self.at(Kind::Dot) && self.is_adjacent() && !more {
@@ -100,7 +103,7 @@ impl Parser<'_, '_> {
         self.pass(2);
     }
 
-    /// `fail`, and its text on the next line.
+    /// `fail`, with its text on the next line.
     pub(in crate::parser) fn reason_of_another_line(&mut self) {
         if !self.on_same_line() {
             let message = "why a plan fails stands on the line of 'fail'";
@@ -109,7 +112,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `terminate "why"`: reports a text behind another target than `fail`, and reads past it.
+    /// `terminate "why"`: reports and skips a text after a target other than `fail`.
     pub(in crate::parser) fn no_text_behind_target(&mut self) {
         if self.at(Kind::Text) && self.on_same_line() {
             let message = "only 'fail' has a text behind it";
@@ -117,7 +120,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether the name behind a sign is that of an element, not that of a state whose edge is still being typed: states
+    /// Whether the next name is that of an element. Names of states, whose edges may be incomplete,
     /// begin with a capital letter.
     fn is_second_target(&self) -> bool {
         let ends = self.nth(2) == Kind::CloseBrace || self.begins_line(2);
@@ -125,7 +128,8 @@ impl Parser<'_, '_> {
         ends && is_name && !self.edge_at(1)
     }
 
-    /// `Done | Lost -> home`, `Done or Lost -> home`: reports the sign between the names. Returns whether one stands here.
+    /// `Done | Lost -> home`, `Done or Lost -> home`: reports the sign between the names. Returns
+    /// whether it did.
     pub(in crate::parser) fn sign_between_states(&mut self) -> bool {
         let is_sign = matches!(self.nth(1), Kind::Pipe | Kind::Slash | Kind::Plus)
             || matches!(self.word(1), "or" | "and");
@@ -135,7 +139,7 @@ impl Parser<'_, '_> {
         }
         let here = self.token(1).map_or_else(|| self.behind(), |token| self.span_of(token));
         let error = Diagnostic::new(Code::E0102, here, "between the names of states stands a ','");
-        // The blank before it stays.
+        // Without the blank before it.
         self.error(error.help("write ','").replace(","));
         self.open_item(Kind::Edge);
         self.take_name();
@@ -144,7 +148,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `fail it is stuck`: reports the quotes that are missing, and reads past the words.
+    /// `fail it is stuck`: reports the missing quotes and skips the words.
     pub(in crate::parser) fn reason_without_quotes(&mut self) {
         let is_word = |parser: &Self, ahead: usize| {
             parser.nth(ahead) == Kind::Name && !parser.begins_line(ahead)

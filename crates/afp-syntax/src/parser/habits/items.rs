@@ -1,4 +1,4 @@
-//! Items that no plan and no file has, and items that stand in braces where they have no place.
+//! Unknown items of plans and files, and items in the wrong braces.
 
 use super::is_type;
 use crate::diagnostics::{Code, Diagnostic, Message};
@@ -9,11 +9,11 @@ use crate::parser::{MAX_DEPTH, Parser};
 use crate::source::Span;
 
 impl Parser<'_, '_> {
-    /// What to write for an item that no plan has, and that is no slip.
+    /// A help for an unknown item that is not a misspelt keyword.
     pub(in crate::parser) fn item_help(&self) -> Option<Message> {
         let (word, next) = (self.word(0), self.word(1));
         let begins_element = || self.on_line_from(1, Kind::OpenBrace).is_some();
-        // What stands on the next line is none of this.
+        // Only the same line counts.
         let sign = if self.begins_line(1) { Kind::End } else { self.nth(1) };
         Some(match (word, sign) {
             (_, Kind::Colon) if begins_element() => {
@@ -36,7 +36,8 @@ impl Parser<'_, '_> {
         })
     }
 
-    /// `in d = 30 cm length`: reports a type behind the value of an entry whose name ends before token `end`.
+    /// `in d = 30 cm length`: reports a type after the value of an entry whose name ends before
+    /// token `end`.
     pub(in crate::parser) fn type_behind_value(&mut self, end: usize) {
         let is_type = is_type(self.word(0)) && !self.names_something(0);
         if !is_type || !self.on_same_line() {
@@ -53,7 +54,7 @@ impl Parser<'_, '_> {
         self.pass(1);
     }
 
-    /// `from 1 to 2 = 3`: reports a value behind the range that begins at token `range`, and reads it.
+    /// `from 1 to 2 = 3`: reports and reads a value after the range that begins at token `range`.
     pub(in crate::parser) fn value_behind_range(&mut self, range: usize) {
         let (sign, equal) = (self.next_span(), self.at);
         self.bump();
@@ -66,24 +67,25 @@ impl Parser<'_, '_> {
         self.error(error.write_at(place, better));
     }
 
-    /// What to do with a version that is not on the first line.
+    /// A help for a version that is not on the first line.
     pub(in crate::parser) fn top_help(&self) -> Option<Message> {
         let is_version = self.word(0) == "afp" && self.nth(1) == Kind::Int;
         is_version.then(|| "move it to the first line of the file".into())
     }
 
-    /// Whether an actor, entry or supervisor begins here inside the body of another one, though no brace is missing.
+    /// Whether an actor, entry or supervisor begins here inside the body of another one, although
+    /// no brace is missing.
     pub(in crate::parser) fn is_nested(&self) -> bool {
         let begins = self.at_watch() || self.leaves_body() && !self.at_top_item();
         begins && self.balanced && self.depth < MAX_DEPTH
     }
 
-    /// Whether an item of a file begins here inside of a plan, though no brace is missing.
+    /// Whether an item of a file begins here inside a plan, although no brace is missing.
     pub(in crate::parser) fn is_top_inside(&self, body: &Body) -> bool {
         self.balanced && body.is_opened() && self.depth < MAX_DEPTH
     }
 
-    /// Reads an item of a file that stands inside of a plan.
+    /// Reads an item of a file inside a plan.
     pub(in crate::parser) fn top_inside(&mut self) {
         let (here, word) = (self.next_span(), self.word(0));
         let message = message!("'{}' stands in the braces of a plan", word);
@@ -99,7 +101,7 @@ impl Parser<'_, '_> {
         self.depth -= 1;
     }
 
-    /// Reads an item that stands inside of another one.
+    /// Reads an item inside another one.
     pub(in crate::parser) fn nested(&mut self) {
         let (here, word) = (self.next_span(), self.word(0));
         if self.depth == 0 {

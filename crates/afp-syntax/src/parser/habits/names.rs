@@ -1,4 +1,4 @@
-//! Names with a '-' in them, as other languages have them.
+//! Names with a '-', as in other languages.
 
 use crate::diagnostics::{Code, Diagnostic};
 use crate::keywords::{self, DECLARES};
@@ -7,7 +7,8 @@ use crate::message;
 use crate::parser::Parser;
 
 impl Parser<'_, '_> {
-    /// `wall-dist`: how many tokens the name so many ahead is, whose parts have nothing but a '-' between them.
+    /// `wall-dist`: the number of tokens of the name `ahead` tokens ahead, if its parts are joined
+    /// by '-' without blanks.
     pub(in crate::parser) fn tokens_of_name(&self, ahead: usize) -> usize {
         let first = self.token_index(ahead);
         let mut tokens = 1;
@@ -20,7 +21,7 @@ impl Parser<'_, '_> {
         tokens
     }
 
-    /// Takes a name with '-' in it after having reported it. Returns whether one stands here.
+    /// Reports and takes a name with '-'. Returns whether it did.
     pub(in crate::parser) fn name_with_hyphens(&mut self) -> bool {
         let tokens = self.tokens_of_name(0);
         if !self.at(Kind::Name) || tokens == 1 {
@@ -39,7 +40,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// Whether a name with '-' in it stands here that something is called by.
+    /// Whether a name with '-' is here that was read as a name before.
     pub(in crate::parser) fn has_hyphens_in_use(&self) -> bool {
         let tokens = self.tokens_of_name(0);
         tokens > 1 && self.hyphens.contains(&self.text_of(0, tokens))

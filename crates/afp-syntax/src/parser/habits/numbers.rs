@@ -1,11 +1,11 @@
-//! Numbers whose unit has a prefix that it does not have here, and how numbers look with their point elsewhere.
+//! Numbers with an invalid prefix of the unit, and numbers with a moved point.
 
 use crate::kind::Kind;
 use crate::parser::Parser;
 use crate::units::Unit;
 
 impl Parser<'_, '_> {
-    /// `5 mHz`, `5 Mm`: what the word behind a number means in full, and the number with a unit that there is.
+    /// `5 mHz`, `5 Mm`: the full name of the unit, and the number with a valid unit.
     pub(in crate::parser) fn strange_prefix(&self) -> Option<(String, String)> {
         let (prefixed, unit, places) = Unit::strange_prefix(self.word(0))?;
         let before = self.before()?;
@@ -14,7 +14,7 @@ impl Parser<'_, '_> {
     }
 }
 
-/// A hundredth of a number as it is written: `0.5` for `50`.
+/// A hundredth of a number in its notation: `0.5` for `50`.
 pub(super) fn hundredth(number: &str) -> String {
     let mantissa = number.find(['e', 'E']).unwrap_or(number.len());
     let (number, exponent) = number.split_at(mantissa);
@@ -23,7 +23,7 @@ pub(super) fn hundredth(number: &str) -> String {
     format!("{moved}{point}{exponent}")
 }
 
-/// A number with its point so many digits to the right.
+/// Moves the point of a number to the right.
 fn moved(number: &str, places: i32) -> String {
     let mantissa = number.find(['e', 'E']).unwrap_or(number.len());
     let (number, exponent) = number.split_at(mantissa);
