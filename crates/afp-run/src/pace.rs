@@ -1,4 +1,5 @@
-//! Holds simulated time back to a multiple of real time, and looks at keys and signals for whoever keeps it by itself.
+//! Limits simulated time to a multiple of real time, and watches keys and signals for all time
+//! keepers.
 
 use std::cell::Cell;
 use std::io;
@@ -11,27 +12,27 @@ use crate::keys::{KeyWatch, Keys};
 use crate::options::TimeKeeper;
 use crate::stop::StopFlag;
 
-/// Keys and signals are looked at this often while waiting.
+/// The interval of checks for keys and signals during a wait.
 const SLICE: Span = Span::from_millis(10);
-/// Simulated time that is later than this, since the process slept or a step took long, goes on from there.
+/// The limit for lateness: beyond it (after a suspension or a slow step) the lost time is skipped.
 const LATE: Span = Span::from_millis(250);
 
-/// What waiting came to.
+/// The result of a wait.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Waited {
     Due,
     /// The Escape key was pressed first.
     Escape,
-    /// Somebody asked for something first.
+    /// A client made a request first.
     Asked,
-    /// Somebody asked to stop first.
+    /// A stop was requested first.
     Stop,
 }
 
-/// Holds simulated time back.
+/// Limits the speed of simulated time.
 pub(crate) struct Pace {
     begun: Wall,
-    /// For how long simulated time has stood.
+    /// The total time for which simulated time stood still.
     stood: Cell<Span>,
     keeper: TimeKeeper,
     /// Says whether Escape was pressed; none without a terminal.
@@ -56,7 +57,7 @@ impl Pace {
         Ok(Pace { begun: Wall::now(), stood: Cell::default(), keeper, escape })
     }
 
-    /// Whether the robot itself keeps the time.
+    /// Whether the robot keeps the time.
     pub(crate) fn is_of_robot(&self) -> bool {
         self.keeper == TimeKeeper::Robot
     }
@@ -66,7 +67,7 @@ impl Pace {
         self.begun.elapsed().as_secs_f64()
     }
 
-    /// Where simulated time stands by the wall clock, where that holds it back.
+    /// The present simulated time by the wall clock, if the wall clock limits it.
     pub(crate) fn simulated(&self) -> Option<Instant> {
         match self.keeper {
             TimeKeeper::Nobody | TimeKeeper::Robot => None,
@@ -77,7 +78,7 @@ impl Pace {
         }
     }
 
-    /// Waits until simulated time `at` has come, or there is something else to do before.
+    /// Waits for simulated time `at`, or for an earlier reason to return.
     pub(crate) fn wait(&self, at: Instant, stop: &StopFlag, asked: &dyn Fn() -> bool) -> Waited {
         loop {
             if stop.is_raised() {

@@ -1,4 +1,4 @@
-//! Sessions of any plan over any robot: where types end.
+//! Sessions without type parameters, for any plan and robot.
 
 use std::any::Any;
 
@@ -13,18 +13,18 @@ use crate::request::{Request, RequestError, RequestId};
 use crate::sample::SampleRef;
 use crate::stimulus::Stimulus;
 
-/// A session, whatever its plan and its robot.
+/// A session of any plan and robot.
 pub trait AnySession: Send {
-    /// The instant up to which time has passed.
+    /// The present time of the run.
     fn now(&self) -> Instant;
 
-    /// When the next step is made; [`Instant::MAX`] once the plan has ended.
+    /// The time of the next step; [`Instant::MAX`] after the end of the plan.
     fn due(&self) -> Instant;
 
     /// The names of the plan.
     fn names(&self) -> &dyn Names;
 
-    /// The names of the plan, for who outlives the session.
+    /// The names of the plan, for owners that outlive the session.
     fn owned_names(&self) -> Box<dyn Names + Send>;
 
     /// The devices of the robot.
@@ -33,7 +33,7 @@ pub trait AnySession: Send {
     /// The active element of the outermost plan.
     fn active(&self) -> Option<ComponentId>;
 
-    /// How the plan ended, once it has.
+    /// The ending of the plan, if it has ended.
     fn ending(&self) -> Option<Ending>;
 
     /// The value of an entry of the plan itself.
@@ -42,48 +42,50 @@ pub trait AnySession: Send {
     /// Deadlines missed so far, skipped releases included.
     fn misses(&self) -> u64;
 
-    /// What a signal is now.
+    /// Reads a signal.
     fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>));
 
-    /// The value that a text, `35 cm`, is for an entry.
+    /// Converts a text such as `35 cm` to a value of an entry.
     ///
     /// # Errors
-    /// It is none of the entry's type.
+    /// The text is not a value of the entry's type.
     fn read_text(&self, entry: EntryId, text: &str) -> Result<Value, Fault>;
 
-    /// Writes an entry as people write it, `35 cm`: before the start an `in` entry, later with the next step. Gives
-    /// the value.
+    /// Writes an entry as text, `35 cm`: before the start an `in` entry, later any entry with the
+    /// next step. Returns the value.
     ///
     /// # Errors
-    /// An entry that is not there or cannot be written, a value that does not fit.
+    /// The entry does not exist or cannot be written; the value does not fit.
     fn set(&mut self, entry: &str, text: &str) -> Result<Value, NotSet>;
 
-    /// Writes an entry: before the start an `in` entry at once, later with the next step.
+    /// Writes an entry: an `in` entry at once before the start, later any entry with the next step.
     ///
     /// # Errors
-    /// The value does not fit, the plan has ended, or too many writes wait.
+    /// The value does not fit, the plan has ended, or too many writes are pending.
     fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError>;
 
-    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is reported to
-    /// observers.
+    /// Makes a request for an instant. It is checked now and done then; observers learn if it fails
+    /// then.
     ///
     /// # Errors
-    /// It can never be done.
+    /// The request can never be done.
     fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError>;
 
-    /// Whether something could be asked for at any instant.
+    /// Whether a request could be made for some instant.
     ///
     /// # Errors
-    /// It can never be done.
+    /// The request can never be done.
     fn can(&self, request: &Request) -> Result<(), RequestError>;
 
-    /// How long a run goes on when the plan has ended, so that the robot comes to rest; zero by default.
+    /// Sets how long the run continues after the plan's end, so that the robot comes to rest; zero
+    /// by default.
     fn set_rest(&mut self, rest: Duration);
 
-    /// How late the control loop of a real robot may be before the run ends in an error; nothing in simulation.
+    /// Sets the limit for the lateness of a real robot's control loop, beyond which the run ends in
+    /// an error. No effect in simulation.
     fn set_stall(&mut self, stall: Duration);
 
-    /// Lets time pass up to the next thing to do, but not beyond `limit`, and does it.
+    /// Lets time pass up to the next event of the run, at most to `limit`, and handles it.
     ///
     /// # Errors
     /// The plan cannot start.
@@ -94,14 +96,15 @@ pub trait AnySession: Send {
         to: &mut [&mut dyn Observer],
     ) -> Result<Go, StartError>;
 
-    /// Does the next thing, as [`AnySession::tick`] does without a limit or a gate, and says what that was.
+    /// As [`AnySession::tick`] without limit or gate; returns the kind of event.
     ///
     /// # Errors
     /// The plan cannot start.
     fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Next, StartError>;
 
-    /// Runs the plan until `until`, until it has ended and the robot has come to rest, or until the gate stops it;
-    /// whether it did. A plan that still runs goes on with the next call.
+    /// Runs up to `until`, to the end of the plan and the rest of the robot, or until the gate
+    /// stops the run; returns whether it did. A plan that has not ended continues with the next
+    /// call.
     ///
     /// # Errors
     /// The plan cannot start.
@@ -112,38 +115,38 @@ pub trait AnySession: Send {
         to: &mut [&mut dyn Observer],
     ) -> Result<Go, StartError>;
 
-    /// Makes the plan end here and now, as interrupted.
+    /// Ends the plan now, as interrupted.
     fn stop(&mut self, to: &mut [&mut dyn Observer]);
 
-    /// Ends the plan here and now because nothing of it can be trusted any more.
+    /// Ends the plan now with a fault, because it can no longer be trusted.
     fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]);
 
-    /// Stops the robot for good and says what the run came to.
+    /// Stops the robot for good and returns the results.
     fn end(&mut self) -> Figures;
 
-    /// What the run came to so far.
+    /// The results so far.
     fn figures(&self) -> Figures;
 
-    /// Whether nothing is left to do before `until`, or at it.
+    /// Whether the run has no event left up to `until`.
     fn is_over(&self, until: Instant) -> bool;
 
-    /// The robot, for who knows its type.
+    /// The robot, for a downcast.
     fn robot(&self) -> &dyn Any;
 
-    /// The hash of the trace so far, without polls that saw nothing: the same for the same plan, world and seed,
-    /// on every machine.
+    /// The hash of the trace so far, without polls that found no event. It is the same for the same
+    /// plan, world and seed, on every machine.
     fn trace(&self) -> TraceHash;
 
-    /// Sets the hash of the trace, which an observer has made.
+    /// Sets the hash of the trace, if an observer computes it.
     fn set_trace(&mut self, trace: TraceHash);
 
-    /// What was asked for so far, with the instants: asked for from the start on, the same run comes of it.
+    /// All requests so far with their times. The same requests make the same run.
     fn requests(&self) -> &[(Instant, Request)];
 
-    /// The same run at the same instant, which goes on by itself and alike; none where the robot, a measure or a
+    /// A copy of the run that continues in the same way; `None` if the robot, a measure or a
     /// component cannot be copied.
     fn keyframe(&self) -> Option<Box<dyn AnySession>>;
 
-    /// What was asked for and has not come yet, by time.
+    /// Requests whose time has not come, by time.
     fn pending(&self) -> Vec<(Instant, RequestId, Stimulus)>;
 }

@@ -1,24 +1,25 @@
-//! One way to drive a plan over any robot.
+//! Drives a plan on any robot.
 //!
-//! A [`Session`] drives one plan over one [`Platform`](afp_core::Platform). Whoever runs plans has a session and
-//! differs in its [`Gate`] (may time pass?), its [`Observer`]s (what happened) and its [`Request`]s (what comes
-//! from outside), never in how a run goes. Inside, a session is compiled for its plan and its robot; outside, it
-//! is a `dyn` [`AnySession`], one virtual call for each instant.
+//! A [`Session`] drives one plan on one [`Platform`](afp_core::Platform). All programs that run
+//! plans use a session. They differ in the [`Gate`] (may time pass?), the [`Observer`]s (what
+//! happened?) and the [`Request`]s (input from outside), but the course of a run is always the
+//! same. A session is compiled for its plan and robot; its interface is a `dyn` [`AnySession`],
+//! with one virtual call for each instant.
 //!
 //! At an instant:
 //!
 //! 1. The platform has advanced to it.
-//! 2. Samples, for measures and observers, on a grid of their own; the plan cannot notice them.
-//! 3. Requests that are due, in the order of their times, at one time as they were made; before the start too.
-//!    Faults are a set: whatever begins or ends changes it, then the robot gets all of it at once. Controls are held
-//!    down until the last who holds one lets go, or somebody lets it go for all.
+//! 2. Samples, for measures and observers, on a separate grid; they cannot affect the plan.
+//! 3. Requests that are due, by time and then by order of creation; before the start too. Faults
+//!    are a set: after each begin or end, the robot gets the complete set. A control is pressed
+//!    until the last hold ends, or until a release ends all holds.
 //! 4. The step, if it is due.
 //! 5. Its records in order to measures, observers and the hash; then [`Observer::after_step`].
 //!
-//! Time passes up to the earliest of: the plan's next step (not before the platform is ready for it), the next
-//! request, the next sample, the limit, the end of the rest that follows an ending.
+//! Time passes up to the earliest of: the plan's next step (not before the platform is ready for
+//! it), the next request, the next sample, the limit, the end of the rest that follows an ending.
 //!
-//! Nothing here knows a clock on the wall, a file, a thread or a terminal.
+//! This crate uses no wall clock, file, thread or terminal.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -83,7 +84,7 @@ pub use units::some_units;
 pub use watch::Watch;
 pub use world::{AnyWorld, Drawing, Outlines, Patch, Thing, World, WorldError};
 
-/// What macros name in the crates of others.
+/// Names that macros use in other crates.
 #[doc(hidden)]
 pub mod __private {
     pub use afp_core;

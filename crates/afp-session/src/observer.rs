@@ -1,4 +1,4 @@
-//! Gates, which decide whether time passes, and observers, which are called with what happened.
+//! Gates, which control time, and observers, which receive the events of a run.
 
 use afp_core::devices::SignalId;
 use afp_core::trace::{ComponentId, Ending, Names, Record};
@@ -9,35 +9,35 @@ use crate::request::{RequestError, RequestId};
 use crate::sample::SampleRef;
 use crate::stimulus::Stimulus;
 
-/// Whether a run goes on.
+/// Whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Go {
-    /// It does.
+    /// The run continues.
     On,
-    /// Ask again: what comes next may have changed.
+    /// The gate must be asked again, because the next event may have changed.
     Again,
-    /// It is to stop.
+    /// The run must stop.
     Stop,
 }
 
-/// What a call of [`Session::next_step`](crate::Session::next_step) did.
+/// The kind of event of a call of [`Session::next_step`](crate::Session::next_step).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// Something that comes before the plan's next step: a sample, a request.
+    /// An event before the plan's next step: a sample, a request.
     BeforeStep,
-    /// The plan's next step; the plan still runs.
+    /// The plan's next step; the plan has not ended.
     Step,
     /// The plan has ended.
     Ended,
 }
 
-/// Says whether time may pass: holds a run back to real time, pauses it, calls it off.
+/// Decides whether time may pass: it can limit a run to real time, pause it or stop it.
 ///
 /// ```
 /// use afp_core::Instant;
 /// use afp_session::{Gate, Go};
 ///
-/// /// Stops the run after so many stretches of time.
+/// /// Stops the run after a number of calls.
 /// struct AtMost(u32);
 ///
 /// impl Gate for AtMost {
@@ -54,7 +54,7 @@ pub enum Next {
 /// # assert_eq!(gate.pass(Instant::MAX, Instant::ZERO), Go::Stop);
 /// ```
 pub trait Gate {
-    /// Time is about to pass from `now` up to `target`.
+    /// Called before time passes from `now` to `target`.
     fn pass(&mut self, target: Instant, now: Instant) -> Go {
         let _ = (target, now);
         Go::On
@@ -73,19 +73,18 @@ impl<F: FnMut(Instant, Instant) -> Go> Gate for F {
     }
 }
 
-/// How often an observer gets samples.
+/// The sample times of an observer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
-    /// Not at all.
+    /// No samples.
     Never,
-    /// At each multiple of this, before what comes at that instant.
+    /// At each multiple of the period, before other events of that instant.
     Every(Duration),
-    /// After each step, and at each multiple of this.
+    /// After each step, and at each multiple of the period.
     Following(Duration),
 }
 
 impl Sampling {
-    /// Whether it wants samples after each step.
     pub(crate) fn follows(self) -> bool {
         matches!(self, Sampling::Following(_))
     }
@@ -98,7 +97,7 @@ impl Sampling {
     }
 }
 
-/// A record with the names behind its ids.
+/// A record with the names for its ids.
 #[derive(Clone, Copy)]
 pub struct NamedRecord<'a> {
     /// The time of the step.
@@ -107,7 +106,8 @@ pub struct NamedRecord<'a> {
     pub record: &'a Record<'a>,
     /// The names.
     pub names: &'a dyn Names,
-    /// The record as a line of the trace, made once for all observers; empty for a poll that saw nothing.
+    /// The record as a line of the trace, made once for all observers; empty for a poll that found
+    /// no event.
     pub line: &'a str,
 }
 
@@ -121,27 +121,27 @@ impl NamedRecord<'_> {
 /// A request whose time has come.
 #[derive(Clone, Copy, Debug)]
 pub struct Applied<'a> {
-    /// When.
+    /// The present time.
     pub now: Instant,
-    /// The instant that it was meant for.
+    /// The time that it was made for.
     pub at: Instant,
     /// Its number.
     pub id: RequestId,
-    /// What was asked for.
+    /// The request.
     pub what: &'a Stimulus,
-    /// Why it cannot be done; none where it was.
+    /// The reason if it failed.
     pub refused: Option<&'a RequestError>,
 }
 
 impl Applied<'_> {
-    /// The same as an event of the run.
+    /// The event of the run for this request.
     pub fn event(&self) -> RunEvent {
         let done = self.refused.map_or(Done::Done, |why| Done::Refused(why.to_string()));
         RunEvent::requested(self.now, Requested { at: self.at, what: self.what.clone(), done })
     }
 }
 
-/// Called with what happens in a run. It never changes the session.
+/// Receives the events of a run. It cannot change the session.
 ///
 /// ```
 /// use afp_core::{Instant, StartError};
@@ -164,22 +164,24 @@ impl Applied<'_> {
 /// }
 /// ```
 pub trait Observer {
-    /// A record of the step that is over.
+    /// A record of the step that ended.
     fn on_record(&mut self, record: &NamedRecord<'_>) {
         let _ = record;
     }
 
-    /// Whether it is called for polls that saw nothing, too.
+    /// Whether it receives polls that found no event.
     fn wants_clear_polls(&self) -> bool {
         false
     }
 
-    /// Whether it makes the lines and the hash of the trace, instead of the session: lines are empty then.
+    /// Whether it makes the lines and the hash of the trace in place of the session; then lines are
+    /// empty.
     fn makes_trace(&self) -> bool {
         false
     }
 
-    /// So many records and samples were dropped before they were reported. The values of all entries now follow, by number.
+    /// `count` records and samples were lost. `entries` are the values of all entries now, by
+    /// number.
     fn on_loss(&mut self, at: Instant, count: u64, entries: &[Value]) {
         let _ = (at, count, entries);
     }
@@ -189,7 +191,7 @@ pub trait Observer {
         let _ = view;
     }
 
-    /// How often it gets samples.
+    /// Its sample times.
     fn sampling(&self) -> Sampling {
         Sampling::Never
     }
@@ -210,7 +212,7 @@ pub trait Observer {
         let _ = at;
     }
 
-    /// A request was due, and was done or cannot be done.
+    /// A request was done, or failed.
     fn on_request(&mut self, applied: &Applied<'_>) {
         let _ = applied;
     }
@@ -223,7 +225,7 @@ pub struct View<'a> {
     pub(crate) inside: &'a dyn Inside,
 }
 
-/// What a view shows.
+/// The content of a view.
 pub(crate) trait Inside {
     fn entry(&self, id: EntryId) -> ValueRef<'_>;
     fn active(&self) -> Option<ComponentId>;
@@ -248,7 +250,7 @@ impl View<'_> {
         self.inside.active()
     }
 
-    /// How the plan ended, once it has.
+    /// The ending of the plan, if it has ended.
     pub fn ending(&self) -> Option<Ending> {
         self.inside.ending()
     }
@@ -258,7 +260,7 @@ impl View<'_> {
         self.inside.names()
     }
 
-    /// What a signal is now.
+    /// Reads a signal.
     pub fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
         self.inside.read(self.now, signal, to);
     }

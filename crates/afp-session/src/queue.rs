@@ -27,7 +27,7 @@ const ROOM: usize = 256;
 /// The shortest time between two wake-ups of the reader.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// One thing that the control thread has to say.
+/// An item of the queue.
 enum Item {
     Record(OwnedRecord),
     Sample(Instant, SignalId, OwnedSample),
@@ -48,27 +48,27 @@ struct OwnedRequest {
     refused: Option<RequestError>,
 }
 
-/// What the writer leaves when it is dropped.
+/// The data that a dropped writer leaves behind.
 struct Rest {
     unreported: u64,
     entries: Box<[Value]>,
 }
 
-/// The end of the queue that a session has as its only observer. The session leaves the trace to the reader.
+/// The writing end of the queue, the only observer of its session. The reader makes the trace.
 ///
-/// Requests, pictures, outlines and texts longer than an entry can hold allocate; nothing else does.
+/// Requests, pictures, outlines and texts longer than an entry can hold allocate; nothing else
+/// does.
 pub struct QueueWriter {
     queue: Producer<Item>,
-    /// The items that were dropped, and are not reported yet.
+    /// Dropped items that are not reported yet.
     unreported: u64,
-    /// The values of all entries.
     entries: Box<[Value]>,
-    /// Whether the observers want a signal, by its number, and when again.
+    /// For each signal, whether the observers want it and when the next time.
     wanted: Box<[Wanted]>,
     sampling: Sampling,
     clear_polls: bool,
     wake: Box<dyn Fn() + Send>,
-    /// When the reader may be woken again.
+    /// The earliest time of the next wake-up.
     next_wake: Instant,
     rest: Arc<OnceLock<Rest>>,
 }
@@ -79,7 +79,7 @@ struct Wanted {
     is_picture: bool,
 }
 
-/// The end of the queue for the thread of the observers.
+/// The reading end of the queue, for the thread of the observers.
 pub struct QueueReader {
     items: Consumer<Item>,
     names: Box<dyn Names + Send>,
@@ -143,7 +143,7 @@ impl QueueWriter {
         let needed = self.entries.len() + ROOM;
         if self.unreported > 0 && self.queue.slots() > needed {
             for (id, value) in (0..).map(TraceEntryId).zip(&self.entries) {
-                // There is room for all of them.
+                // The queue has room for all of them.
                 let _ = self.queue.push(Item::Entry(id, value.clone()));
             }
             let _ = self.queue.push(Item::Lost(at, std::mem::take(&mut self.unreported)));
@@ -156,7 +156,7 @@ impl QueueWriter {
         if self.queue.push(item).is_err() {
             self.unreported += 1;
         }
-        // The reader looks from time to time for everything else.
+        // For other items, the reader looks at the queue from time to time.
         if is_urgent || self.queue.slots() < self.queue.buffer().capacity() / 2 {
             self.wake(at);
         }
@@ -219,16 +219,16 @@ impl Observer for QueueWriter {
 impl Drop for QueueWriter {
     fn drop(&mut self) {
         let entries = std::mem::take(&mut self.entries);
-        // Nobody else sets it.
+        // It is set only here.
         let _ = self.rest.set(Rest { unreported: self.unreported, entries });
         (self.wake)();
     }
 }
 
 impl QueueReader {
-    /// Reports what is in the queue to the observers. Returns whether more may come.
+    /// Reports the items of the queue to the observers. Returns whether more may come.
     pub fn read(&mut self, to: &mut [&mut dyn Observer]) -> bool {
-        // Looked at before the queue, which gets nothing more afterwards.
+        // Read before the queue, which gets no items after it is set.
         let shared = self.rest.clone();
         let rest = shared.get();
         while let Ok(item) = self.items.pop() {
@@ -243,7 +243,7 @@ impl QueueReader {
         rest.is_none()
     }
 
-    /// Returns the hash of the trace as far as the queue had it, and the number of items that were dropped.
+    /// Returns the hash of the trace so far and the number of dropped items.
     pub fn finish(self) -> (TraceHash, u64) {
         (self.trace, self.lost)
     }
@@ -283,7 +283,7 @@ impl QueueReader {
         self.line.clear();
         let clear = is_clear(&record);
         if !clear {
-            // Writing to a text cannot fail.
+            // Writing to a `String` cannot fail.
             let _ = write!(self.line, "{}", Line { at, record: &record, names });
             self.trace.line(&self.line);
         }

@@ -1,4 +1,5 @@
-//! Trace records that own what they say, small enough for a queue and made without allocation, and sinks that keep them.
+//! Trace records that own their data, small enough for a queue and made without allocation; and
+//! sinks that keep them.
 
 use std::sync::Arc;
 
@@ -7,7 +8,7 @@ use afp_core::{Instant, Value, ValueRef};
 
 use crate::watch::Pulse;
 
-/// The records of a step for which a real robot has room from the start.
+/// The initial capacity for the records of a step on a real robot.
 const ROOM: usize = 2048;
 
 /// A record with its time; its texts are kept in place.
@@ -21,12 +22,12 @@ pub struct OwnedRecord {
 impl OwnedRecord {
     /// Copies a record.
     pub fn new(at: Instant, record: &Record<'_>) -> Self {
-        // No plan has a text that is too long for an entry.
+        // Texts of a plan always fit into an entry.
         let owned = |value: &ValueRef<'_>| value.to_value().unwrap_or_default();
         OwnedRecord { at, record: record.map(owned) }
     }
 
-    /// The record, its values borrowed.
+    /// The record with borrowed values.
     pub fn get(&self) -> Record<'_> {
         self.record.map(Value::as_deref)
     }
@@ -34,40 +35,41 @@ impl OwnedRecord {
 
 /// A sink that keeps the records of a step until it is over.
 pub trait Keep: Sink {
-    /// Says whether polls that saw nothing are kept, too.
+    /// Sets whether polls that found no event are kept.
     fn keep_clear_polls(&mut self, wanted: bool);
 
     /// Whether nothing is kept.
     fn is_empty(&self) -> bool;
 
-    /// Takes out what is kept.
+    /// Takes all kept records.
     fn take(&mut self) -> Vec<OwnedRecord>;
 
-    /// Gives back the room of what was taken.
+    /// Returns the buffer of taken records for reuse.
     fn give_back(&mut self, records: Vec<OwnedRecord>);
 }
 
-/// Keeps records in memory, polls that saw nothing only where somebody wants them.
+/// Keeps records in memory; polls that found no event only on request.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
     records: Vec<OwnedRecord>,
     clear_polls: bool,
-    /// Where another thread sees which component is called.
+    /// Tells another thread which component is called.
     pulse: Option<Arc<Pulse>>,
 }
 
 impl Kept {
-    /// Keeps the records of a step without an allocation, unless the step is close to the limit of transitions.
+    /// Keeps the records of a step without an allocation, unless the step is close to the limit of
+    /// transitions.
     pub(crate) fn with_room(pulse: Arc<Pulse>) -> Self {
         Kept { records: Vec::with_capacity(ROOM), pulse: Some(pulse), ..Kept::default() }
     }
 
-    /// Keeps everything.
+    /// Keeps all records.
     pub fn all() -> Self {
         Kept { clear_polls: true, ..Kept::default() }
     }
 
-    /// What is kept.
+    /// The kept records.
     pub fn records(&self) -> &[OwnedRecord] {
         &self.records
     }
@@ -126,7 +128,7 @@ impl Keep for NoTrace {
     fn give_back(&mut self, _: Vec<OwnedRecord>) {}
 }
 
-/// Whether a record is a poll that saw nothing.
+/// Whether a record is a poll that found no event.
 #[inline]
 pub(crate) fn is_clear(record: &Record<'_>) -> bool {
     matches!(record, Record::Polled { verdict: Verdict::Clear, .. })

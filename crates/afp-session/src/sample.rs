@@ -1,6 +1,7 @@
-//! What a robot signals, as samples: values of the language, and what logs and pictures show.
+//! Signals of a robot as samples: values of the language, and types for logs and pictures only.
 //!
-//! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres and radians.
+//! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres
+//! and radians.
 
 use afp_core::devices::SignalType;
 use afp_core::{Duration, Instant, Text};
@@ -10,15 +11,15 @@ use crate::datum::Datum;
 /// The interval of camera pictures in a log.
 pub const FILM: Duration = Duration::from_millis(500);
 
-/// The frames that logs and pictures know of any robot.
+/// Frames of any robot in logs and pictures.
 pub mod frames {
-    /// That of its world.
+    /// The frame of the world.
     pub const WORLD: &str = "world";
-    /// Where it is.
+    /// The true pose of the robot.
     pub const BODY: &str = "base_link";
-    /// Where its own odometry takes it to be.
+    /// The pose of the robot by its odometry.
     pub const BY_ODOMETRY: &str = "base_link_by_odometry";
-    /// Where it takes itself to be on its map.
+    /// The pose of the robot by its localisation on a map.
     pub const BY_LOCALISATION: &str = "base_link_by_localisation";
 }
 
@@ -34,7 +35,8 @@ pub struct Pose2 {
 }
 
 impl Pose2 {
-    /// What is given against this pose (a motion begun here, a sensor on the robot), in the frame of the pose itself.
+    /// Converts a pose relative to this pose (a motion from here, a sensor on the robot) to the
+    /// frame of this pose.
     pub fn beyond(self, moved: Pose2) -> Pose2 {
         let (sin, cos) = libm::sincos(self.heading);
         Pose2 {
@@ -44,12 +46,13 @@ impl Pose2 {
         }
     }
 
-    /// Where something was at an instant, seen at one before and one after it; after both where it was seen last.
+    /// The pose at an instant, interpolated between one before and one after it; beyond both, the
+    /// nearer one.
     pub fn between(before: (Instant, Pose2), after: (Instant, Pose2), at: Instant) -> Pose2 {
         let ((from, before), (to, after)) = (before, after);
         let whole = to.since(from).as_secs_f64();
         let share = if whole > 0.0 { (at.since(from).as_secs_f64() / whole).min(1.0) } else { 1.0 };
-        // The short way round.
+        // The shorter turn.
         let turn = libm::remainder(after.heading - before.heading, std::f64::consts::TAU);
         let part = |from: f64, to: f64| from + (to - from) * share;
         Pose2 {
@@ -60,38 +63,38 @@ impl Pose2 {
     }
 }
 
-/// Where one frame stands in another.
+/// The pose of a frame in another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
-    /// The frame that `pose` speaks in.
+    /// The frame of `pose`.
     pub parent: &'static str,
-    /// The frame that it places.
+    /// The frame at `pose`.
     pub child: &'static str,
-    /// The place of `child`.
+    /// The pose of `child`.
     pub pose: Pose2,
     /// Its height in metres.
     pub height: f64,
 }
 
-/// One range reading of a sensor that sees a cone.
+/// A range reading of a sensor with a cone of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ranging {
-    /// When it was taken, which may be before it is known.
+    /// The time of the measurement, which may be before it is known.
     pub time: Instant,
-    /// The frame that `pose` speaks in.
+    /// The frame of `pose`.
     pub frame: &'static str,
-    /// Where the sensor was and which way it looked.
+    /// The pose of the sensor.
     pub pose: Pose2,
     /// Half the cone's opening in radians.
     pub half_angle: f64,
-    /// Metres; `None` when no echo came back.
+    /// Metres; `None` without an echo.
     pub range: Option<f64>,
 }
 
 /// A picture of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Image<'a> {
-    /// When it was taken.
+    /// The time of the picture.
     pub time: Instant,
     /// The frame of the camera.
     pub frame: &'static str,
@@ -103,12 +106,12 @@ pub struct Image<'a> {
     pub rgb: &'a [u8],
 }
 
-/// Something that stands in the room.
+/// A thing in the room.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Unique name within the scene; a later shape of the same name replaces this one.
+    /// Unique in the scene; a later shape with the same id replaces this one.
     pub id: String,
-    /// The frame it stands in.
+    /// The frame of the outline.
     pub frame: &'static str,
     /// Its outline in metres, counter-clockwise.
     pub outline: Vec<[f64; 2]>,
@@ -129,13 +132,13 @@ pub enum SampleRef<'a> {
     Float(f64),
     /// A text.
     Text(&'a str),
-    /// Where a frame stands.
+    /// The pose of a frame.
     Pose(Transform),
-    /// What a range sensor heard.
+    /// A reading of a range sensor.
     Range(Ranging),
     /// A picture.
     Image(Image<'a>),
-    /// The outline of something that moves.
+    /// The outline of a moving thing.
     Outline(&'a Shape),
 }
 
@@ -157,7 +160,7 @@ from_values! {
 }
 
 impl SampleRef<'_> {
-    /// The value of the language that it is; none of what logs and pictures alone show.
+    /// The value in the language; `None` for types that only logs and pictures use.
     pub fn value(&self) -> Option<Datum> {
         match *self {
             SampleRef::Bool(truth) => Some(truth.into()),
@@ -171,12 +174,12 @@ impl SampleRef<'_> {
         }
     }
 
-    /// Whether it is of a type.
+    /// Whether it has a type.
     pub fn is(&self, ty: SignalType) -> bool {
         std::mem::discriminant(&self.ty()) == std::mem::discriminant(&ty)
     }
 
-    /// Its type; of a number without a unit, which its row has.
+    /// Its type; without the unit of a number, which the row of the signal names.
     pub(crate) fn ty(&self) -> SignalType {
         match self {
             SampleRef::Bool(_) => SignalType::Bool,
@@ -191,7 +194,7 @@ impl SampleRef<'_> {
     }
 }
 
-/// A sample that owns its value. Pictures, outlines and texts longer than an entry can hold are on the heap.
+/// An owned sample. Pictures, outlines and texts longer than an entry can hold are on the heap.
 pub(crate) enum OwnedSample {
     Bool(bool),
     Int(i64),

@@ -1,4 +1,4 @@
-//! A plan on a robot, and how time passes for both.
+//! A plan on a robot, and the passage of time for both.
 
 mod any;
 mod asked;
@@ -26,52 +26,51 @@ use crate::watch::Pulse;
 use asked::Testing;
 use grid::SampleGrid;
 
-/// How often measures look at the robot.
+/// The period of samples for measures.
 pub const SAMPLE: Duration = Duration::from_millis(20);
 
 /// A plan on a robot.
 ///
-/// Dropped, it stops the robot.
+/// A dropped session stops the robot.
 pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     scheduler: Scheduler<P>,
     robot: R,
     names: P::Names,
     clock: R::Clock,
     sink: S,
-    /// How late the control loop of a real robot may be; none in simulation. Nobody can press or break anything of a real
-    /// robot from here.
+    /// The limit for the lateness of a real robot's control loop; `None` in simulation. With a
+    /// limit, controls and faults are not available.
     stall: Option<Duration>,
-    /// When time has passed last.
+    /// The last time at which time passed.
     passed: Instant,
-    /// Where another thread sees that; none in simulation.
+    /// The same for another thread; `None` in simulation.
     pulse: Option<Arc<Pulse>>,
-    /// Whether the plan has started.
     started: bool,
-    /// Whether a step is under way: a panic is the plan's then.
+    /// Whether a step is in progress: then a panic comes from the plan.
     stepping: bool,
-    /// When the last step was made, once there was one.
+    /// The time of the last step.
     stepped: Option<Instant>,
-    /// When the next step is made: now before the start, never after the end.
+    /// The time of the next step: now before the start, never after the end.
     due: Instant,
-    /// When the run is over at the latest: once the robot rests after the end of its plan.
+    /// The latest end of the run: after the end of the plan, when the robot rests.
     last: Instant,
-    /// How long a run goes on when the plan has ended.
+    /// How long the run continues after the plan's end.
     rest: Duration,
-    /// How often in a row time was to pass and has not.
+    /// Consecutive calls in which time should have passed but did not.
     still: u32,
     requests: Requests,
-    /// All that was asked for.
+    /// All requests so far.
     asked: Vec<(Instant, Request)>,
     faults: Faults<FaultOf<R>>,
     holds: Holds,
     measures: Vec<Box<dyn Measure<R>>>,
     samples: SampleGrid,
     trace: TraceHash,
-    /// Whether lines and hash of the trace are made here.
+    /// Whether the session makes the lines and the hash of the trace.
     makes_trace: bool,
-    /// The line of the record at hand.
+    /// A buffer for the line of a record.
     line: String,
-    /// What only loaded plans can do.
+    /// Functions of loaded plans only.
     testing: Option<Testing<P>>,
 }
 
@@ -80,7 +79,8 @@ where
     P: NamedPlan + Plan<R>,
     R: Robot,
 {
-    /// A plan that has not started, its inputs set or still to be, on a robot that has not moved.
+    /// A session of a plan that has not started, on a robot that has not moved. Inputs may still be
+    /// set.
     pub fn new(plan: P, robot: R) -> Self {
         Session::with_sink(plan, robot, Kept::default())
     }
@@ -92,7 +92,7 @@ where
     R: Robot,
     S: Keep,
 {
-    /// The same with a sink of one's own.
+    /// As [`Session::new`], with a custom sink.
     pub fn with_sink(plan: P, robot: R, sink: S) -> Self {
         Session {
             names: plan.names(),
@@ -123,17 +123,18 @@ where
         }
     }
 
-    /// Judges the run, too.
+    /// Adds a measure that judges the run.
     pub fn add_measure(&mut self, measure: Box<dyn Measure<R>>) {
         self.measures.push(measure);
     }
 
-    /// How long a run goes on when the plan has ended, so that the robot comes to rest; zero by default.
+    /// Sets how long the run continues after the plan's end, so that the robot comes to rest; zero
+    /// by default.
     pub fn set_rest(&mut self, rest: Duration) {
         self.rest = rest;
     }
 
-    /// The same run at the same instant, which goes on by itself and alike; none where the robot, a measure or a
+    /// A copy of the run that continues in the same way; `None` if the robot, a measure or a
     /// component cannot be copied.
     pub fn keyframe(&self) -> Option<Self>
     where
@@ -180,7 +181,7 @@ where
         self.scheduler.plan()
     }
 
-    /// The plan, to set its inputs; none once it has started.
+    /// The plan, to set its inputs; `None` after the start.
     pub fn plan_mut(&mut self) -> Option<&mut P> {
         self.scheduler.plan_mut()
     }
@@ -190,7 +191,7 @@ where
         &self.names
     }
 
-    /// How the plan ended, once it has.
+    /// The ending of the plan, if it has ended.
     pub fn ending(&self) -> Option<Ending> {
         self.scheduler.ending()
     }
@@ -200,14 +201,15 @@ where
         self.trace
     }
 
-    /// When the next step is made; [`Instant::MAX`] once the plan has ended.
+    /// The time of the next step; [`Instant::MAX`] after the end of the plan.
     #[inline]
     pub fn due(&self) -> Instant {
         self.due.max(self.robot.ready())
     }
 
-    /// Runs the plan until `until`, until it has ended and the robot has come to rest, or until the gate stops it;
-    /// whether it did. A plan that still runs goes on with the next call.
+    /// Runs up to `until`, to the end of the plan and the rest of the robot, or until the gate
+    /// stops the run; returns whether it did. A plan that has not ended continues with the next
+    /// call.
     ///
     /// # Errors
     /// The plan cannot start.
@@ -233,20 +235,20 @@ where
         }
     }
 
-    /// Whether nothing is left to do before `until`, or at it.
+    /// Whether the run has no event left up to `until`.
     #[inline]
     pub fn is_over(&self, until: Instant) -> bool {
         let now = self.robot.now();
         now >= until.min(self.last) && self.due() > now && self.next_from_outside() > now
     }
 
-    /// When the next request is due, a fault begins or ends, or somebody lets a control go.
+    /// The next request, or begin or end of a fault, or end of a hold.
     #[inline]
     fn next_from_outside(&self) -> Instant {
         self.requests.next().min(self.faults.next_change()).min(self.holds.next_change())
     }
 
-    /// Lets time pass up to the next thing to do, but not beyond `limit`, and does it.
+    /// Lets time pass up to the next event of the run, at most to `limit`, and handles it.
     ///
     /// # Errors
     /// The plan cannot start.
@@ -260,7 +262,7 @@ where
         self.guarded(to, |session, to| session.tick_fitted(limit, gate, to))
     }
 
-    /// Does the next thing, as [`Session::tick`] does without a limit or a gate, and says what that was.
+    /// As [`Session::tick`] without limit or gate; returns the kind of event.
     ///
     /// # Errors
     /// The plan cannot start.
@@ -292,7 +294,7 @@ where
             Go::On => {}
             other => return Ok(other),
         }
-        // Before the robot's driver goes on, too: it repeats commands.
+        // Also before `advance`, because the driver repeats commands.
         let late = before.since(self.passed);
         if self.has_stalled(late, to) {
             return Ok(Go::On);
@@ -316,7 +318,7 @@ where
         Ok(Go::On)
     }
 
-    /// Takes samples and does what was asked for, where their time has come.
+    /// Takes samples and does requests that are due.
     #[cold]
     fn before_step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
         if self.samples.next <= now {
@@ -327,32 +329,33 @@ where
         }
     }
 
-    /// Makes the plan end here and now, as interrupted.
+    /// Ends the plan now, as interrupted.
     pub fn stop(&mut self, to: &mut [&mut dyn Observer]) {
         let now = self.robot.now();
         self.apply_due(now, to);
         if self.scheduler.ending().is_none() {
             self.scheduler.request_stop();
-            // A plan that has not started ends at its start; one that cannot start has nothing to stop.
+            // A plan that has not started ends at its start; if it cannot start, nothing has to
+            // stop.
             let _ = self.guarded(to, |session, to| session.step(now, to).map(|()| Go::On));
         }
         self.robot.emergency_stop();
     }
 
-    /// Ends the plan here and now because nothing of it can be trusted any more.
+    /// Ends the plan now with a fault, because it can no longer be trusted.
     pub fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]) {
         let now = self.robot.now();
         let wake = self.scheduler.abort((&mut self.robot, &mut self.sink, &self.clock), fault);
         self.woke(wake, now, to);
     }
 
-    /// Stops the robot for good and says what the run came to.
+    /// Stops the robot for good and returns the results.
     pub fn end(&mut self) -> Figures {
         self.robot.emergency_stop();
         self.figures()
     }
 
-    /// What the run came to so far.
+    /// The results so far.
     pub fn figures(&self) -> Figures {
         let measured = self.measures.iter().flat_map(|measure| measure.figures());
         Figures(measured.chain(self.robot.figures()).collect())
@@ -378,7 +381,7 @@ where
         Ok(())
     }
 
-    /// A step is over.
+    /// Handles the end of a step.
     #[inline]
     fn woke(&mut self, wake: Wake, now: Instant, to: &mut [&mut dyn Observer]) {
         self.started = true;
@@ -395,14 +398,14 @@ where
         }
     }
 
-    /// The plan has ended, now or before.
+    /// Notes that the plan has ended.
     #[cold]
     fn ended(&mut self, now: Instant) {
         self.due = Instant::MAX;
         self.last = self.last.min(now + self.rest);
     }
 
-    /// Fits what is kept, and the grid of samples, to who is there.
+    /// Adapts the kept records and the grid of samples to the observers.
     #[inline]
     fn fit(&mut self, to: &[&mut dyn Observer]) {
         self.makes_trace = !to.iter().any(|each| each.makes_trace());
@@ -423,13 +426,12 @@ where
         }
     }
 
-    /// The devices of the robot.
     fn table(&self) -> &'static [afp_core::devices::DeviceRow] {
         <R::Devices as Devices>::TABLE
     }
 }
 
-/// How often anybody wants samples.
+/// The sample periods of all observers and measures.
 #[inline]
 fn periods<'a>(
     measured: bool,

@@ -1,6 +1,6 @@
 //! The control thread of a real robot allocates nothing, whether its observers read or not.
 //!
-//! A test binary of its own, because it counts in the global allocator.
+//! A separate test binary, because it counts in the global allocator.
 
 #[allow(dead_code, reason = "other tests use more of it")]
 mod support;
@@ -19,7 +19,7 @@ use support::{Toy, plan};
 #[global_allocator]
 static ALLOCATOR: Counting = Counting::SYSTEM;
 
-/// Supervisors, commits and an actor that starts again and again.
+/// Supervisors, commits and an actor that starts repeatedly.
 const PLAN: &str = "use toy
 use std
 plan Rounds {
@@ -36,7 +36,7 @@ plan Rounds {
     }
 }";
 
-/// Wants everything, like a log.
+/// Wants all signals, like a log.
 struct Everything(Arc<AtomicU64>);
 
 impl Observer for Everything {
@@ -53,7 +53,8 @@ impl Observer for Everything {
     }
 }
 
-/// The allocations of this thread while the plan runs for a minute, and the records that were read meanwhile.
+/// Runs the plan for a minute; returns the allocations of this thread and the records that were
+/// read.
 fn run(reads: bool) -> (u64, u64) {
     let mut session = Session::on_hardware(plan(PLAN), Toy::new());
     let seen: Arc<AtomicU64> = Arc::default();
@@ -84,6 +85,6 @@ fn the_control_thread_allocates_nothing_while_others_read() {
     let (allocated, read) = run(true);
     assert_eq!(allocated, 0);
     assert!(read > 6000, "{read}");
-    // A queue that nobody empties overflows without an allocation.
+    // A queue that is not read overflows without an allocation.
     assert_eq!(run(false), (0, 0));
 }

@@ -1,4 +1,4 @@
-//! What holds for every session: the order at an instant, requests, samples, and how it ends.
+//! Properties of all sessions: the order at an instant, requests, samples, and the end.
 
 #[path = "session/broken.rs"]
 mod broken;
@@ -50,7 +50,7 @@ fn session() -> Loaded {
     Session::loaded(plan(PLAN), Toy::new())
 }
 
-/// Writes down what it is told.
+/// Notes what it receives.
 #[derive(Default)]
 struct Notes {
     lines: Vec<String>,
@@ -119,7 +119,7 @@ fn a_press_at_the_start_is_seen_by_the_first_look() {
 fn requests_come_in_order_before_the_step_of_their_instant() {
     let mut session = session();
     let mut notes = Notes::default();
-    // Made first, done last; of two at one time the one made first comes first.
+    // Later times are done later; at one time, the order of creation counts.
     session.at(at(300), Request::Press(FRONT, true)).unwrap();
     session.at(at(300), Request::Press(FRONT, false)).unwrap();
     session.at(at(100), Request::Press(FRONT, true)).unwrap();
@@ -161,7 +161,7 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
     ] {
         assert_eq!(session.at(at(10), request), Err(why));
     }
-    // Where nobody can reach it, whatever its devices declare.
+    // On a real robot, controls and faults are not available, whatever its devices declare.
     let mut there = Session::on_hardware(plan(PLAN), Toy::new());
     for request in [
         Request::Press(FRONT, true),
@@ -175,14 +175,14 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
         assert_eq!(there.at(at(10), request), Err(RequestError::Refused));
     }
     assert!(there.at(at(10), Request::Stop).is_ok());
-    // `rest` does not run yet.
+    // `rest` is not active yet.
     let finish = |component| Request::Inject(component, Outcome::Declared(0), Vec::new());
     let id = session.at(at(50), finish(component(&session, "rest"))).unwrap();
     session.run(at(100), &mut Open, &mut [&mut notes]).unwrap();
     assert_eq!(notes.refused, [(at(50), id, RequestError::NotActive("rest".to_owned()))]);
     let late = session.at(at(50), Request::Stop);
     assert_eq!(late, Err(RequestError::Over { at: at(50), now: at(100) }));
-    // Of two outcomes at one instant the first comes; what is said names it as scenarios do.
+    // Of two outcomes at one instant the first counts; the error names it as in scenarios.
     let go = component(&session, "go");
     let (devices, names) = (AnySession::devices(&session), AnySession::names(&session));
     let shown = Stimulus::new(&finish(go), devices, names);
@@ -319,7 +319,7 @@ fn every_way_out_stops_the_robot() {
     assert!(notes.lines.last().unwrap().ends_with("Bump ended Error(panic)"), "{:#?}", notes.lines);
 }
 
-/// Panics when it is told of a step.
+/// Panics at the end of a step.
 struct Clumsy;
 
 impl Observer for Clumsy {
@@ -338,7 +338,7 @@ fn a_panic_of_an_observer_is_none_of_the_plan() {
     assert!(session.robot().position > 0.0);
 }
 
-/// Counts what it is shown.
+/// Counts what it receives.
 #[derive(Default)]
 struct Tally {
     looks: u64,

@@ -2,7 +2,7 @@
 
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident)*) => {
-        /// What a token or a node is.
+        /// The kind of a token or node.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u16)]
         pub enum Kind {
@@ -22,7 +22,7 @@ kinds! {
     Comment
     /// `/// ...` to the end of the line.
     Doc
-    /// `/* ... */`, diagnosed.
+    /// `/* ... */`, an error.
     BlockComment
     /// A name, or a word that could be one.
     Name
@@ -88,12 +88,12 @@ kinds! {
     Greater
     /// `>=`
     GreaterEqual
-    /// Characters that the language does not know, diagnosed.
+    /// Unknown characters, an error.
     Unknown
     /// The end of the file; never in a tree.
     End
 
-    /// Text that fits nowhere, diagnosed.
+    /// Text that fits nowhere, an error.
     Error
     /// A whole file.
     File
@@ -118,15 +118,15 @@ kinds! {
     Timing
     /// `State -> target`
     Edge
-    /// What an edge or an output leads to.
+    /// The target of an edge or output.
     Target
-    /// `(...)` behind a reference.
+    /// `(...)` after a reference.
     Args
     /// `port = formula`
     BindIn
     /// `port => entry`
     BindOut
-    /// `goal`, which is `goal = goal`, or `goal => goal` for an output
+    /// `goal`: short for `goal = goal`, or for `goal => goal` at an output
     BindSame
     /// The head and the tools of a toolbox.
     Toolbox
@@ -152,7 +152,7 @@ kinds! {
     Uses
     /// `state S when a < b { out = formula }`, `event E when a < b` or `event E after time`
     Outcome
-    /// `after time` behind an event
+    /// `after time` of an event
     After
     /// `exclusive E F when a < other.b`
     Exclusive
@@ -170,7 +170,7 @@ kinds! {
     Device
     /// `press left right` or `stop escape`
     Press
-    /// A control behind `press` or `stop`.
+    /// A control after `press` or `stop`.
     Control
     /// `fault slip(...)`
     Fault
@@ -199,13 +199,13 @@ kinds! {
     Action
     /// `expect` or `never` with a claim and bounds.
     Expect
-    /// What is expected.
+    /// An expected fact.
     Claim
-    /// `always`, `within 3 ms` and so on.
+    /// `always`, `within 3 ms` and others.
     Bound
     /// `until 60 s`
     Until
-    /// `from go active { ... }`: lines of a scenario whose times count from there.
+    /// `from go active { ... }`: lines of a scenario whose times count from that moment.
     Moment
     /// `a.b.c`
     Path
@@ -238,18 +238,17 @@ impl Kind {
         matches!(self, Kind::Whitespace | Kind::Comment | Kind::Doc | Kind::BlockComment)
     }
 
-    /// Whether nothing of the grammar is made of tokens of this kind.
+    /// Whether the grammar never uses tokens of this kind.
     pub(super) fn is_passed_over(self) -> bool {
         self.is_trivia() || self == Kind::Unknown
     }
 
-    /// Whether it compares two values.
     pub(super) fn is_comparison(self) -> bool {
         use Kind::{EqualEqual, Greater, GreaterEqual, Less, LessEqual, NotEqual};
         matches!(self, EqualEqual | NotEqual | Less | LessEqual | Greater | GreaterEqual)
     }
 
-    /// How a diagnostic names a token that is expected.
+    /// The name of an expected token in diagnostics.
     pub(super) fn describe(self) -> &'static str {
         match self {
             Kind::Name => "a name",

@@ -1,4 +1,4 @@
-//! Types of formulas: names become entries, conversions become nodes, dimensions are computed.
+//! Types of formulas: resolves names to entries, inserts conversions, computes dimensions.
 
 mod elsewhere;
 mod function;
@@ -23,30 +23,28 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Severity, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Greatest number of literals, entries and operations in one formula.
+/// The limit of literals, entries and operations in a formula.
 const MAX_SIZE: usize = 256;
 
-/// What formulas of one place can name.
+/// The names that the formulas of a place can use.
 pub(crate) struct Scope<'a> {
-    /// Enums.
     pub types: &'a Types,
-    /// Tables of the file, which no formula reads.
+    /// Tables of the file, which formulas cannot read.
     pub tables: &'a [Arc<Table>],
     pub entries: &'a [EntryDraft],
     pub indices: &'a Indices,
-    /// Which of them can be read here, by place.
+    /// Whether an entry can be read here, by position.
     pub readable: &'a dyn Fn(usize) -> bool,
-    /// Why the others cannot.
+    /// The reason why other entries cannot be read.
     pub unreadable: &'static str,
-    /// The text of the file.
     pub text: &'a str,
-    /// What is found out about names.
+    /// Records the meanings of names.
     pub record: &'a Recorder,
 }
 
 impl Scope<'_> {
-    /// The formula as one of type `want` (of whatever type without it), and its value where that
-    /// is known; reports everything that is wrong with it.
+    /// Checks a formula against type `want`, if any. Returns it with its value, if known; reports
+    /// all errors.
     pub fn check(
         &self,
         formula: &ast::Formula,
@@ -57,12 +55,12 @@ impl Scope<'_> {
         self.finish(typed, want, None, diags)
     }
 
-    /// Finds out what the names in a formula mean where nothing can be said about its type.
+    /// Resolves the names of a formula of unknown type.
     pub fn names_only(&self, formula: &ast::Formula) {
         self.infer(formula, &mut Diagnostics::default());
     }
 
-    /// The entry of that name, by its place.
+    /// The position of an entry.
     pub fn entry(&self, name: &ast::Name) -> Option<usize> {
         let index = self.indices.find(&name.text);
         match index {
@@ -75,7 +73,7 @@ impl Scope<'_> {
         index
     }
 
-    /// Whether a formula is the name of a table alone.
+    /// Whether a formula is only the name of a table.
     pub fn names_table(&self, formula: &ast::Formula) -> bool {
         let ast::FormulaKind::Ref(reference) = formula.kind() else { return false };
         let name = reference.name().filter(|_| reference.home().is_none());
@@ -84,18 +82,17 @@ impl Scope<'_> {
         })
     }
 
-    /// The table that a formula names, if it does nothing else.
+    /// The table, if a formula is only its name.
     pub fn named_table(&self, formula: &ast::Formula) -> Option<&Table> {
         let ast::FormulaKind::Ref(reference) = formula.kind() else { return None };
         self.table(&reference.name()?).filter(|_| self.names_table(formula))
     }
 
-    /// The table of that name.
     fn table(&self, name: &ast::Name) -> Option<&Table> {
         self.tables.iter().find(|table| table.name == name.text).map(|table| &**table)
     }
 
-    /// The formula without a wanted type and without looking for its value.
+    /// The formula, not yet checked against a type or evaluated.
     pub fn infer(&self, formula: &ast::Formula, diags: &mut Diagnostics) -> Option<Formula> {
         let typer = Typer { scope: self, size: Cell::new(0) };
         let typed = typer.formula(formula, false, diags);
@@ -110,8 +107,8 @@ impl Scope<'_> {
         typed
     }
 
-    /// Converts an inferred formula and evaluates it as far as possible; `range` has the least and the greatest value
-    /// that fit, which are named where the type does not.
+    /// Converts an inferred formula and evaluates it as far as possible. Errors about the type name
+    /// `range`, the least and greatest valid value.
     pub fn finish(
         &self,
         typed: Formula,
@@ -130,9 +127,9 @@ impl Scope<'_> {
             return None;
         };
         let value = self.evaluate(&typed);
-        // What is known now cannot fail later.
+        // A known value cannot fail later.
         remarks.retain(|remark| remark.code != Code::E0208 || matches!(value, Ok(None)));
-        // What has no value is not converted.
+        // A formula without a value is not converted.
         remarks.retain(|remark| value.is_ok() || remark.severity == Severity::Error);
         diags.extend(remarks);
         match value {
@@ -145,7 +142,7 @@ impl Scope<'_> {
         }
     }
 
-    /// The value of a checked formula, where it is known.
+    /// The value of a checked formula, if known.
     pub fn value(&self, formula: &Formula) -> Option<Constant> {
         self.evaluate(formula).ok().flatten()
     }
@@ -170,7 +167,6 @@ impl Scope<'_> {
         entry.value.clone().filter(|_| is_known(entry.kind))
     }
 
-    /// The text at a place of this file.
     pub fn text_of(&self, span: Span) -> &str {
         self.text.get(span.start as usize..span.end as usize).unwrap_or("")
     }
@@ -217,7 +213,7 @@ impl Typer<'_> {
             ast::FormulaKind::Call { name, operands, broken } => {
                 let function = function::named(self.scope, &name, (&operands, span), diags);
                 let inside = !function::takes_celsius(function);
-                // Every operand is looked at, so that all errors come at once.
+                // All operands are checked, so that all errors appear at once.
                 let values = operands.iter().map(|operand| self.formula(operand, inside, diags));
                 let values: Vec<_> = values.collect();
                 let values = values.into_iter().collect::<Option<Vec<_>>>()?;
@@ -248,7 +244,7 @@ impl Typer<'_> {
         }
     }
 
-    /// Finds out what the names in a formula mean that is too large to be typed.
+    /// Resolves the names of a formula that is too large for a type.
     fn names(&self, formula: &ast::Formula) {
         match formula.kind() {
             ast::FormulaKind::Chain(first, rest) => {
@@ -297,7 +293,7 @@ impl Typer<'_> {
         let mut value = first.and_then(|first| self.formula(&first, true, diags));
         for (sign, operand) in rest {
             self.size.set(self.size.get() + 1);
-            // Every operand is looked at, so that all errors come at once.
+            // All operands are checked, so that all errors appear at once.
             let operand = operand.and_then(|operand| self.formula(&operand, true, diags));
             value = match (value, operand) {
                 (Some(left), Some(right)) => {
@@ -363,7 +359,7 @@ impl Typer<'_> {
     ) -> Option<Formula> {
         let record = self.scope.record;
         let enums = || self.scope.types.enums.iter().filter(|(_, each)| each.name == home.text);
-        // Unless it is found below.
+        // Replaced if it is found below.
         record.unknown(name.span);
         if enums().count() > 1 {
             record.several(home.span, enums().map(|(_, each)| each.span));
@@ -399,7 +395,7 @@ impl Typer<'_> {
     }
 }
 
-/// What is told of a formula or value for which there is none.
+/// The error for a formula or value that cannot be computed.
 pub(crate) fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
     match error {
         Error::Overflow => Diagnostic::new(Code::E0228, span, "the value does not fit an int")
@@ -426,7 +422,7 @@ pub(crate) fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
     }
 }
 
-/// A text of more than [`MAX_TEXT`] bytes.
+/// The error for a text of more than [`MAX_TEXT`] bytes.
 pub(crate) fn too_long(span: Span) -> Diagnostic {
     Diagnostic::new(
         Code::E0230,

@@ -1,9 +1,9 @@
-//! Cycles that take no time: computations that go round for ever, and conditions which, holding
-//! together, pass the robot from one look to the next within a single step.
+//! Cycles that take no time: endless computations, and conditions that, if they hold together, lead
+//! the plan around within a single step.
 //!
-//! Without time pass: computations, elements left by an event of the look or by a fault of their
-//! start, and sub-plans that can end through those alone. Global supervisors are asked once in a
-//! step, so at their own level they close no cycle.
+//! The following take no time: computations; elements that end by an event of the first poll or by
+//! a fault of their start; sub-plans that can end by these alone. Global supervisors are polled
+//! once in a step, so they close no cycle at their own level.
 
 mod choices;
 mod count;
@@ -26,14 +26,15 @@ use afp_syntax::source::Span;
 pub(crate) use counters::{components, open_to_writes, unwind};
 use decided::Known;
 
-/// Greatest number of elements of a cycle that a message names.
+/// The limit of elements of a cycle in a message.
 const MAX_NAMES: usize = 8;
-/// Greatest number of conditions that a diagnostic shows.
+/// The limit of conditions in a diagnostic.
 const MAX_CONDITIONS: usize = 8;
 
 /// Reports each cycle once, at the edge that closes it.
 ///
-/// Returns how many edges the plan takes from its start to an ending in one step, as far as its loops decide that.
+/// Returns the number of edges that the plan takes from its start to an ending in one step, as far
+/// as its loops determine it.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> i64 {
     let sure = Quick::of(view, |edge| is_sure(view, edge.cause));
     let constants = decided::for_ever(view);
@@ -79,7 +80,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> i64 {
     taken
 }
 
-/// Which endings can come within the step that starts the plan, and whether it never takes time.
+/// The endings that are possible in the step of the start, and whether the plan never takes time.
 pub(super) fn instant_endings(view: &View<'_>) -> ([bool; 2], bool) {
     let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
     let quick: Vec<Edge> = reached.filter(|edge| is_quick(view, edge)).copied().collect();
@@ -93,7 +94,7 @@ fn timeless(view: &View<'_>) -> bool {
     })
 }
 
-/// Whether an element that is entered surely leaves by one of these edges at once.
+/// Whether an entered element certainly ends at once by an edge of this cause.
 fn is_sure(view: &View<'_>, cause: Cause) -> bool {
     let Cause::State(id, _) = cause else { return false };
     let element = &view.plan.elements[id.index()];
@@ -111,7 +112,7 @@ pub(crate) fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
         Cause::Error(_) => true,
         // An event that leads back to the element being entered is not taken.
         Cause::Event(..) => !view.is_shared(edge.from) && edge.from != edge.to,
-        // The look never raises a miss, and a global supervisor is asked once in a step.
+        // The first poll never misses a deadline, and a global supervisor is polled once in a step.
         Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => false,
     }
 }
@@ -119,16 +120,16 @@ pub(crate) fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
 /// The edges that take no time.
 struct Quick<'a, 'b> {
     view: &'a View<'b>,
-    /// Those that begin at elements that can be reached.
+    /// Edges from elements that can be reached.
     edges: Vec<Edge>,
-    /// For each node where its edges begin.
+    /// The index of the first edge of each node.
     first: Vec<u32>,
-    /// For each node its strongly connected component.
+    /// The strongly connected component of each node.
     component: Vec<u32>,
 }
 
 impl<'a, 'b> Quick<'a, 'b> {
-    /// The edges that `takes` lets through.
+    /// The edges for which `takes` is true.
     fn of(view: &'a View<'b>, takes: impl Fn(&Edge) -> bool) -> Self {
         let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
         Quick::new(view, reached.filter(|edge| takes(edge)).copied().collect())
@@ -140,14 +141,14 @@ impl<'a, 'b> Quick<'a, 'b> {
         Quick { view, edges, first, component }
     }
 
-    /// Without the edges by which a counter lets a cycle be taken a few times only.
+    /// Removes edges that a counter limits to a few rounds of their cycle.
     fn unwound(mut self) -> Self {
         let before = self.edges.len();
         unwind(self.view, self.component.clone(), &mut self.edges, counters::MOST_ROUNDS);
         if self.edges.len() == before { self } else { Quick::new(self.view, self.edges) }
     }
 
-    /// The components that hold a cycle: their nodes, and the edges between them.
+    /// The components that contain a cycle: their nodes, and the edges between them.
     fn cycles(&self) -> Vec<(Vec<Node>, Vec<&Edge>)> {
         let mut found: BTreeMap<u32, (Vec<Node>, Vec<&Edge>)> = BTreeMap::new();
         for edge in &self.edges {
@@ -168,7 +169,7 @@ impl<'a, 'b> Quick<'a, 'b> {
         &self.edges[self.first[node] as usize..self.first[node + 1] as usize]
     }
 
-    /// Whether any edge that `is_taken`, quick or not, leads out of a component.
+    /// Whether an edge for which `is_taken` is true, quick or not, leads out of a component.
     fn has_exit(&self, members: &[Node], is_taken: impl Fn(&Edge) -> bool) -> bool {
         let mut edges = members.iter().flat_map(|node| self.view.from(*node));
         let resumes = members.iter().any(|node| self.view.resumes(*node));
@@ -182,7 +183,7 @@ impl<'a, 'b> Quick<'a, 'b> {
             })
     }
 
-    /// Whether an edge leads anywhere at all: a fault may be none that can come.
+    /// Whether an edge can ever be taken: a fault may be impossible.
     fn can_be_taken(&self, cause: Cause) -> bool {
         match cause {
             Cause::Error(id) => {
@@ -192,8 +193,8 @@ impl<'a, 'b> Quick<'a, 'b> {
         }
     }
 
-    /// The cycle that an edge closes: itself, then a shortest way from its end to its beginning. `room` is how many edges
-    /// may be looked at for it, and those are taken from it.
+    /// The cycle that an edge closes: the edge, then a shortest path from its end to its origin.
+    /// `room` limits the edges that are examined, and is reduced by their number.
     fn cycle(&self, closing: &Edge, room: &mut usize) -> Option<Vec<Edge>> {
         let mut came_by: BTreeMap<Node, &Edge> = Default::default();
         let mut open = std::collections::VecDeque::from([closing.to]);
@@ -243,7 +244,7 @@ impl<'a, 'b> Quick<'a, 'b> {
         );
     }
 
-    /// Reports a cycle of computations that what is known never lets out.
+    /// Reports a cycle of computations without an exit for the known values.
     fn report_decided(&self, inner: &[&Edge], diags: &mut Diagnostics) {
         let conditions = inner.iter().filter(|edge| self.is_condition(edge));
         let Some(closing) = conditions.max_by_key(|edge| self.place(edge)) else { return };
@@ -251,13 +252,13 @@ impl<'a, 'b> Quick<'a, 'b> {
         self.report_livelock(closing, &cycle, diags);
     }
 
-    /// Reports cycles of computations that nothing on them ever ends, whatever the values are by which they choose.
+    /// Reports cycles of computations that never end, for any values of their conditions.
     fn report_choices(&self, inner: &[&Edge], diags: &mut Diagnostics) {
         let conditions = inner.iter().copied().filter(|edge| self.is_condition(edge));
         self.report_each(inner, conditions, |cycle| choices::never_change(self.view, cycle), diags);
     }
 
-    /// Returns whether there was one to report.
+    /// Returns whether it reported a cycle.
     fn report_conditions(
         &self,
         inner: &[&Edge],
@@ -273,8 +274,9 @@ impl<'a, 'b> Quick<'a, 'b> {
         self.report_each(inner, unsure, lasts, diags)
     }
 
-    /// Reports those of the cycles that some edges close which `last`, the last one in the text first. A cycle that goes by an
-    /// edge of which that is said already is mended with it. Returns whether there was one.
+    /// Reports the cycles of `closing` edges for which `last` is true, from the last one in the
+    /// text. A cycle with an edge that was already reported is omitted, because the same correction
+    /// applies. Returns whether it reported a cycle.
     fn report_each<'e>(
         &self,
         inner: &[&Edge],
@@ -331,7 +333,8 @@ impl<'a, 'b> Quick<'a, 'b> {
         diags.push(found.help(help));
     }
 
-    /// What to use instead, if all conditions are events of one template and another template reports that once.
+    /// The help if all conditions are events of one template and another template reports them
+    /// once.
     fn once_instead(&self, conditions: &[&Edge]) -> Option<Message> {
         let supervisor = |edge: &&Edge| match edge.cause {
             Cause::Event(id, _) => Some(self.view.supervisor(id)),
@@ -342,7 +345,7 @@ impl<'a, 'b> Quick<'a, 'b> {
         toggle::once_instead(self.view, all.first()?.template)
     }
 
-    /// Whether something has to hold for an edge to be taken: computations may decide as well, or fail.
+    /// Whether an edge depends on a condition: computations may take another edge, or fail.
     fn is_condition(&self, edge: &Edge) -> bool {
         let fails = |cause| matches!(cause, Cause::Error(_)) && self.can_be_taken(cause);
         let mut others = self.view.from(edge.from).iter().filter(|other| other.to != edge.to);
@@ -350,18 +353,19 @@ impl<'a, 'b> Quick<'a, 'b> {
             || others.any(|other| is_sure(self.view, other.cause) || fails(other.cause))
     }
 
-    /// Orders edges; the last one closes a cycle for somebody who reads the text from above.
+    /// The order of edges; the last one closes a cycle for a reader of the text from the top.
     fn place(&self, edge: &Edge) -> (bool, Span) {
         (edge.to <= edge.from, self.view.span(edge.cause))
     }
 }
 
-/// How many edges may be looked at for the cycles of a component, so that the effort grows with its size alone.
+/// The limit of edges that are examined for the cycles of a component; the effort is linear in its
+/// size.
 fn room(inner: &[&Edge]) -> usize {
     inner.len().max(1000).saturating_mul(32)
 }
 
-/// What instant endings need to know of the kinds of endings.
+/// The kind of an ending, for instant endings.
 fn ending_of(view: &View<'_>, node: Node) -> Option<usize> {
     [OK, INTERRUPTED].into_iter().find(|ending| view.end(*ending) == node)
 }

@@ -1,14 +1,16 @@
-//! Supervisors that would start their own recovery again.
+//! Supervisors that would restart their own recovery.
 //!
-//! An event of a global supervisor is not taken while its target is active, so a lasting condition
-//! lets one element finish. Elements behind it that only this event leads to are part of the same
-//! recovery, and there it is taken: the recovery begins anew, for ever. A computation is over at once,
-//! so behind one the first actor is such an element already. Where such an element reacts otherwise to
-//! the event (`on`), it goes on. Two conditions that hold together start their recoveries in turns.
+//! An event of a global supervisor is not taken while its target is active, so during a lasting
+//! condition the target can finish. Later elements that only this event leads to belong to the same
+//! recovery, and there the event is taken: the recovery restarts endlessly. A computation takes no
+//! time, so after a computation the first actor is already such an element. An element with another
+//! reaction to the event (`on`) is an exception. Two conditions that hold together restart their
+//! recoveries in turn.
 //!
-//! An event of a local supervisor is taken at each poll, so one that lasts and leads to its own element starts that over and
-//! over: a robot that moves stays where it is. Where it writes something, the element may start with other values, and where
-//! it comes after some time, the element has that time. One that commands nothing waits until it is quiet.
+//! An event of a local supervisor is taken at each poll. If it lasts and leads to its own element,
+//! the element restarts at each poll, and a robot that should move stays in place. Exceptions: the
+//! event writes an entry, so the element may start with other values; the event occurs after some
+//! time, which the element has; the element commands no device.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,10 +22,10 @@ use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
-/// An event of a global supervisor, and where it leads.
+/// An event of a global supervisor, and its target.
 type Recovery = (SupervisorId, u16, Node);
 
-/// Greatest number of pairs that take turns that is reported for a plan.
+/// The limit of reported pairs in a plan.
 const MOST_PAIRS: usize = 20;
 
 /// Warns of each such event, at its edge.
@@ -48,7 +50,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     alternate(view, &recoveries, &reported, diags);
 }
 
-/// The edges of each recovery; those that hold for most elements come last.
+/// The edges of each recovery; those that apply to most elements come last.
 fn recoveries(view: &View<'_>) -> BTreeMap<Recovery, Vec<usize>> {
     let mut recoveries: BTreeMap<Recovery, Vec<usize>> = BTreeMap::new();
     for (at, edge) in view.edges.iter().enumerate().filter(|(_, edge)| view.reached[edge.from]) {
@@ -64,11 +66,11 @@ fn recovery_of(view: &View<'_>, edge: &Edge) -> Option<Recovery> {
     if view.supervisor(id).owner.is_some() {
         return None;
     }
-    // What happens once holds no more while its recovery runs.
+    // An event marked `once` no longer holds during its recovery.
     (!view.is_once(id, event)).then_some((id, event, edge.to))
 }
 
-/// Warns of events that last, and start the element again that they interrupt.
+/// Warns of lasting events that restart the element that they interrupt.
 fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
     let own = view.edges.iter().filter(|edge| view.reached[edge.from] && edge.from == edge.to);
     for edge in own {
@@ -88,13 +90,13 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// Whether a supervisor takes a time, after which it may report: it begins anew with its element.
+/// Whether a supervisor reports only after some time, which restarts with its element.
 fn comes_after_a_time(view: &View<'_>, id: SupervisorId) -> bool {
     let template = view.template(view.supervisor(id));
     template.inputs.iter().any(|input| input.ty == Type::Quantity(Dimension::DURATION))
 }
 
-/// Whether an element, or one inside of it, commands a device of the robot until it has done something.
+/// Whether an element, or one inside it, commands a device of the robot and ends in a state.
 fn commands(view: &View<'_>, element: &Element) -> bool {
     let (mut open, mut seen) = (vec![element], BTreeSet::new());
     while let Some(element) = open.pop() {
@@ -114,8 +116,9 @@ fn commands(view: &View<'_>, element: &Element) -> bool {
     false
 }
 
-/// Warns of events that take turns while both hold: each ends what the other has started, before that has done anything
-/// about it. Events of its own supervisors are left out where the recovery is `reported` already.
+/// Warns of two events that alternate while both hold: each ends the recovery of the other before
+/// it is complete. Events of the recovery's own supervisors are omitted if the recovery is in
+/// `reported`.
 fn alternate(
     view: &View<'_>,
     all: &[(Recovery, Vec<usize>)],
@@ -153,7 +156,7 @@ fn alternate(
     }
 }
 
-/// The supervisor and the event that take an edge.
+/// The supervisor and event of an edge.
 fn event_of(cause: Cause) -> Option<(SupervisorId, u16)> {
     match cause {
         Cause::Event(id, event) | Cause::On(_, id, Some(event)) => Some((id, event)),
@@ -161,15 +164,15 @@ fn event_of(cause: Cause) -> Option<(SupervisorId, u16)> {
     }
 }
 
-/// Whether an edge is that of an event of a supervisor other than `one`, and may hold as soon as something is entered. Events
-/// of one supervisor come in the order that its template declares.
+/// Whether an edge belongs to an event of a supervisor other than `one` that may hold from the
+/// entry of an element on. Events of one supervisor have the order of their declaration.
 fn lasts(view: &View<'_>, one: SupervisorId, edge: &Edge) -> bool {
     let Some((id, event)) = event_of(edge.cause) else { return false };
     let is_local = view.supervisor(id).owner.is_some();
     id != one && !view.is_once(id, event) && !(is_local && comes_after_a_time(view, id))
 }
 
-/// What is told of two events, each with the element in which it would have to be ignored.
+/// The diagnostic of two events, each with the element that would have to ignore it.
 fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnostic {
     let (one, other) = match view.span(one.0) < view.span(other.0) {
         true => (one, other),
@@ -183,7 +186,7 @@ fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnosti
         let line = format!("on {} {{ {event} -> ignore }}", supervisor.name);
         Some(message!("'{}' in '{}'", line, view.node_name(node)))
     };
-    // The supervisor that is declared first is mostly more urgent.
+    // The supervisor that is declared first is usually more urgent.
     let help = match (ignored(other), ignored(one)) {
         (Some(late), Some(early)) => {
             message!("let one of them finish: write {}, or {}", late, early)
@@ -199,7 +202,7 @@ fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnosti
         .help(help)
 }
 
-/// `only` tells which nodes can be reached by the event alone. Returns whether there was something to report.
+/// `only` tells which nodes only this event leads to. Returns whether it reported an error.
 fn report(
     view: &View<'_>,
     wanted: Recovery,

@@ -1,4 +1,4 @@
-//! What plan files and toolboxes declare.
+//! The declarations of plan files and toolboxes.
 
 use super::DefinitionKind;
 use super::record::{Found, Meanings};
@@ -7,17 +7,16 @@ use crate::toolbox::{DeviceKind, TemplateKind};
 use afp_syntax::ast::{self, DevicePart, Item, Part};
 use afp_syntax::source::Span;
 
-/// A definition before it has a number: others go by their names' places.
+/// A definition without a number yet; it refers to others by the places of their names.
 #[derive(Clone, Debug)]
 pub(crate) struct Declared {
     pub kind: DefinitionKind,
-    /// Its own name.
     pub name: Span,
-    /// The whole of it.
+    /// The complete definition.
     pub span: Span,
-    /// The name of what it is declared in.
+    /// The name of the enclosing definition.
     pub owner: Option<Span>,
-    /// The name of what it is made from.
+    /// The name of its template or type.
     pub made_from: Option<Span>,
     /// Its `///` lines.
     pub doc: String,
@@ -41,7 +40,7 @@ impl Declared {
     }
 }
 
-/// What the plan files declare.
+/// The declarations of plan files.
 pub(super) fn of_outline(outline: &Outline, meanings: &Meanings, all: &mut Vec<Declared>) {
     let lookup = meanings.lookup();
     let meant = |name: Span| match lookup.get(name) {
@@ -117,7 +116,7 @@ fn of_component(
     all: &mut Vec<Declared>,
 ) {
     let Some(name) = &component.name else { return };
-    // The template's own name is the last one of its reference.
+    // The template's name is the last one of its reference.
     let template = component.template.as_ref().and_then(|template| meant(template.name_span));
     let kind = DefinitionKind::Component(component.kind);
     let one = Declared::new(kind, name.span, component.span).doc(&component.doc);
@@ -132,7 +131,7 @@ fn values(values: &[ast::Name], owner: Option<Span>, all: &mut Vec<Declared>) {
     );
 }
 
-/// What a toolbox declares, however broken it is.
+/// The declarations of a toolbox, even with errors.
 pub(crate) fn of_toolbox(items: &[Item], meanings: &Meanings) -> Vec<Declared> {
     let mut all = Vec::new();
     let head = items.iter().find_map(|item| match item {
@@ -170,7 +169,7 @@ pub(crate) fn of_toolbox(items: &[Item], meanings: &Meanings) -> Vec<Declared> {
     all
 }
 
-/// What a template declares.
+/// The declarations of a template.
 pub(crate) fn of_template(
     node: &ast::Template,
     toolbox: Option<Span>,
@@ -210,7 +209,7 @@ pub(crate) fn of_template(
 }
 
 fn of_device(node: &ast::Device, toolbox: Option<Span>, all: &mut Vec<Declared>) {
-    // The robot as a whole is known by its word.
+    // The robot as a whole is identified by its keyword.
     let name = match node.kind() {
         DeviceKind::Robot => node.keyword(),
         _ => node.name(),
@@ -250,7 +249,7 @@ fn of_device(node: &ast::Device, toolbox: Option<Span>, all: &mut Vec<Declared>)
     }
 }
 
-/// The enum or object type that a type is.
+/// The enum or object type of a type.
 fn type_of(ty: &ast::Type, meanings: &Meanings) -> Option<Span> {
     let factor = ty.factors().into_iter().next()?;
     match meanings.get(factor.reference?.name()?.span) {

@@ -6,7 +6,7 @@ use crate::graph::constant::{Known, evaluate};
 use crate::graph::{Formula, Op, Operator, Part};
 use crate::types::{Constant, Conversion};
 
-/// One state of a declared computation. Entries of its formulas are input ports, by position.
+/// A state of a declared computation. Entries in its formulas are input ports, by position.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The comparisons that must hold; the last state has none.
@@ -23,10 +23,10 @@ pub struct Condition {
     pub right: Formula,
 }
 
-/// The values of input ports that are known.
+/// The known values of input ports.
 pub type KnownInputs<'a> = &'a dyn Fn(u16) -> Option<Constant>;
 
-/// The value of a formula over input ports, if it is known and the formula does not fail.
+/// The value of a formula over input ports, if it is known and does not fail.
 pub fn value(formula: &Formula, inputs: KnownInputs<'_>) -> Option<Constant> {
     evaluate(formula, inputs).ok()?
 }
@@ -44,7 +44,8 @@ impl Case {
         value(formula, inputs)
     }
 
-    /// Whether none of its formulas can fail if no input does: it reads ports and constants, or counts up to a limit.
+    /// Whether its formulas cannot fail unless an input fails: they read ports and constants, or
+    /// count up to a limit.
     pub(crate) fn never_fails(&self) -> bool {
         self.formulas().all(|formula| {
             let part = formula.part();
@@ -71,7 +72,7 @@ impl Condition {
         self.comparison.of(self.left.part(), self.right.part(), &Known(inputs))
     }
 
-    /// The port that is less than another one, if a formula adds one to it.
+    /// The port to which a formula adds one, and the port that limits it.
     fn counted(&self, next: Part<'_>) -> Option<(u16, u16)> {
         let (Op::Entry(value), Op::Entry(limit)) = (self.left.op(), self.right.op()) else {
             return None;
@@ -90,11 +91,12 @@ impl Condition {
 pub(crate) struct Counting {
     pub value: u16,
     pub limit: u16,
-    /// The output that is one more than the value while that is less than the limit.
+    /// The output with the value plus one, while the value is below the limit.
     pub next: u16,
 }
 
-/// How a computation counts, if its first state does: it adds one to a port that is less than another port.
+/// The ports of a computation whose first state counts: it adds one to a port that is less than
+/// another port.
 pub(crate) fn counting(cases: &[Case]) -> Option<Counting> {
     let [Case { when, writes }, _, ..] = cases else { return None };
     let [condition] = when.as_slice() else { return None };
@@ -104,7 +106,7 @@ pub(crate) fn counting(cases: &[Case]) -> Option<Counting> {
     })
 }
 
-/// Whether a formula reads a port or a constant, perhaps converted to a number with every value of its own.
+/// Whether a formula reads a port or a constant, possibly converted to a number without loss.
 fn is_plain(part: Part<'_>) -> bool {
     use Conversion::{BoolToFloat, BoolToInt, IntToFloat};
     match part.op() {

@@ -1,4 +1,4 @@
-//! Standard output written by a thread of its own: whoever reads slowly must not hold up a robot that moves.
+//! Writes standard output on a separate thread: a slow reader must not delay a moving robot.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::{self, JoinHandle};
 
-/// So many pieces wait at most; what comes then is lost and counted.
+/// The capacity of the queue; beyond it, pieces are lost and counted.
 const WAITING: usize = 1024;
 
-/// A writer that never waits before it is finished.
+/// A writer that blocks only in `finish`.
 pub(super) struct BackgroundWriter {
     pieces: Option<SyncSender<Vec<u8>>>,
     writer: Option<JoinHandle<io::Result<()>>>,
@@ -18,10 +18,10 @@ pub(super) struct BackgroundWriter {
 }
 
 impl BackgroundWriter {
-    /// Sets `closed` if nothing can be written any more.
+    /// Sets `closed` if the output fails.
     ///
     /// # Errors
-    /// There is no thread for it.
+    /// The thread cannot be created.
     pub(super) fn new(out: Box<dyn Write + Send>, closed: Arc<AtomicBool>) -> io::Result<Self> {
         let (pieces, waiting) = sync_channel(WAITING);
         let thread = thread::Builder::new().name("afp-report".into());
@@ -38,7 +38,7 @@ impl BackgroundWriter {
         })
     }
 
-    /// Sends what was written since the last line ended.
+    /// Sends the text since the last line end.
     fn send(&mut self) -> io::Result<()> {
         let piece = std::mem::take(&mut self.piece);
         match self.pieces.as_ref().map(|pieces| pieces.try_send(piece)) {
@@ -47,12 +47,12 @@ impl BackgroundWriter {
                 self.lost += 1;
                 Ok(())
             }
-            // It has met an error and says which in the end.
+            // The thread has failed and now returns its error.
             Some(Err(TrySendError::Disconnected(_))) | None => self.finish(),
         }
     }
 
-    /// Waits until all is written: for when the robot stands.
+    /// Waits until all text is written. Called when the robot stands still.
     fn finish(&mut self) -> io::Result<()> {
         self.pieces = None;
         let gone = || io::Error::other("what writes standard output is gone");
@@ -72,22 +72,22 @@ impl Write for BackgroundWriter {
         Ok(bytes.len())
     }
 
-    /// Does nothing: each line is on its way.
+    /// Does nothing: each line is sent at once.
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
 }
 
-/// What a report is written to.
+/// The output of a report.
 pub(super) enum Out {
-    /// By whoever reports.
+    /// Written on the thread of the report.
     Here(Box<dyn Write + Send>),
-    /// By a thread of its own.
+    /// Written on a separate thread.
     Background(BackgroundWriter),
 }
 
 impl Out {
-    /// What is still to be written once nothing more comes; how many lines were lost.
+    /// Writes the remaining text; returns the number of lost lines.
     pub(super) fn finish(self) -> io::Result<u64> {
         match self {
             Out::Here(mut out) => out.flush().map(|()| 0),
@@ -130,7 +130,7 @@ mod tests {
 
     use super::*;
 
-    /// Waits for a word before it writes, and hands on what it has written.
+    /// Waits for a message before each write, and passes the text on.
     struct Slow(Receiver<()>, Sender<Vec<u8>>);
 
     impl Write for Slow {
@@ -158,7 +158,7 @@ mod tests {
         let lost = Out::Background(writer).finish().unwrap();
         let text: Vec<u8> = written.iter().flatten().collect();
         let lines = String::from_utf8(text).unwrap().lines().count();
-        // One line has left the queue or not when the others come.
+        // The first line may or may not have left the queue when the others come.
         assert_eq!(lines + usize::try_from(lost).unwrap(), WAITING + 10);
         assert!((9..=10).contains(&lost), "{lost}");
     }
@@ -176,7 +176,7 @@ mod tests {
         assert_eq!(told.map(|error| error.kind()), Some(io::ErrorKind::BrokenPipe));
     }
 
-    /// Without this, a robot that has nothing more to say would drive on.
+    /// Without this, a robot without further output would drive on.
     #[test]
     fn an_error_is_noticed_without_another_line() {
         let (out, written) = channel();

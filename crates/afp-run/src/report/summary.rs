@@ -18,17 +18,17 @@ const QUIET: Style = Style::new().dimmed();
 const STRONG: Style = Style::new().bold();
 const BAD: Style = AnsiColor::BrightRed.on_default().bold();
 
-/// Why a run stopped though its plan did not end by itself.
+/// The reason why a run stopped before the end of its plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StoppedBy {
     /// `--until` was reached.
     Until,
-    /// Ctrl-C, SIGTERM, or nobody reads standard output any more.
+    /// Ctrl-C, SIGTERM, or the reader of standard output is gone.
     Signal,
 }
 
-/// What is the same on every machine.
+/// Figures that are the same on every machine.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct RunFigures {
     pub plan: String,
@@ -37,10 +37,10 @@ pub(crate) struct RunFigures {
     ending: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<&'static str>,
-    /// The fault in words: port, value and place.
+    /// The fault as text: port, value and place.
     #[serde(skip_serializing_if = "Option::is_none")]
     fault_text: Option<String>,
-    /// Whose it was.
+    /// The component of the fault.
     #[serde(skip_serializing_if = "Option::is_none")]
     fault_component: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -54,35 +54,33 @@ pub(crate) struct RunFigures {
     faults: Vec<(String, u64)>,
     interruptions: u64,
     deadline_misses: u64,
-    /// Null where nobody said where the robot was.
+    /// Null without a pose of the robot.
     distance_m: Option<f64>,
-    /// What came from outside, and what was to come.
+    /// Requests from outside, including those that the run did not reach.
     #[serde(serialize_with = "by_time", skip_serializing_if = "Vec::is_empty")]
     requests: Vec<Requested>,
-    /// What measures and robot say.
+    /// Results of measures and robot.
     #[serde(flatten)]
     measured: Figures,
-    /// The hash of the trace.
     trace: String,
 }
 
-/// The figures and where things are.
+/// The figures, and the places of things.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Summary {
     #[serde(flatten)]
     pub figures: RunFigures,
-    /// How many times as fast as real time.
+    /// A multiple of real time.
     pub speed: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub log: Option<PathBuf>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub svg: Option<PathBuf>,
-    /// Records that were lost.
     #[serde(skip_serializing_if = "is_zero")]
     pub lost: u64,
 }
 
-/// What a run was, for its summary.
+/// The data of a run for its summary.
 pub(crate) struct Ran<'a> {
     pub plan: &'a str,
     pub world: &'a str,
@@ -90,19 +88,19 @@ pub(crate) struct Ran<'a> {
     pub stopped_by: Option<StoppedBy>,
     pub end: Instant,
     pub misses: u64,
-    /// None if records were lost.
+    /// `None` if records were lost.
     pub trace: Option<TraceHash>,
-    /// Metres; none where nobody said where the robot was.
+    /// Metres; `None` without a pose of the robot.
     pub distance: Option<f64>,
     pub requests: Vec<Requested>,
 }
 
-/// Keeps what came from outside.
+/// Collects requests from outside.
 #[derive(Default)]
 pub(crate) struct Requests(Vec<Requested>);
 
 impl Requests {
-    /// All of it, and what did not come before the end.
+    /// All requests, including those that the run did not reach.
     pub(crate) fn finish(mut self, session: &dyn AnySession) -> Vec<Requested> {
         let late = session.pending().into_iter();
         self.0.extend(late.map(|(at, _, what)| Requested { at, what, done: Done::NotReached }));
@@ -170,7 +168,7 @@ impl RunFigures {
             let value = match &figure.value {
                 FigureValue::Count(count) => count.to_string(),
                 FigureValue::Spans { spans, .. } => spans.len().to_string(),
-                // There is room for the first number only.
+                // Only the first number fits.
                 FigureValue::Numbers(_) => {
                     figure.text.split(',').next().unwrap_or_default().to_owned()
                 }
@@ -181,12 +179,12 @@ impl RunFigures {
     }
 }
 
-/// The name of a figure in words.
+/// The name of a figure with blanks.
 fn spaced(figure: &Figure) -> String {
     figure.name.replace('_', " ")
 }
 
-/// What `count` says of the components of which it says something, in the order of the plan.
+/// The results of `count` for components, if any, in the order of the plan.
 fn counted(
     counts: &Counts,
     names: &dyn Names,
@@ -200,7 +198,7 @@ fn counted(
     told.collect()
 }
 
-/// States and events that came, in the order of the plan.
+/// States and events that occurred, in the order of the plan.
 fn outcomes(counts: &Counts, names: &dyn Names) -> Vec<(String, u64)> {
     let mut all = Vec::new();
     for (id, usage) in (0..).map(ComponentId).zip(&counts.components) {
@@ -231,7 +229,7 @@ fn by_time<S: Serializer>(requests: &[Requested], to: S) -> Result<S::Ok, S::Err
     }))
 }
 
-/// Why a request was not done; empty where it was.
+/// The reason if a request failed; else empty.
 fn why_not(request: &Requested) -> &str {
     match &request.done {
         Done::Done => "",
@@ -240,7 +238,7 @@ fn why_not(request: &Requested) -> &str {
     }
 }
 
-/// Whether people want to read of it: that a control was let go they know.
+/// Whether a request is of interest to people; releases of controls are not.
 fn is_worth_a_line(request: &Requested) -> bool {
     !matches!(request.what, Stimulus::Press(_, false))
 }
@@ -262,7 +260,7 @@ fn is_zero(count: &u64) -> bool {
 }
 
 impl Summary {
-    /// The last line: all of it, or only what is the same on every machine.
+    /// The last line: complete, or only the figures that are the same on every machine.
     pub(crate) fn json(&self, same_everywhere: bool) -> String {
         #[derive(Serialize)]
         struct Line<T> {
@@ -272,7 +270,7 @@ impl Summary {
             true => serde_json::to_string(&Line { summary: &self.figures }),
             false => serde_json::to_string(&Line { summary: self }),
         };
-        // Only keys that are no texts or failing Serialize implementations fail here.
+        // JSON fails only for keys that are not texts and for faulty `Serialize` implementations.
         text.unwrap_or_default()
     }
 
@@ -313,7 +311,7 @@ impl Summary {
                 let name = spaced(figure);
                 for Span { name: what, begin, end } in spans {
                     let (begin, end) = (begin.as_secs_f64(), end.as_secs_f64());
-                    // A world may call it anything.
+                    // The world chooses the name, which may contain control characters.
                     let what = what.replace(char::is_control, " ");
                     let text = format!("{what} from {begin:.2} s to {end:.2} s");
                     line(name.strip_suffix('s').unwrap_or(&name), text);

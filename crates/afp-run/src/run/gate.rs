@@ -1,4 +1,4 @@
-//! What holds a run back to real time, and what can end it.
+//! Limits a run to real time and ends it on request.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -13,23 +13,23 @@ use crate::stop::StopFlag;
 
 /// The gate of a run of the command line.
 pub(super) struct RunGate<'a> {
-    /// The report, which learns how far the run is; none on a real robot.
+    /// The report, which shows the progress; `None` on a real robot.
     report: Option<&'a Mutex<Report>>,
-    /// Whether the report can say nothing more.
+    /// Whether the report's output has failed.
     closed: Arc<AtomicBool>,
     pace: Pace,
     stop: StopFlag,
     live: Option<&'a dyn Live>,
-    /// Why the run was halted and when, until somebody does something about it.
+    /// The reason and time of the last halt, until it is handled.
     halt: Option<(Halt, Instant)>,
 }
 
-/// Why a run is halted for a moment.
+/// The reason for a halt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Halt {
     /// The Escape key was pressed.
     Escape,
-    /// Somebody who watches asks for something.
+    /// A client has a request.
     Asked,
 }
 
@@ -41,7 +41,7 @@ impl<'a> RunGate<'a> {
         live: Option<&'a dyn Live>,
     ) -> Self {
         let closed = report::of(report).closed();
-        // The control thread of a real robot waits for nobody.
+        // The control thread of a real robot must not wait for a lock.
         let report = (!pace.is_of_robot()).then_some(report);
         RunGate { report, closed, pace, stop, live, halt: None }
     }
@@ -51,12 +51,12 @@ impl<'a> RunGate<'a> {
         self.pace.spent()
     }
 
-    /// Why the run was halted and when, since this was last asked for.
+    /// Takes the reason and time of the last halt.
     pub(super) fn take_halt(&mut self) -> Option<(Halt, Instant)> {
         self.halt.take()
     }
 
-    /// Halts the run where time stands by the wall clock.
+    /// Halts the run at the present simulated time by the wall clock.
     fn halt(&mut self, why: Halt, target: Instant, now: Instant) -> Go {
         let at = self.pace.simulated().unwrap_or(target).min(target);
         self.halt = Some((why, at.max(now)));

@@ -1,4 +1,4 @@
-//! What is asked of a session from outside.
+//! Requests to a session.
 
 use std::sync::Arc;
 
@@ -25,27 +25,26 @@ use crate::sample::Pose2;
 use crate::stimulus::Stimulus;
 use crate::watch::{Pulse, Watch};
 
-/// What only loaded plans can do, as functions over them.
+/// Functions that only loaded plans have.
 pub(super) struct Testing<P> {
     #[cfg(feature = "load")]
     inject: fn(&mut P, Option<ElementId>, &Injection) -> Result<(), NotInjected>,
     idle: fn(&mut P, Option<ComponentId>) -> bool,
 }
 
-/// What has become of a request.
+/// The result of a request.
 struct Done {
-    /// When it was due.
+    /// The time of the request.
     at: Instant,
     id: RequestId,
-    /// By names, where somebody wants to know.
+    /// By names, if an observer wants it.
     what: Option<Stimulus>,
-    /// Whether it breaks something.
+    /// Whether it activates a fault.
     breaks: bool,
     result: Result<(), RequestError>,
 }
 
 impl<P> Testing<P> {
-    /// The same functions.
     pub(super) fn copy(&self) -> Self {
         Testing {
             #[cfg(feature = "load")]
@@ -60,8 +59,8 @@ where
     P: NamedPlan + Plan<R>,
     R: Hardware,
 {
-    /// As [`Session::new`], on a real robot: nobody presses or breaks anything of it from here, and the run ends
-    /// if the control loop is later than [`STALL`].
+    /// As [`Session::new`], on a real robot: controls and faults are not available, and the run
+    /// ends if the control loop is later than [`STALL`].
     pub fn on_hardware(plan: P, robot: R) -> Self {
         let pulse: Arc<Pulse> = Arc::default();
         let mut session = Session::with_sink(plan, robot, Kept::with_room(pulse.clone()));
@@ -94,11 +93,11 @@ where
     R: Robot,
     S: Keep,
 {
-    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is reported to
-    /// observers. Of a robot that is there an instant that has just passed is now.
+    /// Makes a request for an instant. It is checked now and done then; observers learn if it fails
+    /// then. On a real robot, an instant in the past means now.
     ///
     /// # Errors
-    /// It can never be done.
+    /// The request can never be done.
     pub fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError> {
         let now = self.robot.now();
         if at < now && self.stall.is_none() {
@@ -111,8 +110,8 @@ where
         Ok(self.requests.add(at, request))
     }
 
-    /// The instant itself, or the next one where its step has been made already: requests come before the step of
-    /// their instant, and so they do when the run is repeated.
+    /// The instant, or the next one if its step is over: requests come before the step of their
+    /// instant, also when the run is repeated.
     fn after_step_at(&self, at: Instant) -> Instant {
         match self.stepped == Some(at) {
             true => at + Duration::from_nanos(1),
@@ -120,26 +119,26 @@ where
         }
     }
 
-    /// What was asked for and has not come yet, by time.
+    /// Requests whose time has not come, by time.
     pub fn pending(&self) -> Vec<(Instant, RequestId, Stimulus)> {
         let named = |request| Stimulus::new(request, self.table(), &self.names);
         self.requests.pending().map(|(at, id, request)| (at, id, named(request))).collect()
     }
 
-    /// What was asked for so far, with the instants.
+    /// All requests so far with their times.
     pub fn requests(&self) -> &[(Instant, Request)] {
         &self.asked
     }
 
-    /// Whether something could be asked for at any instant.
+    /// Whether a request could be made for some instant.
     ///
     /// # Errors
-    /// It can never be done.
+    /// The request can never be done.
     pub fn can(&self, request: &Request) -> Result<(), RequestError> {
         self.check(request, false)
     }
 
-    /// Whether a request can be met: at all, or where it is one for now.
+    /// Whether a request can be done: now if `is_now`, else at some time.
     fn check(&self, request: &Request, is_now: bool) -> Result<(), RequestError> {
         let of_plan = !matches!(
             request,
@@ -172,7 +171,7 @@ where
         }
         let is_next = is_now && self.requests.next() > self.robot.now();
         match self.robot.check_put(what, at) {
-            // Until then there may be room, and such a thing.
+            // The room or the thing may exist by then.
             Err(RequestError::Occupied(_) | RequestError::NoThing(_)) if !is_next => Ok(()),
             checked => checked,
         }
@@ -195,7 +194,7 @@ where
         }
     }
 
-    /// Does what is due, lets faults begin and end, and lets go of controls.
+    /// Does the requests that are due, begins and ends faults, and ends holds.
     pub(super) fn apply_due(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
         let mut applied = Vec::new();
         while let Some((at, id, Waiting { request, done })) = self.requests.take_due(now) {
@@ -254,7 +253,7 @@ where
             Request::Put(what, at) => self.robot.put(&what, at),
             Request::Stop => {
                 self.scheduler.request_stop();
-                // It does not wait for the plan's next step.
+                // The stop does not wait for the plan's next step.
                 self.due = self.due.min(now);
                 Ok(())
             }
@@ -272,7 +271,7 @@ where
         Ok(())
     }
 
-    /// Lets go of the controls that nobody holds down any more.
+    /// Releases the controls whose last hold has ended.
     fn let_go(&mut self, now: Instant, told: bool) -> Vec<Done> {
         let over = self.holds.advance(now);
         let release = |Hold { control, by, until }| {
@@ -298,10 +297,10 @@ where
         })
     }
 
-    /// Writes an entry: before the start an `in` entry at once, later with the next step.
+    /// Writes an entry: an `in` entry at once before the start, later any entry with the next step.
     ///
     /// # Errors
-    /// The value does not fit, the plan has ended, or too many writes wait.
+    /// The value does not fit, the plan has ended, or too many writes are pending.
     pub fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError> {
         self.scheduler.write(entry, value.clone())?;
         let at = self.after_step_at(self.robot.now());
@@ -311,11 +310,11 @@ where
         Ok(())
     }
 
-    /// Writes an entry as people write it, `35 cm`: before the start an `in` entry, later with the next step. Gives
-    /// the value.
+    /// Writes an entry as text, `35 cm`: before the start an `in` entry, later any entry with the
+    /// next step. Returns the value.
     ///
     /// # Errors
-    /// An entry that is not there or cannot be written, a value that does not fit.
+    /// The entry does not exist or cannot be written; the value does not fit.
     pub fn set(&mut self, entry: &str, text: &str) -> Result<Value, NotSet> {
         let set = self.scheduler.read_named(entry, text).and_then(|(id, value)| {
             self.write(id, value.clone())?;
@@ -330,7 +329,7 @@ where
     }
 }
 
-/// Whether a robot has what its devices declare.
+/// Whether a robot has a part of its declared devices.
 fn lacks<R: Robot>(device: &str, part: &str) -> Result<(), RequestError> {
     let missing = R::LACKS.iter().find(|known| match known.split_once('.') {
         None => **known == device,

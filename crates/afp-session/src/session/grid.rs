@@ -1,31 +1,32 @@
-//! When samples are taken: at the multiples of each period that somebody wants, or as soon after as time stands still.
+//! The sample times: multiples of each requested period, or the first possible instant after them.
 
 use afp_core::{Duration, Instant};
 
-/// When samples are taken.
+/// The sample times.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SampleGrid {
-    /// Tells other periods from these.
+    /// A hash of the periods.
     key: u64,
-    /// When samples were taken last; what came before counts as taken.
+    /// The last sample time; earlier grid points count as done.
     taken: Option<Instant>,
-    /// When they are taken next.
+    /// The next sample time.
     pub(super) next: Instant,
 }
 
-/// What of the time has come since samples were taken last.
+/// The time since the last samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Stretch {
-    /// None at the first time.
+    /// The begin, excluded; `None` for the first samples.
     after: Option<Instant>,
     to: Instant,
 }
 
 impl SampleGrid {
-    /// Nobody wants any.
+    /// The grid without periods.
     pub(super) const NONE: Self = SampleGrid { key: 0, taken: None, next: Instant::MAX };
 
-    /// Takes in which periods are wanted. After a change they count from now on, and before the start now itself.
+    /// Sets the periods. After a change they count from now on; before the start, now itself is a
+    /// sample time.
     #[inline]
     pub(super) fn fit(
         &mut self,
@@ -56,7 +57,7 @@ impl SampleGrid {
         }
     }
 
-    /// Samples are taken now: what has come since the last time.
+    /// Notes samples at this instant and returns the time since the last ones.
     pub(super) fn take(
         &mut self,
         periods: impl Iterator<Item = Duration>,
@@ -68,12 +69,12 @@ impl SampleGrid {
 }
 
 impl Stretch {
-    /// From one instant, excluded, to another.
+    /// From one instant (excluded) to another.
     pub(crate) fn between(after: Option<Instant>, to: Instant) -> Self {
         Stretch { after, to }
     }
 
-    /// Whether a multiple of a period has come.
+    /// Whether it contains a multiple of a period.
     pub(crate) fn has_multiple_of(self, every: Duration) -> bool {
         let passed = |at: Instant| at.since(Instant::ZERO).periods(every);
         self.after.is_none_or(|after| passed(after) < passed(self.to))
@@ -97,7 +98,7 @@ mod tests {
         Instant::from_nanos(ms * 1_000_000)
     }
 
-    /// When samples are taken, and of which period, where time goes on in steps that hit no grid by themselves.
+    /// The sample times of each period, if time advances to the instants of `stop`.
     fn taken(periods: &[u64], until: u64, stop: impl Fn(Instant) -> Instant) -> Vec<Vec<u64>> {
         let durations = periods.iter().map(|ms| Duration::from_millis(*ms));
         let mut grid = SampleGrid::NONE;
@@ -126,7 +127,7 @@ mod tests {
     fn a_multiple_that_time_passes_over_is_taken_as_soon_as_it_stands() {
         let late = |next: Instant| next + Duration::from_nanos(300_000);
         assert_eq!(taken(&[20], 60, late), [[0, 20, 40, 60]]);
-        // Two at once are one.
+        // Two grid points at once make one sample.
         let very_late = |next: Instant| next + Duration::from_millis(25);
         assert_eq!(taken(&[20], 60, very_late), [[25, 65]]);
     }

@@ -1,4 +1,4 @@
-//! What is reported to observers and measures.
+//! Reports to observers and measures.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ use crate::robot::{Robot, read_signal};
 use crate::sample::SampleRef;
 use crate::sampling::{Samples, Turn};
 
-/// What a view of a session shows.
+/// The content of a view of a session.
 struct Looked<'a, P: NamedPlan, R> {
     scheduler: &'a Scheduler<P>,
     robot: &'a R,
@@ -56,7 +56,7 @@ where
     R: Robot,
     S: Keep,
 {
-    /// Reports the records of the step that is over to measures and observers.
+    /// Reports the records of the step to measures and observers.
     pub(super) fn report_records(&mut self, to: &mut [&mut dyn Observer]) {
         let Session { robot, names, sink, trace, makes_trace, line, measures, .. } = self;
         let records = sink.take();
@@ -65,7 +65,7 @@ where
             line.clear();
             let clear = is_clear(&record);
             if !clear && *makes_trace {
-                // Writing to a text cannot fail.
+                // Writing to a `String` cannot fail.
                 let _ = write!(line, "{}", Line { at, record: &record, names: &*names });
                 trace.line(line);
             }
@@ -80,7 +80,7 @@ where
         sink.give_back(records);
     }
 
-    /// Reports to observers that a step is over, after the samples that they take of the robot at each step.
+    /// Reports the end of a step to observers, after the samples of the step.
     pub(super) fn report_step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
         let wrong = self.take_samples(now, Turn::Step, to);
         let Session { scheduler, robot, names, .. } = self;
@@ -92,7 +92,8 @@ where
         }
     }
 
-    /// Gives samples to those whose turn it is; what is wrong with one, if something is.
+    /// Gives samples to the observers whose turn it is; returns the fault of a sample, if there was
+    /// one.
     pub(super) fn take_samples(
         &self,
         now: Instant,
@@ -107,7 +108,7 @@ where
         samples.finish()
     }
 
-    /// What a signal is now.
+    /// Reads a signal.
     pub fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
         read_signal(&self.robot, signal, to);
     }

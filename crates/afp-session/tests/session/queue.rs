@@ -1,4 +1,4 @@
-//! Observers behind a queue get what they would get without it, and learn what they did not get.
+//! Observers behind a queue receive the same as without it, and learn of losses.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -25,7 +25,7 @@ fn queue_for(
     queue(session.owned_names(), session.devices(), &[to])
 }
 
-/// The toy, pressed after a while, with a request that cannot be met.
+/// The toy, pressed after a while, with a request that fails.
 fn pressed() -> Loaded {
     let mut session = session();
     session.set_rest(Duration::from_secs(1));
@@ -69,11 +69,11 @@ plan Rounds {
     }
 }";
 
-/// Keeps what a log would need after a loss.
+/// Keeps the data that a log needs after a loss.
 #[derive(Default)]
 struct Kept {
     records: u64,
-    /// When records were lost last, how many were lost in all, and the value of the entry.
+    /// The time of the last loss, the total number of lost records, and the value of the entry.
     lost: Option<(Instant, u64, Value)>,
 }
 
@@ -116,20 +116,20 @@ fn a_full_queue_holds_nobody_up_and_says_what_is_lost_and_what_holds_now() {
         session.run(at(until), &mut Open, &mut [writer, &mut all]).unwrap();
         (all.0, all.1.clone().unwrap())
     };
-    // Nobody reads.
+    // The queue is not read.
     drive(&mut writer, 60_000);
     assert!(woken.load(Ordering::Relaxed) <= 60 * 20 + 1, "{woken:?}");
     reader.read(&mut [&mut kept]);
     let read = kept.records;
     assert!((1000..20_000).contains(&read) && kept.lost.is_none(), "{read}");
-    // The first record with room says it.
+    // The first record with room reports the loss.
     let (made, _) = drive(&mut writer, 60_100);
     reader.read(&mut [&mut kept]);
     let (when, lost, value) = kept.lost.clone().unwrap();
     assert_eq!(kept.records + lost, made);
     assert!(when > at(60_000) && when <= at(60_010), "{when:?}");
     assert!(matches!(value, Value::Int(round) if round > 5000), "{value:?}");
-    // What is lost at the very end is said as well.
+    // A loss at the very end is reported too.
     let (made, last) = drive(&mut writer, 200_000);
     drop(writer);
     assert!(!reader.read(&mut [&mut kept]));

@@ -1,5 +1,3 @@
-//! Toolboxes in the typed view.
-
 use super::bind::bind;
 use super::{
     Bind, Formula, Name, Type, child, doc, find_token, keyword_as, keyword_token, live, named,
@@ -62,7 +60,6 @@ impl Toolbox {
 }
 
 impl Template {
-    /// What its keyword says.
     pub fn kind(&self) -> TemplateKind {
         keyword_as(&self.node, |word| match word {
             "supervisor" => TemplateKind::Supervisor,
@@ -71,7 +68,7 @@ impl Template {
         })
     }
 
-    /// Whether it is a computation that formulas declare, not Rust or Python.
+    /// Whether it is a computation in formulas, not in Rust or Python.
     pub fn is_declared(&self) -> bool {
         let declared = |part: &Part| matches!(part, Part::Outcome(state) if state.is_declared());
         self.kind() == TemplateKind::Computation && self.parts().iter().any(declared)
@@ -99,7 +96,7 @@ impl Template {
 }
 
 impl InPort {
-    /// The place of `live`, where written.
+    /// The place of `live`, if written.
     pub fn live(&self) -> Option<Span> {
         live(&self.node, self.file)
     }
@@ -113,12 +110,12 @@ impl InPort {
         Formula::child_of(&self.node, self.file)
     }
 
-    /// Least and greatest value, and the place of both.
+    /// The bounds, and the place of both.
     pub fn range(&self) -> Option<(Formula, Formula, Span)> {
         range(&self.node, self.file)
     }
 
-    /// The ends of its range, as far as they are written.
+    /// The bounds, as far as written.
     pub fn ends(&self) -> Vec<Formula> {
         range_ends(&self.node, self.file)
     }
@@ -129,7 +126,7 @@ impl OutPort {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
 
-    /// The states or events behind `on`; `None` without one.
+    /// The states or events after `on`; `None` without one.
     pub fn on(&self) -> Option<Vec<Name>> {
         let on = child(&self.node, Kind::On)?;
         Some(tokens(&on, Kind::Name, self.file))
@@ -137,12 +134,12 @@ impl OutPort {
 }
 
 impl Outcome {
-    /// `state` or `event`, and its place.
+    /// `state` or `event`, with its place.
     pub fn keyword(&self) -> Option<Name> {
         keyword_token(&self.node, self.file)
     }
 
-    /// Whether `once` says that the event happens, and does not last.
+    /// Whether the event is marked `once`: it occurs but does not last.
     pub fn once(&self) -> bool {
         let words = tokens(&self.node, Kind::Keyword, self.file);
         words.iter().skip(1).any(|word| word.text == "once")
@@ -155,12 +152,12 @@ impl Outcome {
         self.body().is_some() || self.when().is_some() || self.after().is_some()
     }
 
-    /// The place of `when`, and the comparisons behind it.
+    /// The place of `when`, and the comparisons after it.
     pub fn when(&self) -> Option<(Span, Vec<Comparison>)> {
         when(&self.node, self.file)
     }
 
-    /// The place of `after`, and the time behind it.
+    /// The place of `after`, and the time after it.
     pub fn after(&self) -> Option<(Span, Option<Formula>)> {
         let after = child(&self.node, Kind::After)?;
         Some((span_of(&after, Kind::Keyword, self.file)?, Formula::child_of(&after, self.file)))
@@ -174,12 +171,12 @@ impl Outcome {
 }
 
 impl Exclusive {
-    /// The events, two unless one is missing.
+    /// The events: two, unless one is missing.
     pub fn events(&self) -> Vec<Name> {
         tokens(&self.node, Kind::Name, self.file)
     }
 
-    /// The place of `when`, and the comparisons behind it.
+    /// The place of `when`, and the comparisons after it.
     pub fn when(&self) -> Option<(Span, Vec<Comparison>)> {
         when(&self.node, self.file)
     }
@@ -209,7 +206,7 @@ impl Comparison {
 }
 
 impl Timing {
-    /// `every`, `deadline`, `budget` or `stop`, and its place.
+    /// `every`, `deadline`, `budget` or `stop`, with its place.
     pub fn keyword(&self) -> Option<Name> {
         keyword_token(&self.node, self.file)
     }

@@ -40,7 +40,7 @@ pub(super) fn condition(
     is_sound.then_some(Condition { left, comparison, right })
 }
 
-/// Whether a formula converts no string to another type; reports it otherwise.
+/// Whether a formula converts no string to another type; else reports an error.
 pub(super) fn reads_no_text(formula: &Formula, diags: &mut Diagnostics) -> bool {
     let is_read = |op: &Op<Conversion>| matches!(op, Op::Convert(Conversion::FromText(_)));
     let Some(node) = formula.nodes().find(|node| is_read(&node.op)) else { return true };

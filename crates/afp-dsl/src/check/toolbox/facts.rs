@@ -1,4 +1,4 @@
-//! Facts of supervisors: when an event holds, and which events never hold together.
+//! Facts of supervisors: the condition of an event, and events that exclude each other.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use afp_syntax::ast::{self, Name, Part};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
-/// Reads the facts of a template. `cases` has the conditions of its events, in their order.
+/// Reads the facts of a template. `cases` contains the conditions of its events, in their order.
 pub(super) fn read(
     parts: &[Part],
     events: &[(&ast::Outcome, Name)],
@@ -46,7 +46,7 @@ pub(super) fn read(
     facts.into()
 }
 
-/// An event has one fact at most, and none if it comes once.
+/// Whether an event may have a fact: it has at most one, and none if it is marked `once`.
 fn fits(node: &ast::Outcome, name: &Name, diags: &mut Diagnostics) -> bool {
     let (when, after) = (node.when(), node.after());
     let second = match (&when, &after) {
@@ -72,7 +72,6 @@ fn fits(node: &ast::Outcome, name: &Name, diags: &mut Diagnostics) -> bool {
     false
 }
 
-/// The time after which an event holds.
 fn time(
     formula: &ast::Formula,
     (scope, template): (&Scope<'_>, &Template),
@@ -91,7 +90,7 @@ fn time(
     None
 }
 
-/// Reads two events that never hold together.
+/// Reads two events that exclude each other.
 fn exclusive(
     node: &ast::Exclusive,
     scope: &Scope<'_>,
@@ -123,7 +122,6 @@ fn exclusive(
     (conditions.len() == compared.len()).then_some(Fact::Exclusive([first, second], conditions))
 }
 
-/// The position of an event.
 fn event(
     name: &Name,
     scope: &Scope<'_>,

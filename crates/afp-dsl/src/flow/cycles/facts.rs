@@ -12,10 +12,10 @@ use crate::toolbox::case::value;
 use crate::toolbox::{Condition, Fact};
 use crate::types::{Constant, Conversion};
 
-/// Greatest number of events of a cycle that are compared in pairs.
+/// The limit of events of a cycle that are compared in pairs.
 const MAX_EVENTS: usize = 64;
 
-/// Whether an event comes only after some time.
+/// Whether an event occurs only after some time.
 pub(super) fn waits(view: &View<'_>, id: SupervisorId, event: u16) -> bool {
     let supervisor = view.supervisor(id);
     let input = |port: u16| view.constant(supervisor.inputs.get(usize::from(port))?);
@@ -55,7 +55,7 @@ enum Term {
     Entry(EntryId),
 }
 
-/// How a value relates to another one.
+/// The relation of two values.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Relation {
     Less,
@@ -69,7 +69,7 @@ type Order = (Relation, [Term; 2]);
 /// The values that the conditions of a cycle compare.
 struct Terms<'a> {
     view: &'a View<'a>,
-    /// Entries that the cycle changes.
+    /// Entries that the cycle writes.
     written: BTreeSet<EntryId>,
 }
 
@@ -98,7 +98,7 @@ impl Terms<'_> {
             })
     }
 
-    /// Whether a condition holds in any case: its opposite is impossible.
+    /// Whether a condition always holds: its opposite is impossible.
     fn surely(&self, condition: &Condition, of: &[&Supervisor]) -> bool {
         let opposite = match condition.comparison {
             Comparison::Equal => Comparison::NotEqual,
@@ -111,12 +111,12 @@ impl Terms<'_> {
         self.values(condition, of).is_some_and(|values| impossible(&orders(opposite, values)))
     }
 
-    /// The compared values, unless one of them is not known.
+    /// The compared values, if both are known.
     fn values(&self, condition: &Condition, of: &[&Supervisor]) -> Option<[Term; 2]> {
         Some([self.term(&condition.left, of)?, self.term(&condition.right, of)?])
     }
 
-    /// A value that is known, or an entry that keeps its value.
+    /// A known value, or an entry that keeps its value.
     fn term(&self, formula: &Formula, of: &[&Supervisor]) -> Option<Term> {
         let bound = |port: usize| {
             let ports = self.view.template(of.first()?).inputs.len();
@@ -135,7 +135,7 @@ impl Terms<'_> {
     }
 }
 
-/// The entry that a formula reads, and nothing else.
+/// The entry, if a formula is only an entry.
 fn entry(part: Part<'_>) -> Option<EntryId> {
     match part.op() {
         Op::Entry(id) => Some(*id),
@@ -144,7 +144,7 @@ fn entry(part: Part<'_>) -> Option<EntryId> {
     }
 }
 
-/// The order of two values that compare so.
+/// The order of two values with a comparison.
 fn orders(comparison: Comparison, [left, right]: [Term; 2]) -> Vec<Order> {
     use Relation::{Different, Less, LessOrEqual};
     match comparison {
@@ -206,7 +206,7 @@ fn order(a: &Constant, b: &Constant) -> Ordering {
 fn number(value: &Constant) -> Option<f64> {
     match value {
         Constant::Int(number) => Some(*number as f64),
-        // There is one zero.
+        // -0 equals 0.
         Constant::Float(number) => Some(*number + 0.0),
         _ => None,
     }
