@@ -1,4 +1,4 @@
-//! The clock of a robot that exists.
+//! The clock of a real robot.
 
 use std::thread;
 use std::time::Duration as Span;
@@ -7,11 +7,11 @@ use std::time::Instant as Wall;
 
 use afp_core::{Clock, Duration, Instant};
 
-/// Time that passes by itself, from the moment at which it was made. It never goes back, whatever is done to the clock
-/// on the wall. On Linux it continues while the computer is suspended, so that a run notices that.
+/// Real time since the start of this clock. Changes of the system time do not affect it. On Linux it
+/// also counts while the computer is suspended, so that a run notices the suspension.
 #[derive(Clone, Copy, Debug)]
 pub struct RealTime {
-    /// Since the computer started.
+    /// The start, as time since the boot.
     #[cfg(target_os = "linux")]
     began: Span,
     #[cfg(not(target_os = "linux"))]
@@ -20,18 +20,18 @@ pub struct RealTime {
 
 #[cfg(target_os = "linux")]
 impl RealTime {
-    /// Begins to count, from zero.
+    /// Starts the clock at zero.
     pub fn start() -> Self {
         RealTime { began: boot_time() }
     }
 
-    /// How much has passed.
+    /// The time since the start.
     pub fn now(&self) -> Instant {
         Instant::ZERO + boot_time().saturating_sub(self.began).into()
     }
 
-    /// Sleeps up to an instant; returns at once if it has passed. The deadline is absolute, so that a delay before the
-    /// sleep does not make it longer.
+    /// Sleeps until an instant. The deadline is absolute, so a delay before the sleep does not add to
+    /// it.
     fn sleep(&self, to: Instant) {
         use rustix::io::Errno;
         use rustix::thread::{ClockId, clock_nanosleep_absolute};
@@ -39,14 +39,14 @@ impl RealTime {
         let until = self.began.saturating_add(to.since(Instant::ZERO).into());
         let slept =
             until.try_into().map(|until| clock_nanosleep_absolute(ClockId::Boottime, &until));
-        // After a signal, the caller looks at the time.
+        // A signal ends the sleep; the caller repeats it.
         if !matches!(slept, Ok(Ok(()) | Err(Errno::INTR))) {
             thread::sleep(to.since(self.now()).into());
         }
     }
 }
 
-/// The time since the computer started, with the time in which it was suspended.
+/// The time since the boot, including suspensions.
 #[cfg(target_os = "linux")]
 fn boot_time() -> Span {
     use rustix::time::{ClockId, clock_gettime};
@@ -57,12 +57,12 @@ fn boot_time() -> Span {
 
 #[cfg(not(target_os = "linux"))]
 impl RealTime {
-    /// Begins to count, from zero.
+    /// Starts the clock at zero.
     pub fn start() -> Self {
         RealTime { began: Wall::now() }
     }
 
-    /// How much has passed.
+    /// The time since the start.
     pub fn now(&self) -> Instant {
         Instant::ZERO + self.began.elapsed().into()
     }
@@ -73,7 +73,7 @@ impl RealTime {
 }
 
 impl RealTime {
-    /// Sleeps up to an instant; not at all where it has passed. It wakes late, by what the system needs, never early.
+    /// Sleeps until an instant, at least; returns at once if it has passed.
     pub fn sleep_until(&self, to: Instant) {
         while to.since(self.now()) > Duration::ZERO {
             self.sleep(to);

@@ -5,10 +5,11 @@ use std::fs;
 use crate::docs;
 
 /// The files with these tests.
-const FILES: [&str; 6] = [
+const FILES: [&str; 7] = [
     "crates/afp-platform/src/device.rs",
     "crates/afp-run/src/stop.rs",
     "crates/afp-run/tests/ways_out.rs",
+    "crates/afp-session/tests/control_thread.rs",
     "crates/afp-session/tests/session/broken.rs",
     "examples/vacuum/board/src/line.rs",
     "examples/vacuum/board/tests/board.rs",
