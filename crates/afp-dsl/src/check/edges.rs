@@ -2,7 +2,7 @@
 
 mod written_edge;
 
-use std::cell::RefCell;
+use std::cell::{LazyCell, RefCell};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -26,7 +26,6 @@ pub(crate) use written_edge::{WrittenEdge, name};
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";
-/// Where an edge leads that ends its plan.
 const TERMINATE: &str = "terminate";
 /// Where an edge leads that ends its plan because it failed.
 const FAIL: &str = "fail";
@@ -44,15 +43,12 @@ pub(crate) struct Connected {
 
 /// A component whose edges are checked.
 pub(crate) struct Origin<'a> {
-    /// What it is made from.
     pub signature: &'a Signature,
-    /// Its name in the plan.
     pub name: Option<&'a Name>,
     /// Where it stands, for what is missing.
     pub span: Span,
     /// Whether the text has syntax errors here.
     pub broken: bool,
-    /// Whether it is a supervisor.
     pub supervisor: bool,
 }
 
@@ -139,7 +135,6 @@ impl<'a> Elements<'a> {
         self.indices
     }
 
-    /// Whether a target is a word of the language.
     fn is_word(&self, to: &Name) -> bool {
         let word = match to.text.as_str() {
             "terminate" => Word::Terminate,
@@ -186,6 +181,8 @@ pub(super) fn connect<'e>(
     let mut seen: Vec<&Name> = Vec::new();
     let mut unknown = 0;
     let extra = origin.extra();
+    // Computed once, since a text may have very many unknown names.
+    let missing = LazyCell::new(|| without_edge(signature, edges));
     for edge in edges {
         let name = &edge.name;
         if edge.is_nameless() {
@@ -219,7 +216,7 @@ pub(super) fn connect<'e>(
                 connected.spans.extra = Some(span);
             }
             None => {
-                let (error, meant) = unknown_outcome(origin, edges, name);
+                let (error, meant) = unknown_outcome(origin, &missing, name);
                 diags.push(error);
                 unknown += meant;
                 continue;
@@ -230,8 +227,13 @@ pub(super) fn connect<'e>(
     (connected, seen, unknown)
 }
 
-/// Finds out what the names of edges mean whose component is made from nothing that is known;
-/// `words` are the states or events that it has in any case.
+/// The states or events without an edge.
+fn without_edge<'s>(signature: &'s Signature, edges: &[WrittenEdge]) -> Vec<&'s str> {
+    let own = signature.outcomes.iter().map(|outcome| &**outcome);
+    own.filter(|own| edges.iter().all(|edge| edge.name.text != *own)).collect()
+}
+
+/// Records the names of edges of an unknown component; `words` are outcomes of every component.
 pub(crate) fn names_only(
     edges: &[WrittenEdge],
     words: &[&str],
@@ -281,10 +283,7 @@ pub(crate) fn word(name: &str) -> Option<Word> {
 }
 
 /// The error for a name that no state or event has, and the number of them that it may stand for.
-fn unknown_outcome(origin: &Origin<'_>, edges: &[WrittenEdge], name: &Name) -> (Diagnostic, usize) {
-    let own = origin.signature.outcomes.iter().map(|outcome| &**outcome);
-    let missing: Vec<&str> =
-        own.filter(|own| edges.iter().all(|edge| edge.name.text != *own)).collect();
+fn unknown_outcome(origin: &Origin<'_>, missing: &[&str], name: &Name) -> (Diagnostic, usize) {
     if is_rest(&name.text) {
         let message =
             message!("edges have no '{}': each state and event has an edge of its own", name.text);
