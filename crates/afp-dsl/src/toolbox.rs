@@ -76,7 +76,7 @@ pub struct Template {
     pub outcomes: Vec<Outcome>,
     /// The states of a declared computation, with their conditions and assignments.
     pub cases: Option<Arc<[Case]>>,
-    /// What a supervisor's events say, as declared.
+    /// The declared facts of a supervisor's events.
     pub facts: Arc<[Fact]>,
     /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
     /// there.

@@ -88,9 +88,9 @@ pub(crate) struct Report {
     terminal: bool,
     json: bool,
     progress: Progress,
-    /// Why nothing can be written any more.
+    /// The error that ended the output.
     failure: Option<io::Error>,
-    /// Whether nobody reads any more, or nothing can be written.
+    /// Whether the output has ended.
     closed: Arc<AtomicBool>,
 }
 
@@ -113,7 +113,7 @@ impl Report {
         Ok(Report { out, terminal, json, progress, failure: None, closed })
     }
 
-    /// Whether nobody reads any more, or nothing can be written; for other threads to look at.
+    /// Whether the output has ended, as a flag for other threads.
     pub(crate) fn closed(&self) -> Arc<AtomicBool> {
         self.closed.clone()
     }

@@ -182,7 +182,8 @@ fn log_of(
     Ok(SessionLog::new(recorder, devices, scene, options.camera))
 }
 
-/// How the control loop of a real robot is scheduled, and what stops the robot if its session cannot.
+/// The scheduling of a real robot's control loop, and the guards that stop the robot if the session
+/// cannot.
 #[derive(Default)]
 struct Guards {
     last_resort: Option<LastResort>,

@@ -121,7 +121,7 @@ pub trait AnySession: Send {
     /// Ends the plan now with a fault, because it can no longer be trusted.
     fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]);
 
-    /// Stops the robot for good and returns the results.
+    /// Stops the robot permanently and returns the results.
     fn end(&mut self) -> Figures;
 
     /// The results so far.

@@ -126,7 +126,7 @@ pub enum RequestError {
     /// The place is occupied, by the thing of that name.
     #[error("'{0}' stands there")]
     Occupied(String),
-    /// The pose is not finite or lies outside of the world.
+    /// The pose is not finite or is outside the world.
     #[error("that place is not in the world")]
     Nowhere,
     /// The entry refuses the value.

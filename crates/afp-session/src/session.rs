@@ -349,7 +349,7 @@ where
         self.woke(wake, now, to);
     }
 
-    /// Stops the robot for good and returns the results.
+    /// Stops the robot permanently and returns the results.
     pub fn end(&mut self) -> Figures {
         self.robot.emergency_stop();
         self.figures()

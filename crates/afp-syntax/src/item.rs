@@ -89,7 +89,7 @@ impl Item {
         }
     }
 
-    /// Whether it is `item` or lies in it.
+    /// Whether it is `item` or a part of it.
     pub fn lies_in(&self, item: &Item) -> bool {
         match (item, self) {
             (Item::Plan { name }, _) => self.plan_name() == name,

@@ -245,7 +245,7 @@ fn element(
     Some(said.note(place, message!("'{}' is an element of '{}'", name, other)).help(help))
 }
 
-/// What a name behind an arrow is, if it is something but no element.
+/// The error for a target that is a name of something else than an element.
 fn no_element(
     program: &Program<'_>,
     head: &PlanHead,

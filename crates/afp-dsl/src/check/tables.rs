@@ -1,7 +1,7 @@
 //! Tables of a file: columns with types, rows of constants.
 //!
-//! A template with a port of the type `table` reads them. Its toolbox declares it once; what stands in the graph has the columns
-//! of the table that is bound as its outputs, so that whoever reads the graph finds ports as everywhere.
+//! A template with a port of the type `table` reads them. Its toolbox declares it once. The graph has
+//! a copy for each table, with the columns of the table as output ports.
 
 mod bound;
 

@@ -2,7 +2,7 @@
 //! the plan around within a single step.
 //!
 //! The following take no time: computations; elements that end by an event of the first poll or by
-//! a fault of their start; sub-plans that can end by these alone. Global supervisors are polled
+//! a fault of their start; sub-plans that can end by only these. Global supervisors are polled
 //! once in a step, so they close no cycle at their own level.
 
 mod choices;

@@ -4,7 +4,7 @@ use crate::support;
 
 use afp_syntax::diagnostics::Code;
 
-/// Codes that never occur alone: polling too often for the tick also needs too much of the
+/// Codes that occur only beside others: polling too often for the tick also needs too much of the
 /// processor.
 const BESIDE_OTHERS: &[Code] = &[Code::E0403, Code::E0404];
 

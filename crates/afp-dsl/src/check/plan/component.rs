@@ -139,7 +139,7 @@ impl Components<'_> {
     /// The bindings of an element, and its signature after these have selected a table or an enum.
     ///
     /// # Errors
-    /// What is known without a selection, which is reported.
+    /// The ports that are known without a selection; the missing selection is reported.
     fn ports(
         &self,
         signature: Rc<Signature>,
