@@ -291,10 +291,11 @@ impl<'a> View<'a> {
     /// The target of an exit, in the language's words.
     pub(super) fn target_name(&self, to: To<'a>) -> &'a str {
         let Some(to) = to else { return "" };
-        to.keyword().unwrap_or_else(|element| match element {
-            Ok(id) => name(&self.plan.elements[id.index()]),
-            Err(text) => text,
-        })
+        match to.element() {
+            Some(Ok(id)) => name(&self.plan.elements[id.index()]),
+            Some(Err(text)) => text,
+            None => to.keyword().unwrap_or_default(),
+        }
     }
 
     /// The template's toolbox and its icon's name.

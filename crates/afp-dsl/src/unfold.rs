@@ -292,5 +292,5 @@ fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> Compone
 /// The name of a target.
 fn target(plan: &Plan, target: Option<Target>) -> String {
     let Some(target) = target else { return String::new() };
-    target.keyword().unwrap_or_else(|id| &plan.elements[id.index()].name).to_owned()
+    target.text(|id| &plan.elements[id.index()].name).to_string()
 }

@@ -60,8 +60,13 @@ pub struct ElementRow {
     pub states: Range,
     /// The `Error` edge.
     pub on_error: Option<Target>,
-    /// Whether it is a computation that can reach [`Target::Resume`] through computations only.
+    /// Whether it is a computation that can reach [`Target::Resume`] or [`Target::Suspend`] through
+    /// computations only.
     pub resumes: bool,
+    /// Whether it is a computation that can reach [`Target::Return`] through computations only.
+    pub returns: bool,
+    /// Whether some edge is a [`Target::Suspend`] to it.
+    pub handler: bool,
     /// The local supervisors in [`PlanTable::supervisors`].
     pub locals: Range,
     /// The supervisors polled while it is active, in order, in [`PlanTable::sweeps`].

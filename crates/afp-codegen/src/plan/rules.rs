@@ -93,7 +93,8 @@ fn element(
     };
     let child = child.unwrap_or_else(|| quote!(Child { components: 0, entries: 0 }));
     let [states, locals, sweep] = [row.states, row.locals, row.sweep].map(range);
-    let (on_error, resumes) = (target(context, row.on_error), row.resumes);
+    let on_error = target(context, row.on_error);
+    let ElementRow { resumes, returns, handler, .. } = row;
     let (note, at) = (comment(&description(context, element)), at(element.span));
     let period = duration(row.period);
     quote! {
@@ -105,6 +106,8 @@ fn element(
             states: #states,
             on_error: #on_error,
             resumes: #resumes,
+            returns: #returns,
+            handler: #handler,
             locals: #locals,
             sweep: #sweep,
             child: #child,
@@ -162,7 +165,7 @@ fn edges(context: &Context<'_>) -> Vec<TokenStream> {
                     format!("{name}: {outcome} -> fail {:?}", rows.reasons[id.index()])
                 }
                 Some(to) => {
-                    let to = to.keyword().unwrap_or_else(|id| &plan.elements[id.index()].name);
+                    let to = to.text(|id| &plan.elements[id.index()].name);
                     format!("{name}: {outcome} -> {to}")
                 }
                 None => format!("{name}: {outcome} cannot happen"),
@@ -236,6 +239,11 @@ fn target(context: &Context<'_>, target: Option<Target>) -> TokenStream {
         }
         Target::Ignore => quote!(Ignore),
         Target::Resume => quote!(Resume),
+        Target::Suspend(id) => {
+            let number = &context.elements[id.index()].number;
+            quote!(Suspend(#number))
+        }
+        Target::Return => quote!(Return),
     };
     quote!(Some(Target::#target))
 }

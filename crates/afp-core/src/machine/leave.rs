@@ -61,7 +61,8 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
                     let reason = self.t.table().reasons.get(reason.index());
                     return self.fail(reason.copied().unwrap_or(Fault::INTERNAL));
                 }
-                Some(Target::Ignore | Target::Resume) | None => {
+                Some(Target::Ignore | Target::Resume | Target::Suspend(_) | Target::Return)
+                | None => {
                     return Flow::Fatal(Fault::INTERNAL);
                 }
             };

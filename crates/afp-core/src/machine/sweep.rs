@@ -272,7 +272,11 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             Target::Element(element) => {
                 self.t.table().element(element).is_some_and(|row| row.resumes)
             }
-            Target::Terminate | Target::Fail(_) | Target::Ignore => false,
+            Target::Terminate
+            | Target::Fail(_)
+            | Target::Ignore
+            | Target::Suspend(_)
+            | Target::Return => false,
         }
     }
 

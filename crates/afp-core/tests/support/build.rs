@@ -361,6 +361,8 @@ impl Spec {
             states,
             on_error: self.optional(element.on_error),
             resumes: self.resumes(index, &mut Vec::new()),
+            returns: false,
+            handler: false,
             locals: Range { first: first as u16, len: own.len() as u16 },
             sweep: sweep_row,
             child,

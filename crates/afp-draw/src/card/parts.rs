@@ -46,12 +46,13 @@ struct Tag<'a> {
 impl<'a> Tag<'a> {
     fn of(to: To<'a>) -> Option<Tag<'a>> {
         let (text, class) = match to {
-            Some(Target::Element(Ok(_)) | Target::Resume) => return None,
+            Some(Target::Element(Ok(_)) | Target::Suspend(Ok(_)) | Target::Resume) => return None,
             Some(Target::Terminate) => ("Terminate", "terminate"),
             Some(Target::Fail("")) => ("Fail", "fail"),
             Some(Target::Fail(reason)) => (reason, "fail"),
             Some(Target::Ignore) => ("Ignore", "ignore"),
-            Some(Target::Element(Err(text))) => (text, "unknown"),
+            Some(Target::Return) => ("Return", "resume"),
+            Some(Target::Element(Err(text)) | Target::Suspend(Err(text))) => (text, "unknown"),
             None => ("?", "nowhere"),
         };
         Some(Tag { text, class })

@@ -79,11 +79,12 @@ pub(super) fn target<'a>(
     element: impl Fn(afp_dsl::graph::ElementId) -> &'a str,
 ) -> Option<String> {
     match target {
-        Target::Element(id) => Some(scope.state(element(id))),
+        Target::Element(id) | Target::Suspend(id) => Some(scope.state(element(id))),
         Target::Terminate => Some(scope.end(end)),
         Target::Fail(_) => Some(scope.end(End::Error)),
         // An event that resumes does not leave the state; a computation returns to it.
         Target::Resume => matches!(end, End::Ok).then(|| scope.history()),
+        Target::Return => Some(scope.history()),
         Target::Ignore => None,
     }
 }

@@ -153,10 +153,10 @@ impl<'a> View<'a> {
 
     fn add(&mut self, cause: Cause, from: Node, target: Target, ending: usize, possible: bool) {
         let to = match target {
-            Target::Element(id) => id.index(),
+            Target::Element(id) | Target::Suspend(id) => id.index(),
             Target::Terminate => self.end(ending),
             Target::Fail(_) => self.end(FAILED),
-            Target::Ignore | Target::Resume => return,
+            Target::Ignore | Target::Resume | Target::Return => return,
         };
         self.edges.push(Edge { cause, from, to, possible });
     }

@@ -186,8 +186,8 @@ impl Dump<'_> {
 
     fn edge(&mut self, outcome: &str, target: Target) {
         let target = match target {
-            Target::Fail(id) => &format!("fail {:?}", self.plan.reasons[id.index()]),
-            target => target.keyword().unwrap_or_else(|id| &self.plan.elements[id.index()].name),
+            Target::Fail(id) => format!("fail {:?}", self.plan.reasons[id.index()]),
+            target => target.text(|id| &self.plan.elements[id.index()].name).to_string(),
         };
         self.line(3, &format!("{outcome} -> {target}"));
     }

@@ -1,4 +1,4 @@
-//! Computations that reach `resume` through computations only: an event that leads to one does not
+//! Computations that reach `resume` or `suspend` through computations only: an event that leads to one does not
 //! interrupt until the end of the chain is known.
 
 use crate::graph::{Component, Element, ElementId, Target};
@@ -22,11 +22,11 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
         let Some(element) = element.filter(|element| is_computation(element)) else { continue };
         for target in targets(element) {
             match target {
-                Target::Resume => open.push(index),
+                Target::Resume | Target::Suspend(_) => open.push(index),
                 Target::Element(id) => {
                     before.get_mut(id.index()).into_iter().for_each(|list| list.push(index));
                 }
-                Target::Terminate | Target::Fail(_) | Target::Ignore => {}
+                Target::Terminate | Target::Fail(_) | Target::Ignore | Target::Return => {}
             }
         }
     }
@@ -57,7 +57,9 @@ pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, boo
                 }
                 _ => elsewhere = true,
             },
-            Target::Terminate | Target::Fail(_) => elsewhere = true,
+            Target::Terminate | Target::Fail(_) | Target::Suspend(_) | Target::Return => {
+                elsewhere = true;
+            }
             Target::Ignore | Target::Resume => {}
         }
         next = open.pop();

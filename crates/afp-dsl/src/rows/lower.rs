@@ -85,6 +85,8 @@ fn add_element(
         states,
         on_error: element.on_error,
         resumes: false,
+        returns: false,
+        handler: false,
         locals: Range { first, len },
         sweep: Range::default(),
         child,

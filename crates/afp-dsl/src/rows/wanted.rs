@@ -12,8 +12,8 @@ pub(super) fn wanted(events: &[Target], there: Option<ElementId>) -> Option<Even
     let mut bits = 0;
     let taken = |target: &Target| match target {
         Target::Ignore => false,
-        Target::Element(to) => Some(*to) != there,
-        Target::Terminate | Target::Fail(_) | Target::Resume => true,
+        Target::Element(to) | Target::Suspend(to) => Some(*to) != there,
+        Target::Terminate | Target::Fail(_) | Target::Resume | Target::Return => true,
     };
     for (index, _) in events.iter().enumerate().filter(|(_, target)| taken(target)) {
         bits |= 1_u64.checked_shl(u32::try_from(index).ok()?)?;

@@ -52,6 +52,11 @@ impl Pair<'_> {
                 ));
                 continue;
             }
+            if matches!(goal, Goal::Suspend(_) | Goal::Return) {
+                let path = self.parts.path(self.supervisor);
+                all.left_out.push(format!("'{path}.{name}' suspends or returns"));
+                continue;
+            }
             let Some((_, fire)) = self.parts.injection(self.supervisor, event) else {
                 let path = self.parts.path(self.supervisor);
                 all.left_out.push(format!("'{path}.{name}' brings an object"));
@@ -136,9 +141,9 @@ impl Pair<'_> {
             lines.push(format!("never interrupt of {element} {soon}"));
         } else {
             let to = match goal {
-                Goal::Element(to) => parts.name(to),
+                Goal::Element(to) | Goal::Suspend(to) => parts.name(to),
                 Goal::Fail(_) => "fail",
-                Goal::Terminate | Goal::Ignore | Goal::Resume => "terminate",
+                Goal::Terminate | Goal::Ignore | Goal::Resume | Goal::Return => "terminate",
             };
             let to = self.beside(goal, to);
             lines.push(format!("expect {element} -> {to} by {name} once {soon}"));
@@ -243,7 +248,7 @@ impl Pair<'_> {
             Goal::Terminate | Goal::Fail(_) => {
                 parts.place(self.element).is_some_and(|place| place.plan == 0)
             }
-            Goal::Ignore | Goal::Resume => false,
+            Goal::Ignore | Goal::Resume | Goal::Suspend(_) | Goal::Return => false,
         };
         for number in self.chain(at) {
             let written = parts.written(number);
@@ -277,6 +282,6 @@ fn ended_by(goal: Goal, terminated: &'static str) -> Option<&'static str> {
     match goal {
         Goal::Terminate => Some(terminated),
         Goal::Fail(_) => Some("Error"),
-        Goal::Element(_) | Goal::Ignore | Goal::Resume => None,
+        Goal::Element(_) | Goal::Ignore | Goal::Resume | Goal::Suspend(_) | Goal::Return => None,
     }
 }

@@ -152,12 +152,12 @@ impl Reach {
             (Outcome::Declared(outcome), None) => parts.goal(edge.component, outcome),
         };
         match goal {
-            Some(Goal::Element(to)) => self.of(to).is_none(),
+            Some(Goal::Element(to) | Goal::Suspend(to)) => self.of(to).is_none(),
             // The end of a sub-plan may lead to other elements.
             Some(Goal::Terminate) => {
                 parts.place(edge.component).is_some_and(|place| place.plan != 0)
             }
-            Some(Goal::Fail(_) | Goal::Ignore | Goal::Resume) | None => false,
+            Some(Goal::Fail(_) | Goal::Ignore | Goal::Resume | Goal::Return) | None => false,
         }
     }
 

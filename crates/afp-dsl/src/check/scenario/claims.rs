@@ -156,9 +156,9 @@ impl Checker<'_> {
     ) -> Option<()> {
         let causes = self.paths.causes(from);
         let leads = |(found, outcome): &&(Found, Outcome)| {
-            self.paths.target_at(*found, *outcome, from).is_some_and(|at| match at {
-                Target::Element(id) => to.is_some_and(|to| to.part == Part::Element(id)),
-                at => at.keyword().ok() == target.keyword().ok(),
+            self.paths.target_at(*found, *outcome, from).is_some_and(|at| {
+                let leads_to = |id| to.is_some_and(|to| to.part == Part::Element(id));
+                at.keyword() == target.keyword() && at.element().copied().is_none_or(leads_to)
             })
         };
         let fits = |(found, outcome): &&(Found, Outcome)| match by {
@@ -206,13 +206,13 @@ impl Checker<'_> {
     fn goals(&self, from: Found, path: &Path, causes: &[(Found, Outcome)]) -> Message {
         let home = path.text();
         let home = home.rsplit_once('.').map_or(String::new(), |(home, _)| format!("{home}."));
+        let place = |id: &_| {
+            let found = Found { instance: from.instance, part: Part::Element(*id) };
+            format!("{home}{}", self.paths.name(found))
+        };
         let name = |target| match target {
-            Target::Element(id) => {
-                let found = Found { instance: from.instance, part: Part::Element(id) };
-                Some(format!("{home}{}", self.paths.name(found)))
-            }
             Target::Ignore => None,
-            target => target.keyword().ok().map(str::to_owned),
+            target => Some(target.text(place).to_string()),
         };
         let goals =
             causes.iter().filter_map(|(each, outcome)| self.paths.target_at(*each, *outcome, from));
@@ -381,5 +381,5 @@ impl Checker<'_> {
 
 /// The spelling of a target in a claim.
 fn written(target: &ClaimTarget) -> String {
-    target.keyword().map_or_else(Path::text, str::to_owned)
+    target.text(Path::text).to_string()
 }

@@ -163,7 +163,7 @@ impl<'a> Resolver<'a> {
         let exits = here.chain([member]).flat_map(|it| &it.exits);
         let mut exits = exits.filter(|exit| outcome.is_none_or(|name| *exit.name == *name.text));
         let last = |path: &Path| path.names().pop().map(|name| name.text).unwrap_or_default();
-        let to = to.keyword().map_or_else(last, str::to_owned);
+        let to = to.text(last).to_string();
         exits.any(|exit| {
             let target = exit.edge.as_ref().and_then(|edge| edge.target.as_ref());
             target.is_some_and(|target| target.text.split(' ').next() == Some(&*to))
