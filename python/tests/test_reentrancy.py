@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import os
+import signal
 import subprocess
 import sys
 import threading
@@ -150,15 +152,26 @@ def test_a_scenario_raises_what_ends_a_program() -> None:
         plan.scenarios[0].run()
 
 
-@pytest.mark.parametrize("way", ["run_to(1e9)", "sweep"])
-def test_a_program_may_end_while_a_thread_runs_a_plan(way: str) -> None:
-    plans = Path(__file__).resolve().parents[2] / "plans"
-    work = "afp.Simulation(plan).run_to(1e9)" if way != "sweep" else "afp.sweep(plan, seeds=100_000, progress=False)"
-    program = f"""
-import afp, threading, time
-plan = afp.load({str(plans / "wall_following.afp")!r})
-threading.Thread(target=lambda: {work}, daemon=True).start()
-time.sleep(0.3)
-"""
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
+@pytest.mark.skipif(sys.platform == "win32", reason="it sends a signal")
+def test_a_signal_handler_sees_the_running_simulation(wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following)
+    seen: list[tuple[float, str, str | None]] = []
+
+    def look(*_: object) -> None:
+        seen.append((simulation.time, simulation.ending, simulation.active))
+        simulation.request_stop()
+
+    before = signal.signal(signal.SIGUSR1, look)
+    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGUSR1)).start()
+    try:
+        result = simulation.run(until=1e6)
+    finally:
+        signal.signal(signal.SIGUSR1, before)
+    assert result.stopped_by == "stop"
+    (time, ending, active) = seen[0]
+    assert 0.0 <= time <= result.time and ending == "running" and active
+
+
+def test_the_thread_that_imports_the_package_is_the_main_thread() -> None:
+    code = "import sys, afp; afp.__version__; assert 'threading' in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)

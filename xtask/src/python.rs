@@ -37,6 +37,9 @@ const RANDOM_STEPS: &str = "1000000";
 /// Simulations after which the memory use must be unchanged.
 const SIMULATIONS: &str = "10000";
 
+/// The number of programs that end in the middle of something.
+const EXITS: &str = "1000";
+
 /// Builds the package as for users, installs it, and runs its tests: pytest with the
 /// documentation's examples, the types, and the stubs against the package.
 ///
@@ -92,6 +95,8 @@ pub fn long() -> Result<(), Failure> {
     let stress = ["-m", "pytest", "--quiet", "-s", "tests/test_stress.py"];
     let mut stress = at_package(&python, &stress);
     run_command(stress.env("AFP_STRESS", STRESSED).env("AFP_SIMULATIONS", SIMULATIONS))?;
+    let exits = ["-m", "pytest", "--quiet", "-s", "tests/test_exits.py"];
+    run_command(at_package(&python, &exits).env("AFP_EXITS", EXITS))?;
     let random = ["-m", "pytest", "--quiet", "tests/test_gym.py", "-k", "nothing_raises"];
     run_command(at_package(&python, &random).env("AFP_GYM_STEPS", RANDOM_STEPS))?;
     run_command(&mut at_package(&python, &["notebooks/execute.py"]))?;

@@ -7,13 +7,17 @@ use std::time::Duration;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
+use crate::callout::guarded;
+use crate::leave;
+
 /// The interval of signal checks during a background computation.
 const EVERY: Duration = Duration::from_millis(30);
 
-/// Calls Python. After the end of the interpreter the thread sleeps permanently, since the program
-/// is about to end.
+/// Calls Python. At the end of the interpreter the thread sleeps permanently, since the program is
+/// about to end.
 pub fn attached<T>(call: impl FnOnce(Python<'_>) -> T) -> T {
-    Python::try_attach(call).unwrap_or_else(|| {
+    leave::stay_if_closed();
+    Python::try_attach(|py| guarded(|| call(py))).unwrap_or_else(|| {
         loop {
             thread::park();
         }

@@ -20,8 +20,8 @@ use pyo3::prelude::*;
 
 use crate::toolbox::Ready;
 use call::PyTemplate;
-pub use components::Components;
-pub use depth::{may_run, may_sweep};
+pub use components::{Components, interruption};
+pub use depth::{is_inside, may_run, may_sweep};
 use handles::PyHandle;
 pub use host::{ENDED_ALL, Host, RAISED};
 pub use registry::AnyRegistry;

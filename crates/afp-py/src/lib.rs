@@ -8,12 +8,14 @@
 //! the Carbot, or a generated crate for a project with its own robot or toolboxes.
 
 mod attach;
+mod callout;
 #[cfg(feature = "carbot")]
 mod carbot;
 mod component;
 mod errors;
 mod files;
 mod forks;
+mod leave;
 mod link;
 mod log;
 mod pause;
@@ -54,6 +56,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     let own_robot = link.own_robot();
     link::set(link);
     forks::listen(module)?;
+    leave::listen(module)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("own_robot", own_robot)?;
     let py = module.py();

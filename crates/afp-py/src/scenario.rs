@@ -16,8 +16,9 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
 
-use crate::component::{AnyRegistry, Components, may_run};
+use crate::component::{AnyRegistry, Components, interruption, may_run};
 use crate::errors::{error, run_error};
+use crate::leave::Call;
 use crate::link::{fits, link};
 use crate::pause::{Halt, Pause};
 use crate::simulation::read_of;
@@ -91,20 +92,21 @@ impl Scenario {
                 read_of(&self.compiled).chain([&*self.file]).chain(setting.world.path.as_deref());
             check_apart([&**log], read).map_err(|why| run_error(&why))?;
         }
-        let components = Components::new(py, &self.toolboxes, &self.compiled)?;
+        let components = Arc::new(Components::new(py, &self.toolboxes, &self.compiled)?);
         let more = |registry: &mut dyn AnyRegistry| components.register(registry);
         let robot = link().loader(&more);
-        let (mut pause, mut raised) = (Pause::of_signals(), None);
+        let stop = Arc::default();
+        let call = Call::new(py, &stop, interruption(&components));
+        let (mut pause, mut halt) = (Pause::new(None, stop), None);
         let mut go_on = || {
-            if let Some(Halt::Raised(why)) = pause.look() {
-                raised = Some(why);
-            }
-            raised.is_none() && !components.is_over()
+            halt = pause.look();
+            halt.is_none() && !components.is_over()
         };
         let log = log.as_deref().map(|path| Recording { path, compiled: &self.compiled });
-        let came = py.detach(|| afp_test::run_while(checked, &setting, &*robot, log, &mut go_on));
+        let run = || afp_test::run_while(checked, &setting, &*robot, log, &mut go_on);
+        let came = py.detach(|| call.run(run));
         components.raised(py)?;
-        if let Some(why) = raised {
+        if let Some(Halt::Raised(why)) = halt {
             return Err(why);
         }
         let came = came.map_err(|why| run_error(&why))?;

@@ -28,6 +28,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
+use crate::callout;
 use crate::component::{AnyRegistry, Components};
 use crate::errors::{error, plan_error, run_error};
 use crate::link::{fits, link};
@@ -178,7 +179,9 @@ impl Sweeper {
             let rows = self.rows(py, &new, on_run.as_ref())?;
             done.keep(new)?;
             report(py, on_run.as_ref(), rows)?;
-            progress.as_ref().map_or(Ok(()), |tell| tell.call1(py, (reported,)).map(drop))
+            progress
+                .as_ref()
+                .map_or(Ok(()), |tell| callout::call(tell.bind(py), (reported,)).map(drop))
         })
     }
 
@@ -381,7 +384,7 @@ fn no_journal(why: &JournalError) -> PyErr {
 /// Passes rows to a Python function one by one.
 fn report(py: Python<'_>, to: Option<&Py<PyAny>>, rows: Vec<Bound<'_, PyDict>>) -> PyResult<()> {
     let Some(to) = to else { return Ok(()) };
-    rows.into_iter().try_for_each(|row| to.call1(py, (row,)).map(drop))
+    rows.into_iter().try_for_each(|row| callout::call(to.bind(py), (row,)).map(drop))
 }
 
 fn cores(jobs: Option<NonZero<usize>>) -> usize {

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use super::PyHandle;
 use super::call::PyTemplate;
+use crate::callout;
 
 /// The slot of an actor in Python.
 pub struct PyActor {
@@ -63,7 +64,7 @@ impl<R: Simulated> ActorSlot<R> for PyActor {
         let template = &self.template;
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
         template.host.call_with_robot(env, &template.caller, |py| {
-            running.interrupt.get(py)?.call0().map(drop)
+            callout::call(&running.interrupt.get(py)?, ()).map(drop)
         })
     }
 

@@ -9,12 +9,12 @@ use afp_core::{Fault, Value, ValueRef};
 use afp_dsl::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use afp_dsl::types::Type;
 use afp_session::Simulated;
-use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
 use super::{Host, Object, PyHandle};
+use crate::callout::{self, Arguments};
 use crate::robot::Caller;
 use crate::value::{short, to_port, to_python};
 
@@ -71,12 +71,12 @@ impl PyTemplate {
     ///
     /// # Errors
     /// Its exception.
-    pub fn make<'py, A: PyCallArgs<'py>>(
+    pub fn make<'py>(
         &self,
         py: Python<'py>,
-        with: A,
+        with: impl Arguments<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.maker.get(py)?.call1(with)
+        callout::call(&self.maker.get(py)?, with)
     }
 
     /// Pulls, records and checks the inputs that are read once.
@@ -133,8 +133,8 @@ impl PyTemplate {
         let outcome = self.host.call_with_robot(env, &self.caller, |py| {
             let method = method.get(py)?;
             let said = match live.is_empty() {
-                true => method.call0(),
-                false => method.call1((live.dict(py)?,)),
+                true => callout::call(&method, ()),
+                false => callout::call(&method, (live.dict(py)?,)),
             };
             self.outcome(&said?)
         })?;

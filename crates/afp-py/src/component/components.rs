@@ -99,6 +99,14 @@ impl Components {
     }
 }
 
+/// The function that interrupts components, if they still exist.
+pub fn interruption(
+    components: &Arc<Components>,
+) -> impl Fn(Python<'_>) -> PyResult<()> + Send + Sync + 'static {
+    let components = Arc::downgrade(components);
+    move |py| components.upgrade().map_or(Ok(()), |components| components.interrupt(py))
+}
+
 /// The error for a toolbox that has changed since the compilation.
 fn changed(name: &str) -> PyErr {
     error(format!(

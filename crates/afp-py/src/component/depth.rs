@@ -28,6 +28,11 @@ pub fn inside<T>(call: impl FnOnce() -> T) -> T {
     call()
 }
 
+/// Whether a component is being called in this thread.
+pub fn is_inside() -> bool {
+    DEPTH.get() > 0
+}
+
 /// Checks that this thread may run another simulation.
 ///
 /// # Errors
@@ -46,8 +51,8 @@ pub fn may_run() -> PyResult<()> {
 /// # Errors
 /// A component is being called.
 pub fn may_sweep() -> PyResult<()> {
-    match DEPTH.get() {
-        0 => Ok(()),
-        _ => Err(PyRuntimeError::new_err("a component cannot run a sweep")),
+    match is_inside() {
+        false => Ok(()),
+        true => Err(PyRuntimeError::new_err("a component cannot run a sweep")),
     }
 }

@@ -1,7 +1,7 @@
 //! Access to a run: one caller at a time drives it, and others read its recent state.
 
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError, Weak};
 
 use afp_dsl::Compiled;
 use pyo3::exceptions::PyRuntimeError;
@@ -12,6 +12,7 @@ use super::glance::Glance;
 use super::session::Run;
 use crate::component::{Host, may_run};
 use crate::forks;
+use crate::leave::Call;
 use crate::pause::Pause;
 
 impl Runner {
@@ -87,7 +88,11 @@ impl Runner {
         let mut session = self.lock()?;
         let session = &mut *session;
         session.show();
-        let driven = py.detach(|| drive(session));
+        let host = self.host.as_ref().map(Arc::downgrade);
+        let call = Call::new(py, &self.stop, move |py| {
+            host.as_ref().and_then(Weak::upgrade).map_or(Ok(()), |host| host.interrupt(py))
+        });
+        let driven = py.detach(|| call.run(|| drive(session)));
         self.after(py, driven)
     }
 

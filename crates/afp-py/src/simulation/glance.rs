@@ -5,6 +5,8 @@ use std::thread::{self, ThreadId};
 
 use afp_session::Pose2;
 
+use crate::component::is_inside;
+
 /// The recent state of a run.
 #[derive(Clone)]
 pub struct Glance {
@@ -30,10 +32,10 @@ impl Seen {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(glance);
     }
 
-    /// Returns the latest glance, but not to the driving thread: a component must not read values
-    /// that depend on the wall clock.
+    /// Returns the latest glance, but not to a component of the driving thread, which must not read
+    /// values that depend on the wall clock. A signal handler in that thread may.
     pub fn glance(&self) -> Option<Glance> {
         let seen = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        seen.clone().filter(|glance| glance.driver != thread::current().id())
+        seen.clone().filter(|glance| glance.driver != thread::current().id() || !is_inside())
     }
 }

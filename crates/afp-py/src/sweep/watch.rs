@@ -10,6 +10,7 @@ use afp_sweep::{Drive, Ending, Outcome, Row, Setting, Sweep, Watch};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::callout;
 use crate::errors::run_error;
 use crate::simulation::{Keeper, Run, Runner};
 use crate::world::World;
@@ -73,8 +74,8 @@ impl Judging<'_> {
         let row = self.sweep.row(outcome.run);
         let loaded = self.setting.world(&row).map_err(|why| run_error(&why))?;
         let runner = Runner::new(run, None, self.compiled);
-        let figures = self.judge.call1(py, (runner, World::new(loaded), row.seed))?;
-        let figures: BTreeMap<String, Option<f64>> = figures.extract(py)?;
+        let figures = callout::call(self.judge.bind(py), (runner, World::new(loaded), row.seed))?;
+        let figures: BTreeMap<String, Option<f64>> = figures.extract()?;
         if let Some(name) = figures.keys().find(|name| outcome.figures.contains_key(*name)) {
             let text = format!("there is a figure '{name}' of every run; choose another name");
             return Err(PyValueError::new_err(text));

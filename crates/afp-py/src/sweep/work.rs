@@ -18,8 +18,9 @@ use pyo3::prelude::*;
 use super::watch::{Judging, Keeping, Kept};
 use super::{Sweeper, graph, with_setting};
 use crate::attach::attached;
-use crate::component::{AnyRegistry, Components, may_sweep};
+use crate::component::{AnyRegistry, Components, interruption, may_sweep};
 use crate::errors::run_error;
+use crate::leave::{Call, may_begin};
 use crate::link::link;
 
 /// The interval of signal checks without outcomes.
@@ -48,6 +49,9 @@ impl Sweeper {
     ) -> PyResult<()> {
         runs.iter().try_for_each(|run| self.row(*run).map(drop))?;
         may_sweep()?;
+        if !self.toolboxes.is_empty() {
+            may_begin()?;
+        }
         let graph = graph(&self.compiled)?;
         let mut job = Job {
             compiled: Arc::clone(&self.compiled),
@@ -113,9 +117,15 @@ fn drive(
     each: impl FnMut(Python<'_>, Vec<Outcome>) -> PyResult<()> + Send,
 ) -> PyResult<()> {
     let (stop, components) = (Arc::clone(&job.stop), Arc::clone(&job.components));
-    py.detach(|| {
+    let call = Call::new(py, &stop, interruption(&components));
+    let of_job = Arc::clone(&call);
+    let attended = || {
         let (send, outcomes) = sync_channel(WAITING);
-        let working = thread::spawn(move || job.run(&send));
+        let working = thread::spawn(move || {
+            let done = job.run(&send);
+            drop(of_job);
+            done
+        });
         let attended = attend(&outcomes, &components, each);
         drop(outcomes);
         if let Err(why) = attended {
@@ -126,7 +136,8 @@ fn drive(
         let done = working.join().unwrap_or_else(|panic| resume_unwind(panic));
         done.map_err(|why| run_error(&why))?;
         attached(|py| components.raised(py))
-    })
+    };
+    py.detach(|| call.run(attended))
 }
 
 /// Waits briefly for a cancelled job; interrupts a hanging component once.
