@@ -52,6 +52,7 @@ icons! {
     "after",
     "approach_infrared",
     "assign",
+    "blink",
     "changed",
     "check_battery",
     "check_color",

@@ -1,16 +1,19 @@
-//! The implementations never report events together that the toolbox declares as exclusive.
+//! The implementations report what the toolbox declares: exclusive events never together, and no event before its time.
 
-use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-use super::{CheckColor, CheckDistance, CheckInfrared};
+use super::{CheckColor, CheckDistance, CheckDrivingLane, CheckInfrared, CheckProgress};
 use crate::devices::Color;
 use crate::fake::{Fake, plane};
-use crate::templates::{self, check_color, check_distance, check_infrared};
-use afp_core::quantity::{Angle, Length};
+use crate::templates::{
+    self, check_color, check_distance, check_driving_lane, check_infrared, check_progress,
+};
+use afp_core::quantity::{Angle, Length, Time};
 use afp_core::{Events, Supervisor, SupervisorTemplate, Value};
-use afp_dsl::toolbox::{Fact, Template, Toolbox};
+use afp_dsl::graph::Formula;
+use afp_dsl::toolbox::case::value;
+use afp_dsl::toolbox::{Condition, Fact, Template, Toolbox};
 use afp_syntax::source::Source;
 
 /// Pairs of supervisors for each fact.
@@ -94,39 +97,86 @@ fn reports<T: SupervisorTemplate, S: Supervisor<T, Fake>>(
     seen
 }
 
+/// Samples pairs of supervisors that report exclusive events.
+fn sample_pairs<T: SupervisorTemplate, S: Supervisor<T, Fake>>(
+    sampled: &Sampled<T>,
+    (events, conditions): ([u16; 2], &[Condition]),
+    draws: &mut Draws,
+) {
+    let mut counts: Counts = [[0; 3]; 2];
+    for _ in 0..PAIRS {
+        let (first, second) = ((sampled.inputs)(draws), (sampled.inputs)(draws));
+        let both = [first.as_slice(), second.as_slice()].concat();
+        let known = |port: u16| both.get(usize::from(port)).copied().map(Value::Float);
+        let exclude = conditions.iter().all(|one| one.holds(&known).unwrap());
+        let seen = reports::<T, S>(sampled, events, [&first, &second], draws);
+        assert!(!(exclude && seen[2]), "{first:?} and {second:?} report both of {events:?}");
+        for (count, seen) in counts[usize::from(exclude)].iter_mut().zip(seen) {
+            *count += u32::from(seen);
+        }
+    }
+    let [[_, _, together], [first, second, _]] = counts;
+    assert!(first > 3 && second > 3 && together > 3, "{events:?}: {counts:?}");
+}
+
+/// Samples supervisors that report an event after a time.
+fn sample_times<T: SupervisorTemplate, S: Supervisor<T, Fake>>(
+    sampled: &Sampled<T>,
+    (event, time): (u16, &Formula),
+    draws: &mut Draws,
+) {
+    let mut count = 0;
+    for _ in 0..PAIRS {
+        let inputs = (sampled.inputs)(draws);
+        let known = |port: u16| inputs.get(usize::from(port)).copied().map(Value::Float);
+        let Some(Value::Float(time)) = value(time, &known) else { panic!("{time:?}") };
+        let robot = &mut Fake::new(&[]);
+        for _ in 0..draws.within(0.0, 10.0) as u32 {
+            (sampled.change)(robot, draws, [&inputs; 2]);
+            robot.tick();
+        }
+        let start = robot.now;
+        let mut watch = S::start((sampled.ports)(&inputs).0, robot, start).unwrap();
+        for _ in 0..POLLS {
+            let (live, wanted) = ((sampled.ports)(&inputs).1, Events::from_bits(1 << event));
+            let now = robot.now;
+            let reported = watch.poll(live, wanted, robot, now).unwrap().is_some();
+            let elapsed = now.since(start).as_secs_f64();
+            assert!(!reported || elapsed >= time, "{event} after {elapsed} s: {inputs:?}");
+            count += u32::from(reported);
+            robot.tick();
+        }
+    }
+    assert!(count > 300, "{event}: {count}");
+}
+
 /// Samples all facts of a template.
 fn sample<T: SupervisorTemplate, S: Supervisor<T, Fake>>(name: &str, sampled: &Sampled<T>) {
     let template = declared().into_iter().find(|template| template.name == name).unwrap();
     let draws = &mut Draws(20);
+    assert_eq!((sampled.inputs)(draws).len(), template.inputs.len());
     for fact in &*template.facts {
-        let Fact::Exclusive(events, conditions) = fact else { panic!("{fact:?}") };
-        let mut counts: Counts = [[0; 3]; 2];
-        for _ in 0..PAIRS {
-            let (first, second) = ((sampled.inputs)(draws), (sampled.inputs)(draws));
-            let both = [first.as_slice(), second.as_slice()].concat();
-            assert_eq!(both.len(), 2 * template.inputs.len());
-            let known = |port: u16| both.get(usize::from(port)).copied().map(Value::Float);
-            let exclude = conditions.iter().all(|one| one.holds(&known).unwrap());
-            let seen = reports::<T, S>(sampled, *events, [&first, &second], draws);
-            let text = || format!("{name}: {first:?} and {second:?} report both of {events:?}");
-            assert!(!(exclude && seen[2]), "{}", text());
-            for (count, seen) in counts[usize::from(exclude)].iter_mut().zip(seen) {
-                *count += u32::from(seen);
+        match fact {
+            Fact::Exclusive(events, conditions) => {
+                sample_pairs::<T, S>(sampled, (*events, conditions), draws);
             }
+            Fact::After(event, time) => sample_times::<T, S>(sampled, (*event, time), draws),
+            Fact::When(..) => panic!("{fact:?}"),
         }
-        let [[_, _, together], [first, second, _]] = counts;
-        assert!(first > 3 && second > 3 && together > 3, "{name} {events:?}: {counts:?}");
     }
 }
 
 #[test]
 fn every_template_with_facts_is_sampled() {
     let names: Vec<String> = declared().into_iter().map(|template| template.name).collect();
-    assert_eq!(names, ["CheckDistance", "CheckInfrared", "CheckColor"]);
+    assert_eq!(
+        names,
+        ["CheckDrivingLane", "CheckDistance", "CheckInfrared", "CheckColor", "CheckProgress"]
+    );
 }
 
 #[test]
-fn distances_exclude_each_other() {
+fn distances_exclude_each_other_and_need_an_echo() {
     sample::<templates::CheckDistance, CheckDistance>(
         "CheckDistance",
         &Sampled {
@@ -143,7 +193,7 @@ fn distances_exclude_each_other() {
 }
 
 #[test]
-fn strengths_of_light_exclude_each_other() {
+fn strengths_of_light_exclude_each_other_and_need_a_reading() {
     sample::<templates::CheckInfrared, CheckInfrared>(
         "CheckInfrared",
         &Sampled {
@@ -152,6 +202,48 @@ fn strengths_of_light_exclude_each_other() {
                 (check_infrared::Inputs {}, check_infrared::Live { strength: inputs[0] })
             },
             change: |robot, draws, _| robot.light = Some((draws.within(0.8, 4.0), 0.0)),
+        },
+    );
+}
+
+#[test]
+fn an_obstacle_in_the_lane_needs_an_echo() {
+    sample::<templates::CheckDrivingLane, CheckDrivingLane>(
+        "CheckDrivingLane",
+        &Sampled {
+            inputs: |draws| Vec::from([draws.within(0.2, 0.8), 0.1, 0.1, 0.25]),
+            ports: |inputs| {
+                let [distance, clearance, margin, halfwidth] = inputs[..] else {
+                    panic!("{inputs:?}")
+                };
+                let [clearance, margin, halfwidth] =
+                    [clearance, margin, halfwidth].map(Length::from_si);
+                let distance = Length::from_si(distance);
+                (
+                    check_driving_lane::Inputs { clearance, margin, halfwidth },
+                    check_driving_lane::Live { distance },
+                )
+            },
+            change: |robot, draws, _| {
+                robot.walls = Vec::from([plane(0.0, draws.within(0.3, 1.2))]);
+            },
+        },
+    );
+}
+
+#[test]
+fn missing_progress_takes_a_time() {
+    sample::<templates::CheckProgress, CheckProgress>(
+        "CheckProgress",
+        &Sampled {
+            inputs: |draws| Vec::from([0.1, 0.5, draws.one_of(&[0.1, 0.3, 0.8])]),
+            ports: |inputs| {
+                let [distance, angle, within] = inputs[..] else { panic!("{inputs:?}") };
+                let (distance, angle) = (Length::from_si(distance), Angle::from_si(angle));
+                let within = Time::from_si(within);
+                (check_progress::Inputs { distance, angle, within }, check_progress::Live {})
+            },
+            change: |_, _, _| {},
         },
     );
 }

@@ -18,7 +18,6 @@ use crate::flow::cycles::facts;
 use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, SupervisorId};
-use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
@@ -78,7 +77,7 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
             continue;
         };
         let writes = !view.may_write(edge.cause).is_empty();
-        let goes_on = writes || view.is_once(id, event) || comes_after_a_time(view, id);
+        let goes_on = writes || view.is_once(id, event) || comes_after_a_time(view, (id, event));
         if goes_on || !commands(view, element) {
             continue;
         }
@@ -90,10 +89,10 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// Whether a supervisor reports only after some time, which restarts with its element.
-fn comes_after_a_time(view: &View<'_>, id: SupervisorId) -> bool {
-    let template = view.template(view.supervisor(id));
-    template.inputs.iter().any(|input| input.ty == Type::Quantity(Dimension::DURATION))
+/// Whether a supervisor reports an event only after more than its period. The time restarts with its element.
+fn comes_after_a_time(view: &View<'_>, event: (SupervisorId, u16)) -> bool {
+    let period = view.supervisor(event.0).timing.period.as_secs_f64();
+    facts::earliest(view, event, f64::INFINITY).is_some_and(|time| time > period)
 }
 
 /// Whether an element, or one inside it, commands a device of the robot and ends in a state.
@@ -169,7 +168,7 @@ fn event_of(cause: Cause) -> Option<(SupervisorId, u16)> {
 fn lasts(view: &View<'_>, one: SupervisorId, edge: &Edge) -> bool {
     let Some((id, event)) = event_of(edge.cause) else { return false };
     let is_local = view.supervisor(id).owner.is_some();
-    id != one && !view.is_once(id, event) && !(is_local && comes_after_a_time(view, id))
+    id != one && !view.is_once(id, event) && !(is_local && comes_after_a_time(view, (id, event)))
 }
 
 /// The diagnostic of two events, each with the element that would have to ignore it.

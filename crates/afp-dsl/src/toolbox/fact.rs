@@ -8,7 +8,7 @@ use crate::toolbox::Condition;
 pub enum Fact {
     /// The event holds if and only if all comparisons hold.
     When(u16, Vec<Condition>),
-    /// The event holds from this time after the start, permanently.
+    /// The event is never reported before this time after the start.
     After(u16, Formula),
     /// Two supervisors of the template never report these events at the same time, if all comparisons hold. Entries after
     /// the input ports are those of the supervisor that reports the second event.

@@ -15,15 +15,21 @@ use crate::types::{Constant, Conversion};
 /// The limit of events of a cycle that are compared in pairs.
 const MAX_EVENTS: usize = 64;
 
-/// Whether an event occurs only after some time.
-pub(super) fn waits(view: &View<'_>, id: SupervisorId, event: u16) -> bool {
+/// The time from a supervisor's start before which an event never occurs, seconds, if the toolbox declares one.
+/// `unknown` stands for a time that is not constant.
+pub(in crate::flow) fn earliest(
+    view: &View<'_>,
+    (id, event): (SupervisorId, u16),
+    unknown: f64,
+) -> Option<f64> {
     let supervisor = view.supervisor(id);
     let input = |port: u16| view.constant(supervisor.inputs.get(usize::from(port))?);
-    view.template(supervisor).facts.iter().any(|fact| match fact {
-        Fact::After(of, time) if *of == event => {
-            matches!(value(time, &input), Some(Constant::Float(time)) if time > 0.0)
-        }
-        _ => false,
+    view.template(supervisor).facts.iter().find_map(|fact| match fact {
+        Fact::After(of, time) if *of == event => match value(time, &input) {
+            Some(Constant::Float(time)) => Some(time),
+            _ => Some(unknown),
+        },
+        _ => None,
     })
 }
 

@@ -11,7 +11,10 @@ use crate::types::{Conversion, Type};
 /// Whether an edge can be taken in the look, or by the start of an element.
 pub(super) fn can_hold(view: &View<'_>, cause: Cause) -> bool {
     match cause {
-        Cause::Event(id, event) => !view.is_once(id, event) && !facts::waits(view, id, event),
+        Cause::Event(id, event) => {
+            let time = facts::earliest(view, (id, event), 0.0);
+            !view.is_once(id, event) && time.is_none_or(|time| time <= 0.0)
+        }
         Cause::Error(id) => can_fail(view, &view.plan.elements[id.index()]),
         _ => true,
     }
