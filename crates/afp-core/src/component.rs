@@ -299,4 +299,14 @@ pub trait Computation<T: ComputationTemplate> {
     /// # Errors
     /// On a fault the plan takes the computation's `Error` edge.
     fn compute(inputs: T::Inputs<'_>) -> Result<T::State, Fault>;
+
+    /// As [`Computation::compute`]. A declared computation stores the state whose condition or
+    /// assignment it evaluates, for the message of a fault.
+    ///
+    /// # Errors
+    /// As [`Computation::compute`].
+    #[doc(hidden)]
+    fn compute_in(inputs: T::Inputs<'_>, _: &mut Option<u16>) -> Result<T::State, Fault> {
+        Self::compute(inputs)
+    }
 }

@@ -12,6 +12,7 @@ pub use crate::graph::Goal;
 use crate::graph::{
     Component, EdgeSpans, Element, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming,
 };
+use crate::toolbox::{Case, Template};
 use crate::types::Type;
 use afp_syntax::source::Span;
 pub use afp_types::ComponentKind;
@@ -35,6 +36,8 @@ pub struct ComponentNames {
     pub outputs: Vec<(u16, PortNames)>,
     /// Its edges that override global ones, with their targets.
     pub reactions: Vec<(Reaction, String)>,
+    /// Places of the states of a declared computation whose formulas can fail.
+    pub states: Vec<Span>,
 }
 
 /// Names of a port for a trace.
@@ -196,6 +199,7 @@ pub fn unfold(graph: &Graph) -> Unfolded {
         inputs: Vec::new(),
         outputs: Vec::new(),
         reactions: Vec::new(),
+        states: Vec::new(),
     });
     add(graph, graph.main, 0, "", &mut all);
     all
@@ -239,7 +243,7 @@ fn element(
     (prefix, first): (&str, u32),
 ) -> ComponentNames {
     let element = &plan.elements[index];
-    let (kind, template, states) = match element.component {
+    let (kind, template, states, places) = match element.component {
         Component::Actor(id) | Component::Computation(id) => {
             let template = graph.template(id);
             let kind = match element.component {
@@ -247,12 +251,12 @@ fn element(
                 _ => ComponentKind::Computation,
             };
             let states = template.outcomes.iter().map(|state| state.name.clone()).collect();
-            (kind, template.name.clone(), states)
+            (kind, template.name.clone(), states, states_that_fail(template))
         }
         Component::SubPlan(id) => {
             let child = graph.plan(id);
             let states = vec!["OK".to_owned(), "Interrupted".to_owned()];
-            (ComponentKind::SubPlan, child.name.clone(), states)
+            (ComponentKind::SubPlan, child.name.clone(), states, Vec::new())
         }
     };
     let targets = element.states.iter().map(|state| target(plan, *state));
@@ -268,7 +272,15 @@ fn element(
         reactions: reactions(element, first + plan.elements.len() as u32)
             .map(|(each, to, _)| (each, target(plan, Some(to))))
             .collect(),
+        states: places,
     }
+}
+
+/// The places of the states of a declared computation, if a formula of it can fail.
+fn states_that_fail(template: &Template) -> Vec<Span> {
+    let never_fail = template.cases.iter().flat_map(|cases| cases.iter()).all(Case::never_fails);
+    let states = template.outcomes.iter().filter(|_| !never_fail);
+    states.map(|state| state.span).collect()
 }
 
 fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> ComponentNames {
@@ -286,6 +298,7 @@ fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> Compone
         inputs: ports.inputs(&supervisor.inputs),
         outputs: ports.outputs(&supervisor.outputs, prefix),
         reactions: Vec::new(),
+        states: Vec::new(),
     }
 }
 

@@ -1,6 +1,8 @@
 //! Comparisons of values.
 
-use crate::{Error, Part, Source, Value, ValueOf, finite};
+use core::cmp::Ordering;
+
+use crate::{Error, Part, Shape, Source, Value, ValueOf, finite};
 
 /// A comparison operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +63,10 @@ impl Comparison {
         right: Part<'_, C, N>,
         source: &S,
     ) -> Result<bool, Error> {
+        // The usual case without copies of whole values.
+        if (left.root.shape, right.root.shape) == (Shape::Int, Shape::Int) {
+            return Ok(self.accepts(Some(left.int(source)?.cmp(&right.int(source)?))));
+        }
         Ok(self.holds(&comparable(left, source)?, &comparable(right, source)?))
     }
 
@@ -71,9 +77,14 @@ impl Comparison {
             (ValueOf::Float(left), ValueOf::Float(right)) => left.partial_cmp(right),
             (ValueOf::Int(left), ValueOf::Float(right)) => (*left as f64).partial_cmp(right),
             (ValueOf::Float(left), ValueOf::Int(right)) => left.partial_cmp(&(*right as f64)),
-            _ if left == right => Some(core::cmp::Ordering::Equal),
+            _ if left == right => Some(Ordering::Equal),
             _ => None,
         };
+        self.accepts(order)
+    }
+
+    /// Whether it holds for two values in this order, if they have one.
+    fn accepts(self, order: Option<Ordering>) -> bool {
         match self {
             Comparison::Equal => order.is_some_and(|order| order.is_eq()),
             Comparison::NotEqual => !order.is_some_and(|order| order.is_eq()),

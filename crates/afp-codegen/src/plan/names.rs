@@ -70,6 +70,7 @@ fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
         ComponentKind::SubPlan => quote!(SubPlan),
         ComponentKind::Supervisor => quote!(Supervisor),
     };
+    let outcome_names = outcomes.iter().map(|(name, _)| name);
     let outcomes = outcomes.iter().map(|(name, target)| quote!((#name, #target)));
     let inputs = names.inputs.iter().map(|names| port(names, texts));
     let writing = (!names.outputs.is_empty()).then(|| {
@@ -84,10 +85,17 @@ fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
         let reactions = names.reactions.iter().map(|(each, target)| reaction(each, target));
         quote!(.reacting(&[#(#reactions),*]))
     });
+    let states = (!names.states.is_empty()).then(|| {
+        let states = outcome_names.zip(&names.states).map(|(name, span)| {
+            let at = placed(texts.place(*span));
+            quote!(PortRow::new(#name, "") #at)
+        });
+        quote!(.declared(&[#(#states),*]))
+    });
     quote! {
         ComponentRow::new(
             #path, ComponentKind::#kind, #template, &[#(#outcomes),*], #special, &[#(#inputs),*],
-        ) #writing #reactions
+        ) #writing #reactions #states
     }
 }
 

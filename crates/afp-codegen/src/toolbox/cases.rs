@@ -1,6 +1,6 @@
 //! The implementation of a declared computation, made from its formulas.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::{bound, type_paths};
@@ -14,12 +14,14 @@ use afp_types::Comparison;
 
 /// The `impl` in the module of the template; nothing for a template that Rust or Python implements.
 pub fn implement(core: &TokenStream, template: &Template) -> Option<TokenStream> {
+    let cases = template.cases.as_deref().unwrap_or_default();
+    let can_fail = !cases.iter().all(Case::never_fails);
     let body = match &template.states_of {
         Some(states) => selection(core, template, states.port)?,
-        None => first_case(core, template)?,
+        None => first_case(core, template, can_fail)?,
     };
     let uses = imports::of_core(core, &[("", body.clone())]);
-    let reads = template.cases.iter().flat_map(|cases| cases.iter()).flat_map(Case::formulas);
+    let reads = cases.iter().flat_map(Case::formulas);
     let reads = template.states_of.is_some() || reads.flat_map(Formula::entries).next().is_some();
     let inputs = if reads { quote!(inputs) } else { quote!(_) };
     let name = ident(&camel(&template.name));
@@ -28,14 +30,29 @@ pub fn implement(core: &TokenStream, template: &Template) -> Option<TokenStream>
         None => Default::default(),
     };
     let template = quote!(super::#name #arguments);
-    Some(quote! {
-        impl #parameters #core::Computation<#template> for #template {
-            fn compute(
-                #inputs: <#template as #core::ComputationTemplate>::Inputs<'_>,
-            ) -> Result<<#template as #core::ComputationTemplate>::State, #core::Fault> {
+    let input = quote!(<#template as #core::ComputationTemplate>::Inputs<'_>);
+    let result = quote!(Result<<#template as #core::ComputationTemplate>::State, #core::Fault>);
+    let functions = match can_fail {
+        true => quote! {
+            fn compute(inputs: #input) -> #result {
+                Self::compute_in(inputs, &mut None)
+            }
+
+            fn compute_in(#inputs: #input, state: &mut Option<u16>) -> #result {
                 #uses
                 #body
             }
+        },
+        false => quote! {
+            fn compute(#inputs: #input) -> #result {
+                #uses
+                #body
+            }
+        },
+    };
+    Some(quote! {
+        impl #parameters #core::Computation<#template> for #template {
+            #functions
         }
     })
 }
@@ -51,20 +68,26 @@ fn selection(core: &TokenStream, template: &Template, port: u16) -> Option<Token
     })
 }
 
-/// The first state whose condition holds.
-fn first_case(core: &TokenStream, template: &Template) -> Option<TokenStream> {
+/// The first state whose condition holds. Stores each state for the message of a fault, if formulas can fail.
+fn first_case(core: &TokenStream, template: &Template, can_fail: bool) -> Option<TokenStream> {
     let (last, cases) = template.cases.as_deref()?.split_last()?;
     let type_paths = type_paths(core);
     let names: Vec<_> = template.inputs.iter().map(|port| ident(&snake(&port.name))).collect();
     let formulas = Formulas { reads: Reads::Inputs, ..Formulas::new(&type_paths, &names) };
     let writer = Writer { template, formulas };
-    let first = template.outcomes.iter().zip(cases).map(|(outcome, case)| {
+    let store = |number: usize| {
+        let number = Literal::usize_unsuffixed(number);
+        can_fail.then(|| quote!(*state = Some(#number);))
+    };
+    let first = template.outcomes.iter().zip(cases).enumerate().map(|(number, (outcome, case))| {
+        let store = store(number);
         let conditions = case.when.iter().map(|one| writer.condition(one));
         let state = writer.state(&outcome.name, case);
-        quote!(if #(#conditions)&&* { return Ok(#state); })
+        quote!(#store if #(#conditions)&&* { return Ok(#state); })
     });
     let last = writer.state(&template.outcomes.last()?.name, last);
-    Some(quote!(#(#first)* Ok(#last)))
+    let store = store(cases.len());
+    Some(quote!(#(#first)* #store Ok(#last)))
 }
 
 struct Writer<'a> {

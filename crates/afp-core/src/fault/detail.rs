@@ -8,7 +8,7 @@ use core::fmt;
 use afp_types::{Error, Measured, Quantity};
 
 use super::Fault;
-use crate::trace::{ComponentId, Names, PortName, TextPlace, TraceEntryId};
+use crate::trace::{ComponentId, Names, Outcome, PortName, TextPlace, TraceEntryId};
 
 /// The value that caused a fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,8 @@ pub enum Subject {
     Output(u16),
     /// The initial value of an entry.
     Entry(TraceEntryId),
+    /// The condition or an assignment of a declared computation's state, by position.
+    State(u16),
 }
 
 /// A fault and the invalid value, on its way to the scheduler.
@@ -51,6 +53,7 @@ pub(crate) enum Port {
     Input(u16),
     Output(u16),
     Entry(u16),
+    State(u16),
 }
 
 impl From<Fault> for BadValue {
@@ -90,6 +93,12 @@ impl BadValue {
         self.meant_for(Port::Entry(entry))
     }
 
+    /// Adds the state of a declared computation whose condition or assignment failed.
+    #[must_use]
+    pub fn for_state(self, state: u16) -> Self {
+        self.meant_for(Port::State(state))
+    }
+
     /// Keeps an earlier port, which is the inner one.
     fn meant_for(self, port: Port) -> Self {
         BadValue { port: Some(self.port.unwrap_or(port)), ..self }
@@ -111,6 +120,7 @@ impl<N: Names + ?Sized> fmt::Display for Explained<'_, N> {
             Subject::Input(port) => (self.names.input_port(detail.component, port), "formula"),
             Subject::Output(port) => (self.names.output_port(detail.component, port), "output"),
             Subject::Entry(entry) => (self.entry(entry), "formula"),
+            Subject::State(state) => (self.state(detail.component, state), "state"),
         };
         write!(f, "'{}'", name.name)?;
         if !matches!(detail.subject, Subject::Entry(_)) {
@@ -127,6 +137,11 @@ impl<N: Names + ?Sized> fmt::Display for Explained<'_, N> {
 }
 
 impl<'a, N: Names + ?Sized> Explained<'a, N> {
+    fn state(&self, id: ComponentId, state: u16) -> PortName<'a> {
+        let name = self.names.outcome(id, Outcome::Declared(state));
+        PortName { name, place: self.names.state(id, state), ..PortName::default() }
+    }
+
     fn entry(&self, id: TraceEntryId) -> PortName<'a> {
         let entry = self.names.entry(id);
         PortName {

@@ -32,6 +32,8 @@ pub struct ComponentRow {
     pub outputs: &'static [PortRow],
     /// The element's edges that override those of global supervisors.
     pub reactions: &'static [Reaction<'static>],
+    /// The states of a declared computation whose formulas can fail, with their source positions.
+    pub states: &'static [PortRow],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -97,13 +99,20 @@ impl ComponentRow {
         inputs: &'static [PortRow],
     ) -> Self {
         let name = ComponentName { path, kind, template };
-        ComponentRow { name, outcomes, special, inputs, outputs: &[], reactions: &[] }
+        ComponentRow { name, outcomes, special, inputs, outputs: &[], reactions: &[], states: &[] }
     }
 
     /// Adds the bound outputs.
     #[must_use]
     pub const fn writing(mut self, outputs: &'static [PortRow]) -> Self {
         self.outputs = outputs;
+        self
+    }
+
+    /// Adds the states of a declared computation.
+    #[must_use]
+    pub const fn declared(mut self, states: &'static [PortRow]) -> Self {
+        self.states = states;
         self
     }
 
@@ -257,6 +266,10 @@ impl Names for NameTable {
 
     fn initial(&self, id: TraceEntryId) -> Option<TextPlace<'_>> {
         self.entry_row(id)?.initial
+    }
+
+    fn state(&self, id: ComponentId, state: u16) -> Option<TextPlace<'_>> {
+        self.row(id)?.states.get(usize::from(state))?.name.place
     }
 
     fn entries(&self) -> u32 {

@@ -113,7 +113,11 @@ impl<R: Run> Cx<'_, R> {
         A: Computation<T>,
     {
         let inputs = self.read(inputs)?;
-        A::compute(inputs)
+        let mut state = None;
+        A::compute_in(inputs, &mut state).map_err(|fault| match state {
+            Some(state) => self.note(BadValue::from(fault).for_state(state)),
+            None => fault,
+        })
     }
 }
 

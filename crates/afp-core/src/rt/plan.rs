@@ -219,6 +219,7 @@ impl<R: Run> Cx<'_, R> {
         let subject = why.port.map(|port| match port {
             Port::Input(port) => Subject::Input(port),
             Port::Output(port) => Subject::Output(port),
+            Port::State(state) => Subject::State(state),
             Port::Entry(entry) => {
                 Subject::Entry(TraceEntryId(self.place.entries.saturating_add(entry.into())))
             }

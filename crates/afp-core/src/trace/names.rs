@@ -204,6 +204,10 @@ pub trait Names {
     fn initial(&self, _: TraceEntryId) -> Option<TextPlace<'_>> {
         None
     }
+    /// Source position of a state of a declared computation whose formulas can fail.
+    fn state(&self, _: ComponentId, _: u16) -> Option<TextPlace<'_>> {
+        None
+    }
     /// Number of entries.
     fn entries(&self) -> u32;
     /// An entry.

@@ -46,7 +46,7 @@ impl Case {
 
     /// Whether its formulas cannot fail unless an input fails: they read ports and constants, or
     /// count up to a limit.
-    pub(crate) fn never_fails(&self) -> bool {
+    pub fn never_fails(&self) -> bool {
         self.formulas().all(|formula| {
             let part = formula.part();
             is_plain(part) || self.when.first().and_then(|one| one.counted(part)).is_some()

@@ -35,12 +35,12 @@ pub struct TextPlace<'a> {
 impl PlanTexts {
     pub(super) fn new(graph: &Graph) -> Self {
         let last = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
-        let files = graph.plans.iter().filter_map(|plan| {
-            let file = plan.span.file;
-            let (_, source) = graph.sources.iter().find(|(number, _)| *number == file)?;
-            let name = plan.file.clone().unwrap_or_else(|| last(&source.name));
+        let files = graph.sources.iter().map(|(file, source)| {
+            let plan = graph.plans.iter().find(|plan| plan.span.file == *file);
+            let name = plan.and_then(|plan| plan.file.clone());
+            let name = name.unwrap_or_else(|| last(&source.name));
             let ends = source.text.match_indices('\n').map(|(at, _)| at + 1);
-            Some((file, File { name, source: Arc::clone(source), lines: ends.collect() }))
+            (*file, File { name, source: Arc::clone(source), lines: ends.collect() })
         });
         PlanTexts { files: files.collect() }
     }

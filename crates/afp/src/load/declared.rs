@@ -8,7 +8,7 @@ use afp_core::{Fault, Value};
 use afp_dsl::toolbox::{Case, InPort, Template};
 use afp_dsl::types::Type;
 use afp_dsl::types::converter::Converter;
-use afp_types::{Comparison, EntryId, Error, Source};
+use afp_types::{Comparison, EntryId, Error, Shape, Source};
 
 use super::formula::Formula;
 use super::numbered;
@@ -22,7 +22,10 @@ pub struct DeclaredSlot {
 }
 
 struct Declared {
-    inputs: Vec<InPort>,
+    /// The ports whose values can be invalid: in a range, or perhaps not finite.
+    checked: Vec<(u16, InPort)>,
+    /// Whether each input is an integer, which is read without a copy of a whole value.
+    is_int: Vec<bool>,
     cases: Vec<Ready>,
 }
 
@@ -38,9 +41,12 @@ impl DeclaredSlot {
     /// A computation of a template with these cases.
     pub fn new(template: &Template, cases: &[Case]) -> Self {
         let cases = cases.iter().map(Ready::new).collect();
-        let inputs = template.inputs.clone();
-        let values = RefCell::new(vec![Value::default(); inputs.len()]);
-        DeclaredSlot { declared: Arc::new(Declared { inputs, cases }), values }
+        let is_valid = |port: &InPort| port.range.is_none() && port.ty == Type::Int;
+        let checked = numbered(&template.inputs).filter(|(_, port)| !is_valid(port));
+        let checked = checked.map(|(number, port)| (number, port.clone())).collect();
+        let is_int: Vec<_> = template.inputs.iter().map(|port| port.ty == Type::Int).collect();
+        let values = RefCell::new(vec![Value::default(); is_int.len()]);
+        DeclaredSlot { declared: Arc::new(Declared { checked, is_int, cases }), values }
     }
 }
 
@@ -91,22 +97,31 @@ impl ComputationSlot for DeclaredSlot {
         see: See<'_>,
         to: &mut dyn Outputs,
     ) -> Result<u16, BadValue> {
-        let Declared { inputs, cases } = &*self.declared;
+        let Declared { checked, is_int, cases } = &*self.declared;
         let mut values = self.values.try_borrow_mut().map_err(|_| Fault::INTERNAL)?;
-        for (port, value) in numbered(&mut *values) {
-            *value = input(port, || Ok(args.value(port)?))?;
+        for ((port, value), is_int) in numbered(&mut *values).zip(is_int) {
+            *value = match is_int {
+                true => Value::Int(input(port, || Ok(args.int(port)?))?),
+                false => input(port, || Ok(args.value(port)?))?,
+            };
         }
         if let Some(see) = see {
             numbered(&*values).for_each(|(port, value)| see(port, value.as_deref()));
         }
-        for ((number, port), value) in numbered(inputs).zip(&*values) {
-            check(number, port, value)?;
+        for (number, port) in checked {
+            let value = values.get(usize::from(*number)).ok_or(Fault::INTERNAL)?;
+            check(*number, port, value)?;
         }
         let given = Given(&values);
         for (state, case) in numbered(cases) {
-            if case.holds(&given)? {
+            let failed = |why: Error| BadValue::from(why).for_state(state);
+            if case.holds(&given).map_err(failed)? {
                 for (port, formula) in &case.writes {
-                    to.value(*port, formula.part().value(&given)?);
+                    let part = formula.part();
+                    match part.root.shape {
+                        Shape::Int => to.int(*port, part.int(&given).map_err(failed)?),
+                        _ => to.value(*port, part.value(&given).map_err(failed)?),
+                    }
                 }
                 return Ok(state);
             }

@@ -119,6 +119,10 @@ impl Names for PlanNames {
         all.iter().map(|(position, _)| position.saturating_add(1)).max().unwrap_or(0)
     }
 
+    fn state(&self, id: ComponentId, state: u16) -> Option<TextPlace<'_>> {
+        self.place(*self.get(id)?.states.get(usize::from(state))?)
+    }
+
     fn initial(&self, id: TraceEntryId) -> Option<TextPlace<'_>> {
         self.place(self.get_entry(id)?.initial?)
     }
