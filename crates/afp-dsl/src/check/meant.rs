@@ -146,7 +146,10 @@ fn behind_word(
 
 /// `Forward(30 cm)`: a value without its port, which its place may tell.
 fn value(program: &Program<'_>, text: &str, error: &Diagnostic) -> Option<Diagnostic> {
-    let before = text.get(..error.span.start as usize)?;
+    let (before, behind) = text.split_at_checked(error.span.start as usize)?;
+    if behind.starts_with('(') {
+        return None;
+    }
     let (mut depth, mut commas, mut open) = (0_usize, 0, None);
     for (at, sign) in before.char_indices().rev() {
         match sign {

@@ -8,6 +8,13 @@ use crate::message;
 impl Parser<'_, '_> {
     /// `"->" target`: where the only state of the element leads. Returns whether that is all of it.
     pub(super) fn edge_without_braces(&mut self) -> bool {
+        let is_reversed = (self.nth(0), self.nth(1)) == (Kind::Name, Kind::Arrow);
+        if is_reversed && self.on_same_line() && self.begins_line(2) {
+            let message = "the arrow comes before its target";
+            let target = format!("-> {}", self.word(0));
+            self.instead(2, message, message!("write '{}'", target), &target);
+            return true;
+        }
         let is_arrow = match self.arrow_at(0) {
             Some(1) => matches!(self.nth(0), Kind::Arrow | Kind::FatArrow),
             arrow => arrow.is_some(),

@@ -3,6 +3,7 @@
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
+use crate::message;
 
 const COLUMNS_HELP: &str = "name the columns in brackets, such as '(x: length, y: length)'";
 const ROW_HELP: &str = "write a row such as '(1 m, 2 m)'";
@@ -111,6 +112,10 @@ impl Parser<'_, '_> {
     }
 
     fn no_comma(&mut self) {
+        if self.at(Kind::Name) && self.word(0) == self.word_before() {
+            let message = message!("{} stands twice", self.found());
+            return self.instead(1, message, "remove one of them", "");
+        }
         let behind = self.behind();
         let error = self.instead_of(behind, "','");
         self.error(error.help("write ',' between the values of a row").fix(behind, ","));

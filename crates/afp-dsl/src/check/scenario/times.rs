@@ -39,17 +39,12 @@ impl Stretch {
     }
 
     pub fn instant(&self, written: &Formula, diags: &mut Diagnostics) -> Option<u64> {
-        let at = timing::time(written, &[self.usual(written)], diags)?;
+        let at = timing::time(written, &[usual(written, self.until)], diags)?;
         if at > self.until {
             diags.push(self.too_late(written.span()));
             return None;
         }
         Some(at)
-    }
-
-    /// The likely unit of an instant: in seconds it may be after the end.
-    fn usual(&self, written: &Formula) -> &'static str {
-        if as_seconds(written) > self.until as f64 { "ms" } else { "s" }
     }
 
     fn too_late(&self, span: Span) -> Diagnostic {
@@ -68,6 +63,10 @@ impl Stretch {
         let mut seen: Vec<(String, Span)> = Vec::new();
         let mut window = Window { from: 0, to: self.until };
         let mut length = None;
+        // Errors in the times are reported below.
+        let ends = bounds.iter().filter(|bound| bound.word() == "before").filter_map(Bound::time);
+        let ends = ends.filter_map(|time| timing::time(&time, &["s"], &mut Diagnostics::default()));
+        let end = ends.fold(self.until, u64::min);
         for bound in bounds {
             let word = bound.word();
             let clash = |known: &str| {
@@ -95,7 +94,7 @@ impl Stretch {
                 // Reactions take milliseconds, and motions take seconds.
                 "within" if as_seconds(&written) <= 60e9 => &["ms", "s"],
                 "within" => &["ms"],
-                _ => &[self.usual(&written)],
+                _ => &[usual(&written, end)],
             };
             let time = timing::time(&written, usual, diags)?;
             match word.as_str() {
@@ -122,6 +121,11 @@ impl Stretch {
         }
         Some(window)
     }
+}
+
+/// The likely unit of an instant: in seconds it may be after the end.
+fn usual(written: &Formula, end: u64) -> &'static str {
+    if as_seconds(written) > end as f64 { "ms" } else { "s" }
 }
 
 /// The likely unit of an end: in seconds it may be before a later line.

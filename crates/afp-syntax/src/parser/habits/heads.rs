@@ -109,7 +109,11 @@ impl Parser<'_, '_> {
             && !self.begins_line(1);
         if stands {
             let error = Diagnostic::new(Code::E0102, self.ahead(2), "a name is one word");
-            self.error(error.write(format!("{}_{}", self.word(0), self.word(1))));
+            let (first, second) = (self.word(0), self.word(1));
+            self.error(error.write(match first == second {
+                true => first.to_owned(),
+                false => format!("{first}_{second}"),
+            }));
             self.bump();
             self.pass(1);
         }
