@@ -23,11 +23,12 @@ const FOLDERS: [&str; 6] = [
     "../../examples/embed/plans",
     "../../examples/peers/plans",
 ];
-const TOOLBOXES: [&str; 6] = [
+const TOOLBOXES: [&str; 7] = [
     "../../examples/vacuum/vacuum.afp",
     "../../examples/embed/shop.afp",
     "../../examples/peers/toolboxes/air.afp",
     "../../examples/peers/toolboxes/bench.afp",
+    "../../examples/peers/toolboxes/brick.afp",
     "../../examples/peers/toolboxes/house.afp",
     "../../examples/peers/toolboxes/nav.afp",
 ];
