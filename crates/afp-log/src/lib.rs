@@ -26,6 +26,7 @@ mod scan;
 mod session;
 pub mod statistics;
 pub mod svg;
+mod wall_clock;
 mod write;
 
 pub use afp_session::{Kept, OwnedRecord};

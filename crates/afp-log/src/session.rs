@@ -6,14 +6,15 @@ use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, signals};
 use afp_core::trace::{Ending, Record, Sink};
 use afp_core::{Duration, Instant, Value};
 use afp_session::{
-    AnySession, Applied, Datum, Done, FILM, NamedRecord, Observer, Requested, RunEvent, SAMPLE,
-    SampleRef, Sampling, Shape,
+    AnySession, Applied, Datum, Done, FILM, LoopTimes, NamedRecord, Observer, Requested, RunEvent,
+    SAMPLE, SampleRef, Sampling, Shape,
 };
 
 use crate::channels::{FRAMES, Signal};
 use crate::error::LogError;
 use crate::recorder::{Recorder, Written};
 use crate::robot::{Image, Level, Transform};
+use crate::wall_clock::Clocks;
 
 /// The interval in which live clients get the whole scene.
 const SCENES: Duration = Duration::from_secs(1);
@@ -39,6 +40,8 @@ pub struct SessionLog {
     moved: Vec<Shape>,
     /// The next time for the whole scene. In a file, the scene is only at the beginning.
     scene_again: Instant,
+    /// The latest look at the clocks of a real robot's computer.
+    clocks: Option<Clocks>,
 }
 
 struct Followed {
@@ -73,7 +76,14 @@ impl SessionLog {
             shapes: scene,
             moved: Vec::new(),
             scene_again,
+            clocks: None,
         }
+    }
+
+    /// Also writes the jumps of the wall clock, for a run in real time.
+    #[must_use]
+    pub fn in_real_time(self) -> Self {
+        SessionLog { clocks: Some(Clocks::now()), ..self }
     }
 
     /// Writes the session's results, waits for the writer and gives the log its name.
@@ -89,7 +99,14 @@ impl SessionLog {
             let request = Requested { at, what, done: Done::NotReached };
             self.recorder.event(RunEvent::requested(now, request));
         }
-        self.recorder.end(now, vec![("trace".to_owned(), session.trace().to_string())]);
+        let mut facts = vec![("trace".to_owned(), session.trace().to_string())];
+        if let Some(LoopTimes { late, steps }) = session.loop_times() {
+            facts.extend(
+                [("loop_late", late), ("loop_steps", steps)]
+                    .map(|(key, times)| (key.to_owned(), times.to_string())),
+            );
+        }
+        self.recorder.end(now, facts);
         self.recorder.finish()
     }
 
@@ -126,6 +143,19 @@ impl SessionLog {
         }
         self.recorder.scene(at, self.shapes.clone());
         self.echoes.clear();
+    }
+
+    /// Writes a jump of the wall clock since the last look.
+    fn look_at_clocks(&mut self, at: Instant) {
+        let Some((before, now)) = self.clocks.and_then(|before| Some((before, before.next()?)))
+        else {
+            return;
+        };
+        self.clocks = Some(now);
+        if let Some(jump) = now.jump_since(&before) {
+            let text = format!("the wall clock jumped by {jump:+.3} s");
+            self.recorder.text(at, Level::Warning, "clock", &text);
+        }
     }
 
     fn device(&self, id: SignalId) -> &'static str {
@@ -215,6 +245,7 @@ impl Observer for SessionLog {
 
     fn after_samples(&mut self, at: Instant) {
         self.silence(at);
+        self.look_at_clocks(at);
         if std::mem::take(&mut self.has_picture) {
             self.camera = at + FILM;
         }

@@ -120,8 +120,8 @@ pub struct RunOptions {
     )]
     pub live: Option<SocketAddr>,
 
-    /// Reports real-time behaviour (comes with the driver for the Raspberry Pi)
-    #[arg(long, hide = true)]
+    /// Prints how late the control loop of the robot itself woke up and how long its steps took
+    #[arg(long)]
     pub rt_report: bool,
 
     /// Lets a debugger in at the robot itself (comes with its real-time driver)
@@ -171,10 +171,10 @@ impl RunOptions {
     /// # Errors
     /// [`RunError::Usage`] explains the option.
     pub fn check(&self) -> Result<(), RunError> {
-        if self.rt_report {
+        if self.rt_report && self.robot == OnRobot::Sim {
             return Err(RunError::usage(
-                "'--rt-report' waits for the real-time driver of afp",
-                "'--speed 1x' runs in real time, without guarantees",
+                "'--rt-report' measures the control loop of the robot itself, and this run is simulated",
+                "add '--robot hardware', or leave it out",
             ));
         }
         if self.debug.is_some() {

@@ -9,6 +9,7 @@ pub(crate) mod realtime;
 use std::io;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
+use std::time::SystemTime;
 
 use afp_core::trace::Names;
 use afp_core::{Duration, Ending, Instant};
@@ -179,7 +180,8 @@ fn log_of(
             "an earlier run of this log was killed: 'afpc log {kept} recover' saves what there is of it"
         ));
     }
-    Ok(SessionLog::new(recorder, devices, scene, options.camera))
+    let log = SessionLog::new(recorder, devices, scene, options.camera);
+    Ok(if options.robot == OnRobot::Hardware { log.in_real_time() } else { log })
 }
 
 /// The scheduling of a real robot's control loop, and the guards that stop the robot if the session
@@ -311,6 +313,7 @@ impl Came<'_> {
             trace: Some(session.trace()).filter(|_| lost == 0),
             distance: track.way(),
             requests,
+            times: session.loop_times().filter(|_| setting.options.rt_report).copied(),
         };
         let figures = ran.figures(&counts, measured, session.names());
         let svg = paths.svg.as_deref();
@@ -387,7 +390,10 @@ fn about(setting: &Setting<'_>) -> About {
         TimeKeeper::Robot => "the robot's",
     };
     let more = hashes(recipe).into_iter().chain([("clock", clock.to_owned())]);
-    about.facts.extend(more.map(|(key, value)| (key.to_owned(), value)));
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok();
+    let since = since.filter(|_| options.robot == OnRobot::Hardware);
+    let wall = since.map(|since| ("wall_clock_s", format!("{:.3}", since.as_secs_f64())));
+    about.facts.extend(more.chain(wall).map(|(key, value)| (key.to_owned(), value)));
     about.facts.extend(facts.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())));
     about
 }

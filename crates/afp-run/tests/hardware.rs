@@ -255,6 +255,10 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
     assert_eq!(ran.unwrap(), EXIT_OK);
     let read = afp_log::read(Path::new(name)).unwrap();
     assert_eq!((&*read.recipe().robot, &read.cut_short), ("hardware", &None));
+    assert!(read.facts["wall_clock_s"].parse::<f64>().unwrap() > 1e9);
+    for times in ["loop_late", "loop_steps"] {
+        assert!(read.end[times].contains(", p50 "), "{:?}", read.end);
+    }
     let robot = simulated::<Simulation, _>(|_| {});
     // The simulation knows no world of it, and its pose is unknown.
     let drawn = afp_run::draw_log(&read, robot.kind()).unwrap_err().to_string();

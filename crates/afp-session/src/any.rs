@@ -7,6 +7,7 @@ use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
 use afp_core::{Duration, EntryId, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
 use crate::figures::Figures;
+use crate::loop_times::LoopTimes;
 use crate::not_set::NotSet;
 use crate::observer::{Gate, Go, Next, Observer};
 use crate::request::{Request, RequestError, RequestId};
@@ -139,6 +140,9 @@ pub trait AnySession: Send {
 
     /// Sets the hash of the trace, if an observer computes it.
     fn set_trace(&mut self, trace: TraceHash);
+
+    /// The times of a real robot's control loop; `None` in simulation.
+    fn loop_times(&self) -> Option<&LoopTimes>;
 
     /// All requests so far with their times. The same requests make the same run.
     fn requests(&self) -> &[(Instant, Request)];

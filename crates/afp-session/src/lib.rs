@@ -32,6 +32,7 @@ mod faults;
 mod figures;
 mod hardware;
 mod holds;
+mod loop_times;
 mod not_set;
 mod observer;
 mod opened;
@@ -60,6 +61,7 @@ pub use event::{
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
 pub use hardware::{Hardware, LastResort, NoWorld, STALL, Settings};
+pub use loop_times::{Histogram, LoopTimes};
 pub use not_set::{NotSet, refusal, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Next, Observer, Open, Sampling, View};
 pub use opened::Opened;

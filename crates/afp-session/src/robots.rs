@@ -128,7 +128,8 @@ where
     P: NamedPlan + Plan<R>,
     R: Simulated,
 {
-    /// A plan on a robot at its start in a world, judged by measures.
+    /// A plan on a robot at its start in a world, judged by measures. An input `seed: int` of the
+    /// plan gets the seed.
     ///
     /// # Errors
     /// The world belongs to another robot or cannot be built; the robot has no such measure.
@@ -138,10 +139,12 @@ where
         seed: u64,
         measures: &[&str],
     ) -> Result<Self, SessionError> {
-        Session::new(plan, robot_in(world, seed)?).measured(measures)
+        Session::new(plan, robot_in(world, seed)?).prepared(seed, measures)
     }
 
-    fn measured(mut self, measures: &[&str]) -> Result<Self, SessionError> {
+    /// Writes the seed to the plan's input `seed: int`, if it accepts the value, and adds measures.
+    fn prepared(mut self, seed: u64, measures: &[&str]) -> Result<Self, SessionError> {
+        self.write_seed(seed);
         for name in measures {
             let unknown = || SessionError::Measure((*name).to_owned(), R::MEASURES);
             self.add_measure(R::measure(name).ok_or_else(unknown)?);
@@ -163,7 +166,7 @@ pub trait Loader: Sync {
     fn kind(&self) -> &dyn AnyRobot;
 
     /// A session of the main plan of a graph on a robot at its start in a world, judged by
-    /// measures.
+    /// measures. An input `seed: int` of the plan gets the seed.
     ///
     /// # Errors
     /// A template is unknown to this program or does not work on the robot; the world belongs to
@@ -207,7 +210,7 @@ impl<R: Simulated, F: Fn(&mut Registry<R>) + Sync> Loader for Simulator<R, F> {
         (self.register)(&mut registry);
         let plan = LoadedPlan::new(plan, &registry).map_err(SessionError::Load)?;
         let robot = robot_in::<R>(world, seed)?;
-        Ok(Box::new(Session::loaded(plan, robot).measured(measures)?))
+        Ok(Box::new(Session::loaded(plan, robot).prepared(seed, measures)?))
     }
 }
 

@@ -11,11 +11,12 @@ use std::sync::Arc;
 use afp_core::devices::Devices;
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{Ending, TraceHash};
-use afp_core::{Duration, Fault, Instant, Scheduler, StartError, Wake};
+use afp_core::{Clock, Duration, Instant, Scheduler, StartError, Wake};
 
 use crate::faults::Faults;
 use crate::figures::Figures;
 use crate::holds::Holds;
+use crate::loop_times::LoopTimes;
 use crate::observer::{Gate, Go, Next, Observer, Open};
 use crate::record::{Keep, Kept};
 use crate::request::{Request, Requests};
@@ -66,6 +67,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     measures: Vec<Box<dyn Measure<R>>>,
     samples: SampleGrid,
     trace: TraceHash,
+    /// The times of a real robot's control loop; `None` in simulation.
+    times: Option<Box<LoopTimes>>,
     /// Whether the session makes the lines and the hash of the trace.
     makes_trace: bool,
     /// A buffer for the line of a record.
@@ -116,6 +119,7 @@ where
             holds: Holds::default(),
             measures: Vec::new(),
             trace: TraceHash::default(),
+            times: None,
             makes_trace: true,
             line: String::new(),
             testing: None,
@@ -166,6 +170,7 @@ where
             still: self.still,
             samples: self.samples,
             trace: self.trace,
+            times: None,
             makes_trace: self.makes_trace,
             testing: self.testing.as_ref().map(Testing::copy),
         })
@@ -305,6 +310,9 @@ where
         if self.has_stalled(late + now.since(target.max(before)), to) {
             return Ok(Go::On);
         }
+        if let Some(times) = &mut self.times {
+            times.woke(target, before, now);
+        }
         match now == before && target > now {
             true => self.stood_still(now, to),
             false => self.still = 0,
@@ -314,6 +322,9 @@ where
         }
         if self.due() <= now {
             self.step(now, to)?;
+            if let Some(times) = &mut self.times {
+                times.steps.note(self.clock.now(now).since(now));
+            }
         }
         Ok(Go::On)
     }
@@ -327,26 +338,6 @@ where
         if self.next_from_outside() <= now {
             self.apply_due(now, to);
         }
-    }
-
-    /// Ends the plan now, as interrupted.
-    pub fn stop(&mut self, to: &mut [&mut dyn Observer]) {
-        let now = self.robot.now();
-        self.apply_due(now, to);
-        if self.scheduler.ending().is_none() {
-            self.scheduler.request_stop();
-            // A plan that has not started ends at its start; if it cannot start, nothing has to
-            // stop.
-            let _ = self.guarded(to, |session, to| session.step(now, to).map(|()| Go::On));
-        }
-        self.robot.emergency_stop();
-    }
-
-    /// Ends the plan now with a fault, because it can no longer be trusted.
-    pub fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]) {
-        let now = self.robot.now();
-        let wake = self.scheduler.abort((&mut self.robot, &mut self.sink, &self.clock), fault);
-        self.woke(wake, now, to);
     }
 
     /// Stops the robot permanently and returns the results.

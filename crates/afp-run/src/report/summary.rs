@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, Outcome, TraceHash};
 use afp_session::{
-    AnySession, Applied, Counts, Done, Figure, FigureValue, Figures, Observer, Requested, Span,
-    Stimulus, Usage,
+    AnySession, Applied, Counts, Done, Figure, FigureValue, Figures, LoopTimes, Observer,
+    Requested, Span, Stimulus, Usage,
 };
 use anstyle::{AnsiColor, Style};
 use serde::{Serialize, Serializer};
@@ -63,6 +63,12 @@ pub(crate) struct RunFigures {
     #[serde(flatten)]
     measured: Figures,
     trace: String,
+    /// How late a real robot's control loop woke up, if that is wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    loop_late: Option<String>,
+    /// How long its steps took.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    loop_steps: Option<String>,
 }
 
 /// The figures, and the places of things.
@@ -93,6 +99,8 @@ pub(crate) struct Ran<'a> {
     /// Metres; `None` without a pose of the robot.
     pub distance: Option<f64>,
     pub requests: Vec<Requested>,
+    /// The times of a real robot's control loop, if they are wanted.
+    pub times: Option<LoopTimes>,
 }
 
 /// Collects requests from outside.
@@ -153,6 +161,8 @@ impl Ran<'_> {
             requests: self.requests,
             measured,
             trace: self.trace.map_or_else(|| "incomplete".to_owned(), |hash| hash.to_string()),
+            loop_late: self.times.map(|times| times.late.to_string()),
+            loop_steps: self.times.map(|times| times.steps.to_string()),
         }
     }
 }
@@ -320,6 +330,12 @@ impl Summary {
         }
         line("trace", figures.trace.clone());
         line("speed", format!("{:.0} x real time", self.speed));
+        for (key, times) in [("loop late", &figures.loop_late), ("loop steps", &figures.loop_steps)]
+        {
+            if let Some(times) = times {
+                line(key, times.clone());
+            }
+        }
         if self.lost > 0 {
             line("lost", format!("{BAD}{} records and samples{BAD:#}", self.lost));
         }

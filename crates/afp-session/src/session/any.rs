@@ -10,6 +10,7 @@ use afp_core::{Duration, EntryId, Fault, Instant, StartError, Value, ValueRef, W
 use super::{Session, report};
 use crate::any::AnySession;
 use crate::figures::Figures;
+use crate::loop_times::LoopTimes;
 use crate::not_set::NotSet;
 use crate::observer::{Gate, Go, Next, Observer};
 use crate::record::Keep;
@@ -147,6 +148,10 @@ where
 
     fn set_trace(&mut self, trace: TraceHash) {
         self.trace = trace;
+    }
+
+    fn loop_times(&self) -> Option<&LoopTimes> {
+        self.times.as_deref()
     }
 
     fn requests(&self) -> &[(Instant, Request)] {

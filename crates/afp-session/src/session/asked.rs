@@ -66,6 +66,7 @@ where
         let mut session = Session::with_sink(plan, robot, Kept::with_room(pulse.clone()));
         session.stall = Some(STALL);
         session.pulse = Some(pulse);
+        session.times = Some(Box::default());
         session
     }
 
@@ -308,6 +309,14 @@ where
         self.asked.push((at, request.clone()));
         self.requests.add_done(at, request);
         Ok(())
+    }
+
+    /// Writes the seed of the run to the plan's input `seed`. The recipe of the run has the seed, so
+    /// this is not a request. An entry of another kind or type keeps its value.
+    pub(crate) fn write_seed(&mut self, seed: u64) {
+        if let Some(entry) = self.scheduler.plan().entry_named("seed") {
+            let _ = self.scheduler.write(entry, Value::Int(seed.cast_signed()));
+        }
     }
 
     /// Writes an entry as text, `35 cm`: before the start an `in` entry, later any entry with the

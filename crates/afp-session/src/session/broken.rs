@@ -1,5 +1,5 @@
-//! Ends runs in `Error` if they can no longer be trusted: a component panics, the robot's Rust code
-//! is wrong, or the control loop of a real robot is late.
+//! Ends runs early: when they are asked to, or in `Error` if they can no longer be trusted. Then a
+//! component panics, the robot's Rust code is wrong, or the control loop of a real robot is late.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -30,6 +30,26 @@ where
     R: Robot,
     S: Keep,
 {
+    /// Ends the plan now, as interrupted.
+    pub fn stop(&mut self, to: &mut [&mut dyn Observer]) {
+        let now = self.robot.now();
+        self.apply_due(now, to);
+        if self.scheduler.ending().is_none() {
+            self.scheduler.request_stop();
+            // A plan that has not started ends at its start; if it cannot start, nothing has to
+            // stop.
+            let _ = self.guarded(to, |session, to| session.step(now, to).map(|()| Go::On));
+        }
+        self.robot.emergency_stop();
+    }
+
+    /// Ends the plan now with a fault, because it can no longer be trusted.
+    pub fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]) {
+        let now = self.robot.now();
+        let wake = self.scheduler.abort((&mut self.robot, &mut self.sink, &self.clock), fault);
+        self.woke(wake, now, to);
+    }
+
     /// Notes that time has not advanced although it should.
     #[cold]
     pub(super) fn stood_still(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {

@@ -226,7 +226,7 @@ fn help_has_examples_and_shells_have_completions() {
         for there in ["afpc", "explain", "until", "at-least"] {
             assert!(said.out.contains(there), "{shell}: no {there}");
         }
-        for later in ["replay", "deploy", "attach", "rt-report", "listen"] {
+        for later in ["replay", "deploy", "attach", "listen"] {
             assert!(!said.out.contains(later), "{shell}: {later}");
         }
     }

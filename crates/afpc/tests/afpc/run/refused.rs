@@ -6,7 +6,7 @@ use crate::common::{self, Place};
 #[test]
 fn options_that_need_another_option_name_it() {
     let place = Place::with_plan();
-    let why = "'--rt-report' waits for the real-time driver";
+    let why = "'--rt-report' measures the control loop of the robot itself";
     place.afpc("run wall_following.afp --rt-report").fails(2, &[why, "help: "]);
     for debug in ["--debug", "--debug=0.0.0.0:4711"] {
         let why = ["'--debug' waits for the real-time driver", "'afpc dap PLAN.afp'"];
