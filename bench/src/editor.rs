@@ -156,7 +156,7 @@ impl Client {
             _ => self.change(URI, 1, "", 11),
         };
         let time = begun.elapsed();
-        assert!(!said.is_empty(), "a mistake that comes or goes is told");
+        assert!(!said.is_empty(), "a new or removed error is reported");
         time
     }
 

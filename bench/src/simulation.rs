@@ -145,7 +145,7 @@ impl RobotSink for Recorder {
 /// The plan of the paper drives the robot until the end.
 fn follow(world: &World, log: &mut impl RobotSink) {
     let (_, ended) = drive(WallFollowing::new(), world, log);
-    assert!(!ended, "the robot follows the wall for as long as it is let");
+    assert!(!ended, "the robot follows the wall until the time limit");
 }
 
 /// A plan drives the robot until it ends or its time is up; returns the time, and whether it has

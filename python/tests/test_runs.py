@@ -31,7 +31,7 @@ def test_seeds_are_how_many_or_any() -> None:
     assert seeds(range(0, 9, 4)) == [0, 4, 8]
     assert seeds(number for number in (2, 3)) == [2, 3]
     assert seeds(np.array([7, 6])) == [7, 6]
-    with pytest.raises(ValueError, match="the seed 1 is there twice"):
+    with pytest.raises(ValueError, match="the seed 1 is given twice"):
         seeds([1, 1])
     with pytest.raises(ValueError, match="-1 is no seed"):
         seeds([-1])

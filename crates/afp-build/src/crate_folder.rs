@@ -207,7 +207,7 @@ mod tests {
         };
         assert_eq!(locked("engine 1\n", true), "engine 1\n");
         fs::write(folder.path().join(LOCK), "engine 1\nmine 1\n").unwrap();
-        assert_eq!(locked("engine 1\n", true), "engine 1\nmine 1\n", "what cargo added stays");
+        assert_eq!(locked("engine 1\n", true), "engine 1\nmine 1\n", "additions by cargo stay");
         assert_eq!(locked("engine 2\n", true), "engine 2\n");
         assert_eq!(locked("engine 3\n", false), "engine 2\n", "a folder of somebody else");
     }

@@ -142,7 +142,7 @@ impl Generated {
                 pub use self::#main::*;
                 #(pub use self::#owners::#types;)*
             }
-            #[allow(unused_imports, reason = "whoever embeds the plan may name its module")]
+            #[allow(unused_imports, reason = "the user of the plan may name its module")]
             pub use self::#main::#plan;
         }
     }

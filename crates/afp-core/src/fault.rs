@@ -74,7 +74,7 @@ impl Fault {
         /// A component panicked.
         pub PANIC = "panic", "a component panicked";
         /// The sink, the clock or the driver of a step panicked.
-        pub PANIC_OUTSIDE = "panic-outside", "what records or times the run panicked";
+        pub PANIC_OUTSIDE = "panic-outside", "the sink or the clock of the run panicked";
         /// A test injected this fault.
         pub INJECTED = "injected", "a test made the component fail";
         /// The run time reached a state that the compiler excludes.

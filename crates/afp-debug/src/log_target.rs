@@ -58,7 +58,7 @@ impl LogTarget {
         if let Some(stranger) = events.iter().find(|event| !known(event)) {
             let name = &stranger.component.path;
             return Err(format!(
-                "the log tells of '{name}', which its plan has not any more: the toolboxes have changed since"
+                "the log tells of '{name}', which its plan no longer has: the toolboxes have changed since"
             ));
         }
         events.sort_by_key(|event| event.at);

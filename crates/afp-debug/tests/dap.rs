@@ -244,7 +244,7 @@ fn a_client_without_a_token_cannot_end_a_run() {
     // An admitted client keeps its place until it leaves, even without a run.
     clients.say_as(4, r#"attach {"token":"open"}"#);
     assert!(
-        clients.told.contains("2 clients are there already: end one first"),
+        clients.told.contains("2 clients are already connected: end one first"),
         "{}",
         clients.told
     );

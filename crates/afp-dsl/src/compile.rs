@@ -1,4 +1,4 @@
-//! The entry point of the compiler: a plan's text in; its graph, or everything that is wrong with it, out.
+//! The entry point of the compiler: from the text of a plan to its graph, or to all its errors.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -19,49 +19,49 @@ use afp_syntax::{Parse, unquote};
 /// The result of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Compiled {
-    /// The static graph; `None` exactly when there are errors.
+    /// The static graph; `None` if and only if there are errors.
     pub graph: Option<Graph>,
-    /// The scenarios of the file that can be run; none while anything but scenarios has errors.
+    /// The runnable scenarios of the file; empty if anything but scenarios has errors.
     pub scenarios: Vec<Scenario>,
-    /// The others; none either while anything else has errors.
+    /// The scenarios with errors; also empty if anything else has errors.
     pub invalid: Vec<InvalidScenario>,
-    /// What stands in the plan files, with or without errors.
+    /// The content of the plan files, with or without errors.
     pub outline: Outline,
-    /// What every name means, with or without errors.
+    /// The meaning of every name, with or without errors.
     pub index: Index,
-    /// Everything there is to say, ordered by place.
+    /// All diagnostics, ordered by place.
     pub diags: Diagnostics,
-    /// The files that spans belong to: the toolboxes', then the plan files.
+    /// The files of spans: first the toolboxes, then the plan files.
     pub sources: Sources,
-    /// Which of [`Compiled::sources`] are plan files: the one that was compiled, then those that it
-    /// uses, directly or through others.
+    /// The range of the plan files in [`Compiled::sources`]: first the compiled file, then the
+    /// files that it uses, directly or indirectly.
     pub plan_files: Range<usize>,
     /// The tree of each plan file.
     trees: Vec<Parse>,
-    /// For each plan file the other paths by which it is used.
+    /// The further paths of each plan file.
     further: Vec<Vec<String>>,
-    /// The whole path of the folder that paths are seen from, where they lead out of it and it is known.
+    /// The absolute path of the base folder of all paths, if they lead out of it and it is known.
     folder: Option<String>,
-    /// What is known of the plan while there are errors.
+    /// The known parts of the plan if there are errors.
     partial: Option<Partial>,
 }
 
 impl Compiled {
-    /// The diagnostics as text for people, see [`Diagnostics::render`].
+    /// The rendered diagnostics, see [`Diagnostics::render`].
     pub fn render(&self, colour: bool) -> String {
         self.diags.render(&self.sources, colour)
     }
 
-    /// The plan files: the one that was compiled, then those that it uses, directly or through
-    /// others.
+    /// The plan files: first the compiled file, then the files that it uses, directly or
+    /// indirectly.
     pub fn plan_sources(&self) -> impl Iterator<Item = &Source> {
         self.sources.iter().skip(self.plan_files.start).take(self.plan_files.len())
     }
 
-    /// What is known of the time behaviour of the plan and of all that it uses, budgets as declared.
+    /// The known timing of the plan and of all its sub-plans, with declared budgets.
     ///
-    /// In a plan with errors it is told of what is without; what is wrong counts as if it took no time. `None` where
-    /// there is no plan.
+    /// In a plan with errors only valid parts count; invalid parts take no time. `None` without a
+    /// plan.
     pub fn timing(&self) -> Option<Timing> {
         if let Some(graph) = &self.graph {
             return Some(timing::timing(graph, None));
@@ -72,24 +72,24 @@ impl Compiled {
         Some(timing)
     }
 
-    /// What the parser has made of a plan file; `None` of another file.
+    /// The syntax tree of a plan file; `None` for other files.
     pub fn tree(&self, file: u16) -> Option<&Parse> {
         self.trees.get(usize::from(file).checked_sub(self.plan_files.start)?)
     }
 
-    /// Path and text of each plan file, in the order of [`Compiled::plan_sources`]; paths are seen
-    /// from the deepest folder that all of them are in, so that they still find each other when
-    /// they are put elsewhere. Behind them, once more, come those that are used by other paths, too.
+    /// Path and text of each plan file, in the order of [`Compiled::plan_sources`]. Paths are
+    /// relative to the deepest common folder, so that the files find each other in another place.
+    /// Files with several paths follow once more under each further path.
     pub fn plan_texts(&self) -> Vec<(String, String)> {
         self.texts_of((0..self.plan_files.len()).collect())
     }
 
-    /// The same for the plan of a scenario, whose file comes first.
+    /// Path and text of the plan files of a scenario, its own file first.
     pub fn scenario_texts(&self, scenario: &Scenario) -> Vec<(String, String)> {
         let names: Vec<_> = self.plan_sources().map(|source| source.name.as_str()).collect();
         let is_first = |place: &usize| names[*place] == scenario.plan_file;
         let mut places: Vec<_> = (0..names.len()).collect();
-        // A file of scenarios is none that its plans use.
+        // A file of scenarios is not used by its plans.
         if !places.first().is_some_and(is_first) && places.iter().any(is_first) {
             places.remove(0);
         }
@@ -97,7 +97,7 @@ impl Compiled {
         self.texts_of(places)
     }
 
-    /// Path and text of some plan files, then again of those with further paths.
+    /// Path and text of some plan files, then again of each file with further paths.
     fn texts_of(&self, places: Vec<usize>) -> Vec<(String, String)> {
         let sources: Vec<&Source> = self.plan_sources().collect();
         let first = places.iter().map(|place| (normalised(&sources[*place].name), *place));
@@ -112,7 +112,8 @@ impl Compiled {
         texts.map(|(path, place)| (path, sources[place].text.clone())).collect()
     }
 
-    /// Name and text of each toolbox that a plan of these and the files that it uses name.
+    /// Name and text of each toolbox that a plan of these files, or of the files that they use,
+    /// names.
     pub fn toolbox_texts<'a>(
         &'a self,
         graph: &'a Graph,
@@ -124,16 +125,15 @@ impl Compiled {
     }
 }
 
-/// Compiles the first plan of a file. `files` has the files that it uses; without any,
-/// `&Texts::default()` says so.
+/// Compiles the first plan of a file. `files` reads the files that it uses; `&Texts::default()` has
+/// none.
 ///
-/// All errors are reported, of plans that the first one does not use as well, of all files, and of
-/// toolboxes.
+/// All errors are reported, also those of unused plans, other files and toolboxes.
 pub fn compile(source: &Source, toolboxes: &Toolboxes, files: &dyn Files) -> Compiled {
     compile_plan(source, toolboxes, files, None)
 }
 
-/// Compiles the plan of that name in a file, the first one without a name.
+/// Compiles the plan of that name in a file; without a name, the first one.
 pub fn compile_plan(
     source: &Source,
     toolboxes: &Toolboxes,
@@ -143,15 +143,15 @@ pub fn compile_plan(
     compile_with(source, toolboxes, files, plan, Flow::Checked)
 }
 
-/// Compiles the first plan of a file without the checks of flow: for tests of what the run time
-/// does with plans that they refuse.
+/// Compiles the first plan of a file without the flow checks, for tests of the run time with plans
+/// that these checks refuse.
 #[doc(hidden)]
 pub fn compile_unchecked(source: &Source, toolboxes: &Toolboxes, files: &dyn Files) -> Compiled {
     compile_with(source, toolboxes, files, None, Flow::Unchecked)
 }
 
-/// What the names in plan files mean to one another and in toolboxes. Behind [`Toolboxes::sources`],
-/// [`Span::file`] is a file's place among them.
+/// The meanings of the names in plan files. After [`Toolboxes::sources`], [`Span::file`] is the
+/// index of a file among them.
 ///
 /// [`Span::file`]: afp_syntax::source::Span::file
 pub fn index_files(files: &[Source], toolboxes: &Toolboxes) -> Index {
@@ -206,7 +206,7 @@ fn compile_with(
     }
 }
 
-/// The scenarios of the first file without errors, and those with errors.
+/// The scenarios of the first file: the valid ones, and those with errors.
 fn sorted_out(
     mut scenarios: Vec<Scenario>,
     outline: &Outline,

@@ -181,7 +181,7 @@ mod tests {
     use super::{Disk, Files, Texts, below_all, joined, normalised, relative};
 
     #[test]
-    fn what_is_no_text_is_not_read() {
+    fn a_binary_file_is_not_read() {
         let folder = std::env::temp_dir().join(format!("afp-files-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("bytes.afp"), [0xff, 0xfe]).unwrap();
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn what_all_paths_begin_with_goes() {
+    fn the_common_beginning_of_all_paths_is_removed() {
         let below = |paths: &[&str]| {
             below_all(&paths.iter().map(|path| (*path).to_owned()).collect::<Vec<_>>(), None)
         };

@@ -171,7 +171,7 @@ impl<'a> Gathering<'a> {
         {
             wrong.push(match self.toolboxes.get(&text) {
                 Some(_) => {
-                    Diagnostic::new(error.code, error.span, "a toolbox is used by its name alone")
+                    Diagnostic::new(error.code, error.span, "write only the name of a toolbox")
                         .help(message!("write 'use {}'", text))
                         .replace(text.clone())
                 }

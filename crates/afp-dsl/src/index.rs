@@ -1,13 +1,12 @@
-//! What every name of a compilation means: the one answer to "where is this declared", "who uses
-//! it", "what is this" and "what did you mean".
+//! The meaning of every name of a compilation: where it is declared, who uses it, and what it may
+//! have been meant for.
 //!
-//! The check records what a name means at the moment at which it resolves it; nothing here resolves
-//! anything. So the index knows as much about a broken text as the check does: a name that means
-//! nothing is in it as [`Meaning::Unknown`], one in text that could not even be read as
-//! [`Meaning::Unread`].
+//! The check records the meaning of a name when it resolves the name; this module resolves nothing.
+//! So the index covers broken texts as far as the check does. A name without a meaning is
+//! [`Meaning::Unknown`]; a name in unreadable text is [`Meaning::Unread`].
 //!
-//! It covers plan files and the toolboxes that the compilation could use. Places are spans of
-//! [`Compiled::sources`](crate::Compiled::sources), from which the texts of names come.
+//! The index covers plan files and the toolboxes that the compilation could use. Places are spans
+//! of [`Compiled::sources`](crate::Compiled::sources), which have the texts of the names.
 
 mod build;
 mod declare;
@@ -24,18 +23,19 @@ pub(crate) use declare::{Declared, of_template, of_toolbox};
 pub(crate) use record::{Found, Lookup, Meanings, Recorder};
 pub(crate) use unread::unread;
 
-/// What names mean, where things are declared, and who refers to them.
+/// The meanings of names, the places of declarations, and their uses.
 #[derive(Clone, Debug, Default)]
 pub struct Index {
-    /// All names in the order of their places.
+    /// All names, in the order of their places.
     names: Vec<Name>,
     /// In the order of the places of their names.
     definitions: Vec<Definition>,
-    /// Places in `names`: the references to the first definition, those to the second one, and so on.
+    /// Indices into `names`: the references to the first definition, then those to the second, and
+    /// so on.
     uses: Vec<u32>,
-    /// Where in `uses` those of each definition begin, and behind them its end.
+    /// The index in `uses` of each definition's first reference, then the length of `uses`.
     first_uses: Vec<u32>,
-    /// What ambiguous names may mean.
+    /// The candidates of ambiguous names.
     several: Vec<Vec<DefinitionId>>,
 }
 
@@ -43,41 +43,41 @@ pub struct Index {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DefinitionId(pub u32);
 
-/// A name as it stands in a text.
+/// A name in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
-    /// Its place; of a file behind `use` with the quotes.
+    /// Its place. The path of a used file includes the quotes.
     pub span: Span,
     pub meaning: Meaning,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-// A tag as wide as what it carries: copies are of whole words.
+// The tag is as wide as its content, so that copies are whole words.
 #[repr(u32)]
 pub enum Meaning {
     Declares(DefinitionId),
-    /// It refers to that definition.
+    /// A reference to a definition.
     Refers(DefinitionId),
-    /// It is a binding by itself, `goal` for `goal = goal`: the entry and the port of that name.
+    /// A short binding, `goal` for `goal = goal`: the entry and the port of that name.
     Both {
         /// The entry that is read or written.
         entry: DefinitionId,
         /// The port that it is bound to.
         port: DefinitionId,
     },
-    /// It may mean any of several definitions, see [`Index::candidates`].
+    /// One of several definitions, see [`Index::candidates`].
     Ambiguous(Candidates),
-    /// A file that is used.
+    /// A used file.
     File(u16),
-    /// It needs no declaration.
+    /// A built-in name.
     Word(Word),
-    /// Nothing that is known here.
+    /// An unknown name.
     Unknown,
-    /// It stands in text that could not be read.
+    /// A name in unreadable text.
     Unread,
 }
 
-/// What an ambiguous name may mean, see [`Index::candidates`].
+/// The candidates of an ambiguous name, see [`Index::candidates`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Candidates(u32);
 
@@ -87,14 +87,14 @@ pub struct Definition {
     pub kind: DefinitionKind,
     /// Its own name.
     pub name: Span,
-    /// The whole of it, without comments around it.
+    /// Its span, without surrounding comments.
     pub span: Span,
-    /// What it is declared in: the plan of an element, the element of a local supervisor, the enum of
-    /// a value, the table of a column, the template of a port, the toolbox of a template. `None` for what stands in a plan
-    /// file itself.
+    /// Its owner: the plan of an element, the element of a local supervisor, the enum of a value,
+    /// the table of a column, the template of a port, the toolbox of a template. `None` for the
+    /// items of a plan file.
     pub owner: Option<DefinitionId>,
-    /// What it is made from: the template or plan of an element or supervisor, the toolbox behind a
-    /// short name, the plan of a scenario, the enum or object type of an entry or port.
+    /// Its source: the template or plan of an element or supervisor, the toolbox of a short name,
+    /// the plan of a scenario, the enum or object type of an entry or port.
     pub made_from: Option<DefinitionId>,
     /// Its `///` lines.
     pub doc: String,
@@ -103,7 +103,7 @@ pub struct Definition {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DefinitionKind {
     Toolbox,
-    /// A short name of a toolbox, behind `as`.
+    /// A short name of a toolbox, after `as`.
     Alias,
     /// A template of a toolbox.
     Template(TemplateKind),
@@ -117,13 +117,13 @@ pub enum DefinitionKind {
     Event,
     /// An object type of a toolbox.
     Object,
-    /// A device of a toolbox; the robot as a whole is named by the word `robot`.
+    /// A device of a toolbox. The word `robot` names the whole robot.
     Device,
     /// A control of a device.
     Control,
     /// A fault of a device.
     Fault,
-    /// How much there is of a fault.
+    /// The amount of a fault.
     Amount,
     /// A signal of a device.
     Signal,
@@ -131,25 +131,25 @@ pub enum DefinitionKind {
     /// A value of an enum.
     Value,
     Table,
-    /// A column of a table, which is an output of what reads it.
+    /// A column of a table, an output of the computations that read it.
     Column,
     Plan,
-    /// An entry of a plan; `in` and `out` entries are the ports of its uses as a sub-plan.
+    /// An entry of a plan. `in` and `out` entries are the ports of a sub-plan.
     Entry(EntryKind),
     /// An element or supervisor of a plan.
     Component(ComponentKind),
-    /// A scenario; its name is a text.
+    /// A scenario, named by a string.
     Scenario,
 }
 
-/// A name that needs no declaration.
+/// A built-in name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Word {
     /// The state `OK` of a sub-plan or plan.
     Ok,
     /// The state `Interrupted` of a sub-plan or plan.
     Interrupted,
-    /// The edge `Error` of an element, or the end of a plan.
+    /// The `Error` edge of an element, or the end of a plan in `Error`.
     Error,
     /// The edge `DeadlineMissed` of a supervisor.
     DeadlineMissed,
@@ -167,13 +167,13 @@ pub enum Word {
     Truth,
     /// A function of formulas, such as `min`.
     Function,
-    /// What a template commands, behind `uses`, where its toolbox declares no such device.
+    /// A resource after `uses` that is not a device of its toolbox.
     Resource,
     /// A fault that every sensor has, such as `frozen`, in a scenario.
     Fault,
-    /// How much there is of such a fault, such as `time`.
+    /// The amount of such a fault, such as `time`.
     Amount,
-    /// A part of a signal that has several, such as `x` of a pose.
+    /// A part of a signal, such as `x` of a pose.
     Field,
     /// Every actor, behind `idle`.
     All,
@@ -182,7 +182,7 @@ pub enum Word {
 }
 
 impl DefinitionId {
-    /// The index, to be used on [`Index::definitions`].
+    /// The index into [`Index::definitions`].
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -193,7 +193,7 @@ impl DefinitionId {
 }
 
 impl Meaning {
-    /// The definition that is declared or referred to; of a binding that is a name alone the entry.
+    /// The declared or referenced definition; for a short binding, the entry.
     pub fn definition(self) -> Option<DefinitionId> {
         match self {
             Meaning::Declares(id) | Meaning::Refers(id) | Meaning::Both { entry: id, .. } => {
@@ -203,7 +203,7 @@ impl Meaning {
         }
     }
 
-    /// All definitions that are referred to.
+    /// All referenced definitions.
     fn referred(self) -> impl Iterator<Item = DefinitionId> {
         let (first, second) = match self {
             Meaning::Refers(id) => (Some(id), None),
@@ -215,7 +215,7 @@ impl Meaning {
 }
 
 impl Index {
-    /// The name that covers a byte of a file; between two names that touch, the second one.
+    /// The name that covers a byte of a file. If two names touch, the second one.
     pub fn at(&self, file: u16, offset: u32) -> Option<Name> {
         let behind =
             self.names.partition_point(|name| (name.span.file, name.span.start) <= (file, offset));
@@ -223,7 +223,7 @@ impl Index {
         (name.span.file == file && offset <= name.span.end).then_some(name)
     }
 
-    /// The name that stands exactly there.
+    /// The name with exactly this span.
     pub fn name(&self, span: Span) -> Option<Name> {
         let index = self.names.binary_search_by_key(&span, |name| name.span).ok()?;
         Some(self.names[index])
@@ -236,12 +236,12 @@ impl Index {
         &self.names[first..end]
     }
 
-    /// A definition; ids come from the same index.
+    /// A definition; the id must come from this index.
     pub fn definition(&self, id: DefinitionId) -> &Definition {
         &self.definitions[id.index()]
     }
 
-    /// The definition whose own name stands there.
+    /// The definition whose name has this span.
     pub fn declared_at(&self, name: Span) -> Option<DefinitionId> {
         let found = self.definitions.binary_search_by_key(&name, |known| known.name).ok()?;
         Some(DefinitionId::new(found))
@@ -259,19 +259,19 @@ impl Index {
         (first..end).map(DefinitionId::new).zip(&self.definitions[first..end])
     }
 
-    /// What is declared directly in a definition, in order.
+    /// The definitions directly in a definition, in order.
     pub fn members(
         &self,
         owner: DefinitionId,
     ) -> impl Iterator<Item = (DefinitionId, &Definition)> {
         let home = self.definition(owner);
-        // In a broken file, items may stand above the toolbox's own line.
+        // In a broken file, items may precede the line of the toolbox.
         let first = self.definitions.partition_point(|known| match home.kind {
             DefinitionKind::Toolbox => known.name.file < home.name.file,
             _ => known.name <= home.name,
         });
         let all = (first..).map(DefinitionId::new).zip(&self.definitions[first..]);
-        // A toolbox owns the whole file, everything else what lies within.
+        // A toolbox owns the whole file; other definitions own their span.
         let within = move |known: &Definition| match home.kind {
             DefinitionKind::Toolbox => known.name.file == home.name.file,
             _ => home.span.contains(known.name),
@@ -280,15 +280,15 @@ impl Index {
             .filter(move |(_, known)| known.owner == Some(owner))
     }
 
-    /// The places that refer to a definition, in order, its declaration not among them.
+    /// The places that refer to a definition, in order, without its declaration.
     pub fn references(&self, id: DefinitionId) -> impl Iterator<Item = Span> {
         let [first, end] = [0, 1].map(|next| self.first_uses[id.index() + next] as usize);
         self.uses[first..end].iter().map(|name| self.names[*name as usize].span)
     }
 
-    /// What of some kinds can be named at a place of a plan file, in the order of the definitions: plans, enums and
-    /// tables of the file and of those that it uses, what its toolboxes declare, and in a plan or its
-    /// scenario the entries, elements and global supervisors.
+    /// The definitions of some kinds that a place of a plan file can name, in order: plans, enums
+    /// and tables of the file and of the files that it uses, and the declarations of its toolboxes.
+    /// In a plan or its scenario also the entries, elements and global supervisors.
     pub fn visible(
         &self,
         file: u16,
@@ -336,7 +336,7 @@ impl Index {
         visible
     }
 
-    /// What an ambiguous name may mean.
+    /// The candidates of an ambiguous name.
     pub fn candidates(&self, candidates: Candidates) -> &[DefinitionId] {
         self.several.get(candidates.0 as usize).map_or(&[], Vec::as_slice)
     }

@@ -1,14 +1,13 @@
-//! What stands in plan files, whole or broken: what drawings, editors and completion read.
+//! The content of plan files, valid or not, for drawings, editors and completion.
 //!
-//! The graph is for running and comes without errors alone; the outline comes for any text. An
-//! element that parses is in it: one with an unknown template has the ports that are written, an
-//! edge to nothing has a target without element, an input that nobody binds is a hole, a file
-//! without a plan is an empty list. Everything is plain data with its spans and with what is wrong
-//! with it.
+//! A valid plan has a graph; any text has an outline. Everything that parses is in it. An element
+//! with an unknown template has its written ports, and an edge without a valid target has no
+//! element. An unbound input is a hole. Everything is plain data with its spans and its
+//! diagnostics.
 //!
-//! An item goes by its [`Item`] path, which names say. Where a name is there twice in one scope, the
-//! second one has `#2` behind it, and so on; one without a name is `#1`, since no name begins so.
-//! States, events and ports of one component are told apart by [`Exit::nth`] and [`Input::nth`].
+//! [`Item`] paths identify items by name. The second item of a name in a scope gets the suffix
+//! `#2`, and so on. An item without a name is `#1`, because no name starts with `#`. [`Exit::nth`]
+//! and [`Input::nth`] number the states, events and ports of a component.
 
 mod component;
 mod findings;
@@ -38,7 +37,7 @@ macro_rules! index {
         pub struct $name(pub u32);
 
         impl $name {
-            /// The index, to be used on the list it belongs to.
+            /// The index into its list.
             pub fn index(self) -> usize {
                 self.0 as usize
             }
@@ -59,33 +58,33 @@ index! {
     ElementId,
 }
 
-/// What stands in the plan files of a compilation.
+/// The content of the plan files of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Outline {
-    /// The files: the one that was compiled, then those that it uses, directly or through others.
+    /// The files: first the compiled file, then the files that it uses, directly or indirectly.
     pub files: Vec<File>,
-    /// The plans of all files, file by file, as written.
+    /// The plans of all files, in source order.
     pub plans: Vec<Plan>,
-    /// The plan that was asked for, or the first one.
+    /// The requested plan, or the first one.
     pub main: Option<PlanId>,
 }
 
 #[derive(Clone, Debug, Default)]
 pub struct File {
-    /// The file, as [`Span::file`] says it.
+    /// The file, as in [`Span::file`].
     pub file: u16,
     /// Its normalised path.
     pub path: String,
-    /// Its `use` lines as written.
+    /// Its `use` lines, in source order.
     pub uses: Vec<Use>,
     pub enums: Vec<Enum>,
     pub tables: Vec<Table>,
-    /// The valid computations that it and the files that it uses declare: a toolbox without a name
-    /// for each of these files, its own first.
+    /// The valid computations that the file and the files that it uses declare: one toolbox without
+    /// a name for each file, its own first.
     pub computations: Vec<Arc<Toolbox>>,
     pub plans: Vec<PlanId>,
     pub scenarios: Vec<Scenario>,
-    /// What there is to say about nothing smaller.
+    /// Diagnostics that belong to no smaller part.
     pub findings: Findings,
 }
 
@@ -94,11 +93,11 @@ pub struct File {
 pub struct Use {
     pub span: Span,
     pub toolbox: Option<Name>,
-    /// The short name behind `as`.
+    /// The short name after `as`.
     pub alias: Option<Name>,
     /// The file's path, quotes included.
     pub path: Option<Name>,
-    /// The file that is used, where it can be read.
+    /// The used file, if it is readable.
     pub file: Option<u16>,
 }
 
@@ -111,11 +110,11 @@ pub struct Enum {
     pub doc: String,
     /// The comment above it.
     pub note: String,
-    /// The whole of it, without comments around it.
+    /// Its span, without surrounding comments.
     pub span: Span,
     /// The names of its values.
     pub variants: Vec<Name>,
-    /// What there is to say about it.
+    /// Its diagnostics.
     pub findings: Findings,
 }
 
@@ -128,10 +127,10 @@ pub struct Table {
     pub doc: String,
     /// The comment above it.
     pub note: String,
-    /// The whole of it, without comments around it.
+    /// Its span, without surrounding comments.
     pub span: Span,
     pub columns: Vec<Column>,
-    /// What there is to say about it.
+    /// Its diagnostics.
     pub findings: Findings,
 }
 
@@ -141,9 +140,9 @@ pub struct Column {
     pub name: Name,
     /// Its `///` lines.
     pub doc: String,
-    /// The whole of it.
+    /// Its span.
     pub span: Span,
-    /// Its type, where that is known.
+    /// Its type, if known.
     pub ty: Option<Type>,
 }
 
@@ -152,11 +151,11 @@ pub struct Column {
 pub struct Scenario {
     /// Its name, quotes included.
     pub name: Option<Name>,
-    /// The whole of it, without comments around it.
+    /// Its span, without surrounding comments.
     pub span: Span,
-    /// The plan behind `for`, where there is one of that name.
+    /// The plan after `for`, if it exists.
     pub plan: Option<PlanId>,
-    /// What there is to say about it.
+    /// Its diagnostics.
     pub findings: Findings,
 }
 
@@ -168,21 +167,21 @@ pub struct Plan {
     pub doc: String,
     /// The comment above it.
     pub note: String,
-    /// The whole of it, without comments around it.
+    /// Its span, without surrounding comments.
     pub span: Span,
     pub entries: Vec<Entry>,
-    /// Its `start` lines; there should be one.
+    /// Its `start` lines; a valid plan has one.
     pub starts: Vec<Start>,
-    /// Global supervisors as written.
+    /// Global supervisors, in source order.
     pub supervisors: Vec<Component>,
-    /// Actors, computations and sub-plans as written.
+    /// Actors, computations and sub-plans, in source order.
     pub elements: Vec<Component>,
     /// Whether an event or `DeadlineMissed` edge leads to `terminate`, so that the plan can end as
     /// `Interrupted`.
     pub interruptible: bool,
-    /// Whether it says that it is meant to run on.
+    /// Whether the plan is declared `forever`.
     pub forever: bool,
-    /// What there is to say about nothing smaller.
+    /// Diagnostics that belong to no smaller part.
     pub findings: Findings,
 }
 
@@ -190,9 +189,9 @@ pub struct Plan {
 #[derive(Clone, Debug)]
 pub struct Start {
     pub span: Span,
-    /// Where it leads.
+    /// Its target.
     pub target: Option<Target>,
-    /// What there is to say about it.
+    /// Its diagnostics.
     pub findings: Findings,
 }
 
@@ -200,7 +199,7 @@ pub struct Start {
 #[derive(Clone, Debug)]
 pub struct Entry {
     pub item: Item,
-    /// Who may set it.
+    /// The kind, which decides who may write it.
     pub kind: EntryKind,
     /// Whether it is `in live`.
     pub live: bool,
@@ -209,23 +208,23 @@ pub struct Entry {
     pub doc: String,
     /// The comment above it.
     pub note: String,
-    /// The whole of it, without comments around it.
+    /// Its span, without surrounding comments.
     pub span: Span,
     pub written_type: Option<Name>,
-    /// Its type, written or that of its value, where it is known.
+    /// Its declared type, or the type of its value, if known.
     pub ty: Option<Type>,
     pub init: Option<Value>,
-    /// Least and greatest value as written.
+    /// The limits, in source form.
     pub range: Option<[Value; 2]>,
-    /// What there is to say about it.
+    /// Its diagnostics.
     pub findings: Findings,
 }
 
-/// What the compiler has to say about an item or a part of it: mostly nothing, which takes no memory.
+/// The diagnostics of an item or of a part of it. An empty list takes no memory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Findings(Option<Box<Found>>);
 
-/// What there is to say.
+/// The diagnostics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Found {
     worst: Severity,
@@ -237,7 +236,7 @@ impl Findings {
         self.0.as_ref().map(|found| found.worst)
     }
 
-    /// Where it stands among the diagnostics of the compilation.
+    /// The index in the diagnostics of the compilation.
     pub fn list(&self) -> &[u32] {
         self.0.as_ref().map_or(&[], |found| &found.list)
     }

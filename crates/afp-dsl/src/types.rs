@@ -12,7 +12,8 @@ use afp_syntax::source::Span;
 
 pub use afp_syntax::dimension::Dimension;
 
-/// A value known before a plan runs, already of its port's or entry's type; always set, and not an object.
+/// A value that is known before a run, converted to the type of its port or entry. It is always set
+/// and never an object.
 pub type Constant = afp_types::Value;
 
 /// The type of an entry, a port or a formula.
@@ -26,15 +27,15 @@ pub enum Type {
     Quantity(Dimension),
     /// `string`, at most 64 bytes of UTF-8
     Text,
-    /// An enum; equal by name and home, a toolbox or a plan file.
+    /// An enum; equal if name and origin, a toolbox or a plan file, are equal.
     Enum(Arc<Enum>),
-    /// An object type; equal by name and home.
+    /// An object type; equal if name and origin are equal.
     Object(Arc<Object>),
-    /// `any`, in ports of toolboxes only
+    /// `any`, only in ports of toolboxes.
     Any,
-    /// `number`, in ports of toolboxes only
+    /// `number`, only in ports of toolboxes.
     Number,
-    /// `discrete`, in ports of toolboxes only: what is equal or not, and no measure
+    /// `discrete`, only in ports of toolboxes: a type that is compared only for equality.
     Discrete,
 }
 
@@ -44,13 +45,13 @@ pub struct Enum {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// The toolbox that declares it; `None` for one of a plan file.
+    /// The toolbox that declares it; `None` for an enum of a plan file.
     pub toolbox: Option<String>,
     /// The names of its values.
     pub variants: Vec<String>,
-    /// These names in the text.
+    /// The spans of these names.
     pub variant_spans: Vec<Span>,
-    /// The name in the text.
+    /// The span of the name.
     pub span: Span,
 }
 
@@ -62,24 +63,24 @@ pub struct Object {
     pub doc: String,
     /// The toolbox that declares it.
     pub toolbox: String,
-    /// The name in the text.
+    /// The span of the name.
     pub span: Span,
 }
 
-/// How a value of one type becomes one of another.
+/// The conversion between two types.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Conversion {
     /// `int` to `float`, exact up to 2^53.
     IntToFloat,
-    /// `float` to `int`, toward zero; out of range is a fault.
+    /// `float` to `int`, toward zero; a fault if out of range.
     FloatToInt,
     /// `bool` to `int`: 0 or 1.
     BoolToInt,
     /// `bool` to `float`: 0 or 1.
     BoolToFloat,
-    /// Anything but an object to text; quantities print SI value and SI unit.
+    /// Any type but an object to a string. Quantities have their SI value and unit.
     ToText(Type),
-    /// Text to a type, by the literal grammar of that type, unit included.
+    /// A string to a type, in the literal syntax of that type, with the unit.
     FromText(Type),
 }
 
@@ -105,12 +106,12 @@ impl Type {
         matches!(self, Type::Int | Type::Quantity(_) | Type::Number)
     }
 
-    /// Whether two values of it are equal or not, and never nearly so.
+    /// Whether its values are compared only for equality.
     pub fn is_discrete(&self) -> bool {
         matches!(self, Type::Bool | Type::Int | Type::Text | Type::Enum(_) | Type::Discrete)
     }
 
-    /// Whether it stands for another type in each use of a template.
+    /// Whether it is a different type in each use of a template.
     pub(crate) fn is_generic(&self) -> bool {
         matches!(self, Type::Any | Type::Number | Type::Discrete)
     }
@@ -124,7 +125,7 @@ impl Type {
         }
     }
 
-    /// The name of an enum or object type; empty for what the language itself has.
+    /// The name of an enum or object type; empty for a built-in type.
     pub fn declared_name(&self) -> &str {
         match self {
             Type::Enum(home) => &home.name,
@@ -133,7 +134,7 @@ impl Type {
         }
     }
 
-    /// The SI unit of its values; empty for what is no quantity.
+    /// The SI unit of its values; empty unless it is a quantity.
     pub fn si_unit(&self) -> String {
         match self {
             Type::Quantity(dimension) => dimension.si_unit(),
@@ -141,7 +142,7 @@ impl Type {
         }
     }
 
-    /// The values of an enum; none of other types.
+    /// The values of an enum; empty for other types.
     pub fn choices(&self) -> &[String] {
         match self {
             Type::Enum(choices) => &choices.variants,
@@ -150,19 +151,19 @@ impl Type {
     }
 }
 
-/// Names of types that are no dimensions and that plans can write.
+/// Names of types that plans can write, without dimensions.
 pub(crate) const PLAIN: &[&str] = &["bool", "int", "float", "string"];
 
-/// Names of types that ports of toolboxes alone have.
+/// Names of types that only ports of toolboxes have.
 pub(crate) const GENERIC: &[&str] = &["any", "number", "discrete"];
 
-/// Whether the language itself has a type of that name.
+/// Whether a built-in type has that name.
 pub fn is_built_in(name: &str) -> bool {
     PLAIN.contains(&name) || GENERIC.contains(&name) || Dimension::named(name).is_some()
 }
 
 impl fmt::Display for Type {
-    /// As written in a plan: `length`, `int`, `Side`.
+    /// In the spelling of a plan: `length`, `int`, `Side`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Type::Bool => f.write_str("bool"),

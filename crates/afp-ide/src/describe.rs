@@ -130,7 +130,9 @@ pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
         Word::Resume => "The active element continues and reads new values with its 'live' inputs.",
         Word::Type => "A type of the language.",
         Word::Truth => "A truth value.",
-        Word::Resource => "What the template commands: one element at a time may.",
+        Word::Resource => {
+            "A part of the robot that the template controls; only one element at a time may."
+        }
         Word::Fault => "A fault that every sensor has.",
         Word::Amount => "How much there is of the fault.",
         Word::Field => "A part of the signal.",

@@ -126,7 +126,7 @@ mod tests {
             let offers = palette(&View::new(&compiled, toolboxes, file), "");
             ["Roll", "Wait", "FindObject"].map(|name| offers.iter().any(|offer| offer.name == name))
         };
-        assert_eq!(offered(&toolboxes, ""), [true; 3], "no robot is said");
+        assert_eq!(offered(&toolboxes, ""), [true; 3], "without a robot");
         toolboxes.set_robot("vacuum");
         assert_eq!(offered(&toolboxes, ""), [true, true, false]);
         assert_eq!(offered(&toolboxes, "use carbot\n"), [true; 3]);

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn each_defect_is_what_it_says() {
+    fn each_defect_has_its_effect() {
         let mut line = Line::default();
         let (then, later) = (Reading::valid(1, at(0)), Reading::valid(2, at(300)));
         let mut broken = |defect| {
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_delayed_arrives_with_its_own_time() {
+    fn a_delayed_reading_arrives_with_its_own_time() {
         let mut line = Line::default();
         line.set(Some(Defect::Delayed(Duration::from_millis(200))), Reading::valid(0, at(0)));
         for millis in (0..=400).step_by(100) {

@@ -86,7 +86,7 @@ fn jobs_give_their_results_to_their_tickets_once() {
 }
 
 #[test]
-fn a_fault_of_a_job_reaches_whoever_asks_and_the_slot_goes_on() {
+fn a_fault_of_a_job_reaches_the_caller_and_the_slot_continues() {
     with_each(1, |worker| {
         let ticket = begin(worker, 0, 4, Task::Refuse).unwrap();
         assert_eq!(fetch(worker, ticket), Err(REFUSED));

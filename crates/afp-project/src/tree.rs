@@ -178,7 +178,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn who_must_miss_none_follows_links_and_is_told_of_what_cannot_be_read() {
+    fn a_complete_walk_follows_links_and_reports_unreadable_files() {
         use std::os::unix::fs::symlink;
 
         let place = tempfile::tempdir().unwrap();

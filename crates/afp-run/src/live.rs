@@ -39,7 +39,7 @@ pub(crate) fn begin(
     let live = afp_log::live::Live::start(at, name, session)
         .map_err(|why| RunError::file("cannot serve on", at.to_string().as_ref())(why))?;
     let [operator, watcher] = live.addresses();
-    crate::stderr::say(format!("live: {operator}\nwatching alone: {watcher}\n"));
+    crate::stderr::say(format!("live: {operator}\nwatching only: {watcher}\n"));
     if live.is_open() {
         crate::stderr::warn(
             "nothing on its way is encrypted: serve on 127.0.0.1 and go there with 'ssh -L'",

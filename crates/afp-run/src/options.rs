@@ -24,10 +24,10 @@ pub(crate) use help::words;
 pub use help::{for_devices, for_robot};
 pub use parse::{Destination, Failure, Press, Speed, failure, press, whole};
 
-/// How a run goes.
+/// The options of a run.
 #[derive(Args, Clone, Debug)]
 pub struct RunOptions {
-    /// What the plan runs on
+    /// Robot that runs the plan
     #[arg(long, value_enum, value_name = "ROBOT", default_value_t = OnRobot::Sim)]
     pub robot: OnRobot,
 
@@ -35,7 +35,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "FILE")]
     pub world: Option<PathBuf>,
 
-    /// Repeats the run of a log: its plan, world, seed, values and all that came from outside
+    /// Repeats the run of a log: its plan, world, seed, values and requests
     #[arg(
         long,
         value_name = "LOG",
@@ -43,7 +43,7 @@ pub struct RunOptions {
     )]
     pub again: Option<PathBuf>,
 
-    /// Where the robot starts instead of where the world says: --start 2m,1m,90deg
+    /// Start pose of the robot [default: the world's]: --start 2m,1m,90deg
     #[arg(
         long,
         value_name = "X,Y,HEADING",
@@ -75,7 +75,7 @@ pub struct RunOptions {
     )]
     pub until: Option<Duration>,
 
-    /// Speed of simulated time: 1x is real time, max as fast as it goes [default: max; 1x where others watch]
+    /// Speed of simulated time: 1x is real time, max has no limit [default: max; 1x with --live]
     #[arg(long, value_name = "SPEED", value_parser = parse::speed, allow_hyphen_values = true)]
     pub speed: Option<Speed>,
 
@@ -83,32 +83,32 @@ pub struct RunOptions {
     #[arg(long, value_name = "CONTROL@TIME", value_parser = parse::press)]
     pub press: Vec<Press>,
 
-    /// Breaks something, for a while or for good: --fail DEVICE.FAULT@5s..7s, --fail DEVICE.FAULT=0.2@3s
+    /// Breaks a device, temporarily or permanently: --fail DEVICE.FAULT@5s..7s, --fail DEVICE.FAULT=0.2@3s
     #[arg(long, value_name = "DEVICE.FAULT[=AMOUNT]@TIME[..TIME]", value_parser = parse::failure)]
     pub fail: Vec<Failure>,
 
-    /// Judges the run by this measure of the robot, too
+    /// Also reports this measure of the robot
     #[arg(long, value_name = "NAME")]
     pub measure: Vec<String>,
 
-    /// Where the log goes; 'none' for no log [default: target/afp/runs/<plan>.mcap]
+    /// Path of the log; 'none' for no log [default: target/afp/runs/<plan>.mcap]
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]
     pub log: Option<Destination>,
 
-    /// Logs what the camera sees too, twice a second
+    /// Also logs the camera's pictures, twice a second
     #[arg(long)]
     pub camera: bool,
 
-    /// Where the picture goes, an SVG or, from afpc, a PNG; 'none' for no picture [default: target/afp/runs/<plan>.svg]
+    /// Path of the picture, an SVG or (only afpc) a PNG; 'none' for no picture [default: target/afp/runs/<plan>.svg]
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]
     pub svg: Option<Destination>,
 
-    /// Prints one JSON object a line, the summary last; the same for the same plan, world and seed
+    /// Prints one JSON object per line, the summary last; equal for equal plan, world and seed
     #[arg(long)]
     pub json: bool,
 
-    /// Serves Foxglove and others who watch the run while it goes on, on a port or an address with a port; without one
-    /// on 127.0.0.1:8765
+    /// Serves Foxglove and other viewers during the run, on a port or an address with a port
+    /// [default: 127.0.0.1:8765]
     #[arg(
         long,
         hide = cfg!(not(feature = "live")),
@@ -136,20 +136,20 @@ pub struct RunOptions {
     pub debug: Option<String>,
 }
 
-/// What a plan runs on.
+/// The robot of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum OnRobot {
-    /// The robot simulated
+    /// The simulated robot
     #[default]
     Sim,
-    /// The robot itself, in real time: that of '[robot.hardware]' in afp.toml
+    /// The real robot of '[robot.hardware]' in afp.toml, in real time
     Hardware,
 }
 
 /// The part that limits the speed of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TimeKeeper {
-    /// No limit: a simulation runs as fast as it can.
+    /// No limit.
     Nobody,
     /// The gate of the run, at a multiple of real time.
     Gate(f64),

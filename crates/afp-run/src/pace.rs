@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_slept_through_is_not_caught_up() {
+    fn missed_time_is_not_caught_up() {
         let pace = Pace::new(TimeKeeper::Gate(1.0)).unwrap();
         let pace = Pace { begun: Wall::now() - Span::from_secs(5), ..pace };
         let (stop, at) =

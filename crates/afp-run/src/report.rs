@@ -1,4 +1,4 @@
-//! What a run says about itself: a timeline for people, lines of JSON for machines, a summary.
+//! The report of a run: a timeline for people, lines of JSON for programs, and a summary.
 
 mod background;
 mod json;
@@ -38,7 +38,7 @@ pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
     })
 }
 
-/// A record as a line of the timeline; `None` for what is not worth one.
+/// A record as a line of the timeline. `None` if it needs no line.
 pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<String> {
     let template = match *record {
         Record::Polled { .. } => return None,
@@ -53,15 +53,15 @@ pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<Strin
     timeline::line(&RunEvent::new(at, record, names), template, true)
 }
 
-/// What happened besides the records, as a line of the timeline.
+/// An event other than a record, as a line of the timeline.
 pub fn event_line(event: &RunEvent) -> Option<String> {
     timeline::line(event, "", false)
 }
 
-/// Tells of a run as an observer.
+/// An observer that writes the report.
 pub(crate) struct Shown<'a>(pub &'a Mutex<Report>);
 
-/// The report, for one of those who share it.
+/// The report, for one of its owners.
 pub(crate) fn of(report: &Mutex<Report>) -> MutexGuard<'_, Report> {
     report.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -81,10 +81,10 @@ impl Observer for Shown<'_> {
     }
 }
 
-/// Writes to standard output as the run goes.
+/// The report of a run, written to standard output during the run.
 pub(crate) struct Report {
     out: Out,
-    /// Whether people look at it, not a program.
+    /// Whether standard output is a terminal.
     terminal: bool,
     json: bool,
     progress: Progress,
@@ -96,7 +96,7 @@ pub(crate) struct Report {
 
 impl Report {
     /// # Errors
-    /// There is no thread for what must not wait.
+    /// The writing thread cannot be started.
     pub(crate) fn new(json: bool, end: Instant, keeper: TimeKeeper) -> io::Result<Self> {
         let terminal = io::stdout().is_terminal();
         let closed: Arc<AtomicBool> = Arc::default();
@@ -118,7 +118,7 @@ impl Report {
         self.closed.clone()
     }
 
-    /// The lines that say what runs.
+    /// The heading: plan, robot and world.
     pub(crate) fn head(&mut self, what: &[(&str, String)]) {
         if !self.json {
             let text = timeline::head(what);
@@ -126,7 +126,7 @@ impl Report {
         }
     }
 
-    /// Tells of a record, if it is worth it.
+    /// Writes the line of a record, if it has one.
     pub(crate) fn tell(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
         if matches!(record, Record::Polled { .. }) {
             return;
@@ -139,7 +139,7 @@ impl Report {
         self.tell_line(line);
     }
 
-    /// Tells of what came from outside.
+    /// Writes the line of a request from outside.
     fn tell_event(&mut self, event: &RunEvent) {
         let line = match self.json {
             true => json::line(event),
@@ -157,15 +157,15 @@ impl Report {
 
     pub(crate) fn pass(&mut self, now: Instant) {
         if self.progress.pass(now) {
-            // A pipe sees the output while it grows.
+            // The reader of a pipe gets each line at once.
             let _ = self.out.flush();
         }
     }
 
-    /// The last lines: for people, for programs, or for both where one cannot tell who reads.
+    /// Writes the summary: for people, for programs, or both if the reader is unknown.
     ///
     /// # Errors
-    /// Something could not be written, unless whoever read it has seen enough.
+    /// The output could not be written. A reader that closed it is not an error.
     pub(crate) fn end(mut self, summary: &Summary) -> io::Result<()> {
         self.progress.clear();
         if !self.json {
@@ -179,9 +179,9 @@ impl Report {
         let written = self.out.finish();
         let written = written.map(|lost| match lost {
             0 => {}
-            lost => {
-                warn(&format!("{lost} lines are missing: who reads standard output is too slow"))
-            }
+            lost => warn(&format!(
+                "{lost} lines are missing: the reader of standard output is too slow"
+            )),
         });
         match self.failure.map_or(written, Err) {
             Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),

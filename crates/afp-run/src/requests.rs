@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_is_told_what_can() {
+    fn an_impossible_request_gets_a_list_of_the_possible_ones() {
         for (text, says) in [
             ("battery.stuck@1s", "'battery' cannot be 'stuck'; it can be frozen, lost"),
             ("battery.losst@1s", "such as 'battery.lost@1s'"),

@@ -44,16 +44,16 @@ use paths::Paths;
 pub(crate) use hardware::HARDWARE;
 pub use hardware::{OpenHardware, run_on_hardware};
 
-/// Makes the session of a run: in a world, with a seed, judged by some measures.
+/// Opens the session of a run in a world, with a seed and measures.
 pub type MakeSession<'a> =
     dyn FnOnce(&dyn AnyWorld, u64, &[&str]) -> Result<Box<dyn AnySession>, SessionError> + 'a;
 
-/// Runs a plan on a simulated robot; gives the exit code. A `rasterizer` makes PNG pictures; without one they are SVG
-/// alone.
+/// Runs a plan on a simulated robot and returns the exit code. A `rasterizer` makes PNG pictures;
+/// without it pictures can only be SVG.
 ///
 /// # Errors
-/// Wrong options, a world or an output that does not work. What a plan does wrong is no error but
-/// an exit code.
+/// The options are invalid, or the world or an output fails. A fault of the plan is not an error; it
+/// has an exit code.
 pub fn run(
     program: &Program<'_>,
     robot: &dyn AnyRobot,
@@ -88,7 +88,7 @@ pub fn run(
     drive(&mut *session, Guards::default(), &setting)
 }
 
-/// The world that the options ask for.
+/// The world of the options.
 fn find_world(
     program: &Program<'_>,
     options: &RunOptions,
@@ -106,7 +106,7 @@ fn find_world(
     Ok(world)
 }
 
-/// All that it takes to repeat the run, but for what comes from outside.
+/// The recipe that repeats the run, without requests from outside.
 fn recipe(
     program: &Program<'_>,
     options: &RunOptions,
@@ -141,7 +141,7 @@ fn recipe(
     })
 }
 
-/// The measures that the project asks for, and the options.
+/// The measures of the project and of the options.
 fn measures(program: &Program<'_>, options: &RunOptions) -> Result<Vec<String>, RunError> {
     let mut all = ProjectFile::of_plan(Path::new(program.file))?.project.measures;
     all.extend(options.measure.iter().cloned());
@@ -159,7 +159,7 @@ struct Setting<'a> {
     world: &'a LoadedWorld,
     /// The run that is repeated.
     again: Option<&'a Again>,
-    /// What the log says of the robot.
+    /// The robot's metadata in the log.
     facts: &'static [(&'static str, &'static str)],
     rasterizer: Option<Rasterizer<'a>>,
 }
@@ -194,7 +194,7 @@ struct Guards {
     realtime: Realtime,
 }
 
-/// Drives a session to its end and says what it came to.
+/// Drives a session to its end and returns the outcome.
 fn drive(
     session: &mut dyn AnySession,
     guards: Guards,
@@ -213,7 +213,7 @@ fn drive(
         Mutex::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);
     report::of(&report).head(&head(setting));
     let mut counts = Counts::new(session.names());
-    // A path is for the picture; without one, a run of days takes no more memory than one of minutes.
+    // Only the picture needs the path; without it a run of days takes no more memory than a short run.
     let track = if paths.svg.is_some() { Track::new } else { Track::distance_alone };
     let mut track = track(session.devices());
     let live = options.live.map(|at| live::begin(at, program.name, session)).transpose()?;
@@ -239,7 +239,7 @@ fn drive(
     let watchdog =
         watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
     let driver = Driver { watchdog, realtime, keeper, end, live: live.as_deref() };
-    // The robot stands afterwards, before anything is written that may take its time.
+    // The robot stops before anything slow is written.
     let driven = driver.drive(session, &mut gate, &mut observers);
     stop.set_last_resort(None);
     let Driven { stopped_by, measured, lost } = driven?;
@@ -258,14 +258,14 @@ fn drive(
         setting,
     )?;
     let until = setting.recipe.until;
-    // What somebody has stopped has no trace to compare.
+    // A run that was stopped has no trace to compare.
     let again = setting.again.filter(|_| stopped_by != Some(StoppedBy::Signal));
     again.map_or(Ok(()), |again| again.compare(program, until, asked, session.trace()))?;
     Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
 }
 
-/// The flag that signals raise. Where the robot itself runs, nothing puts the process to sleep; where keys are read, it goes to
-/// sleep without the terminal.
+/// The flag that signals raise. With a real robot no signal suspends the process. If keys are read,
+/// the terminal is restored before the process is suspended.
 fn stop_flag(keeper: TimeKeeper) -> io::Result<StopFlag> {
     let stop = StopFlag::on_signals()?;
     match keeper {
@@ -276,23 +276,23 @@ fn stop_flag(keeper: TimeKeeper) -> io::Result<StopFlag> {
     Ok(stop)
 }
 
-/// How a run came out.
+/// The outcome of a run.
 struct Came<'a> {
     stopped_by: Option<StoppedBy>,
     speed: f64,
     measured: Figures,
-    /// The items that a full queue kept from the observers.
+    /// The number of items that a full queue lost before the observers.
     lost: u64,
     written: Result<Option<Written>, LogError>,
     counts: Counts,
     track: Track,
     requests: Vec<Requested>,
-    /// What makes the picture's bytes of an SVG that is not to be one.
+    /// Converts an SVG to the bytes of another picture format.
     raster: Option<Rasterizer<'a>>,
 }
 
 impl Came<'_> {
-    /// Draws the picture and prints the summary, which also those see whose log or picture cannot be written.
+    /// Draws the picture and prints the summary, also if the log or the picture cannot be written.
     fn finish(
         self,
         session: &mut dyn AnySession,
@@ -309,7 +309,7 @@ impl Came<'_> {
             stopped_by,
             end: session.now(),
             misses: session.misses(),
-            // A part of the records has no hash of all.
+            // An incomplete trace has no hash.
             trace: Some(session.trace()).filter(|_| lost == 0),
             distance: track.way(),
             requests,
@@ -380,7 +380,7 @@ fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
     head
 }
 
-/// What the log says of the run: enough to do it again.
+/// The run's metadata in the log: enough to repeat it.
 fn about(setting: &Setting<'_>) -> About {
     let Setting { options, recipe, facts, .. } = setting;
     let mut about = About::new(recipe);
@@ -398,12 +398,12 @@ fn about(setting: &Setting<'_>) -> About {
     about
 }
 
-/// The hashes of the plan and the world of a run, as its log has them.
+/// The hashes of a run's plan and world, as in its log.
 pub fn hashes(recipe: &Recipe) -> [(&'static str, String); 2] {
     [("plan_hash", plan_hash(&recipe.texts)), ("world_hash", hash(&recipe.world.text))]
 }
 
-/// The hash of the plan's text; of several files, that of their paths and texts.
+/// The hash of the plan's text. Several files are hashed with their paths.
 fn plan_hash(texts: &[TextFile]) -> String {
     match texts {
         [one] => hash(&one.text),

@@ -10,20 +10,20 @@ use afp_session::LastResort;
 #[cfg(any(unix, windows))]
 const EXIT_SIGNAL: i32 = 130;
 
-/// Whether somebody asked the process to stop.
+/// Whether the process was asked to stop.
 #[derive(Clone, Debug, Default)]
 pub struct StopFlag(Arc<Stop>);
 
 #[derive(Default)]
 struct Stop {
     raised: AtomicBool,
-    /// The number of the signal that asked, where others than the user send it; else zero.
+    /// The number of the signal that asked; zero if the user asked.
     signal: AtomicU8,
-    /// Whether SIGTSTP asks, too, instead of putting the process to sleep.
+    /// Whether SIGTSTP also asks, instead of suspending the process.
     awake: AtomicBool,
-    /// Whether the robot was stopped by force already: the next signal ends the process.
+    /// Whether the robot was already stopped by force: the next signal ends the process.
     powerless: AtomicBool,
-    /// What is done before the process ends by force.
+    /// The last resort, called before the process ends by force.
     last_resort: Mutex<Option<LastResort>>,
 }
 
@@ -34,9 +34,9 @@ impl fmt::Debug for Stop {
 }
 
 impl StopFlag {
-    /// The flag that Ctrl-C, SIGTERM and other signals raise, one for the process. A second signal ends the
-    /// process at once, whatever it is at; its terminal is given back. A limit of the system (SIGXFSZ, SIGXCPU) never
-    /// ends it at once.
+    /// The flag that Ctrl-C, SIGTERM and other signals raise, one for the process. A second signal
+    /// restores the terminal and ends the process at once. A limit of the system (SIGXFSZ, SIGXCPU)
+    /// never ends it at once.
     ///
     /// # Errors
     /// Signals cannot be handled.
@@ -64,7 +64,7 @@ impl StopFlag {
         Ok(StopFlag::default())
     }
 
-    /// Raises the flag. Returns whether the process has to end at once: the flag was raised before, or
+    /// Raises the flag. Returns whether the process must end at once: the flag was already raised, or
     /// the robot was stopped by force.
     #[cfg(any(unix, windows))]
     fn raise(&self) -> bool {
@@ -72,8 +72,8 @@ impl StopFlag {
         is_second || self.0.powerless.load(Ordering::Relaxed)
     }
 
-    /// From now on what would put the process to sleep (SIGTSTP, from whoever sends it) asks it to stop instead: a process that
-    /// sleeps stops no robot.
+    /// Makes SIGTSTP, from any sender, ask the process to stop instead of suspending it: a suspended
+    /// process cannot stop its robot.
     ///
     /// # Errors
     /// Signals cannot be handled.
@@ -84,7 +84,7 @@ impl StopFlag {
         Ok(())
     }
 
-    /// From now on the terminal is given back before the process is put to sleep (SIGTSTP, from whoever sends it).
+    /// Restores the terminal before SIGTSTP, from any sender, suspends the process.
     ///
     /// # Errors
     /// Signals cannot be handled.
@@ -98,12 +98,13 @@ impl StopFlag {
         self.0.raised.load(Ordering::Relaxed)
     }
 
-    /// The flag itself, for other threads to look at.
+    /// The flag, for other threads.
     pub fn flag(&self) -> &AtomicBool {
         &self.0.raised
     }
 
-    /// What is done before a second signal ends the process by force; none any more where nothing is given.
+    /// Sets the last resort, called before a second signal ends the process by force. `None` removes
+    /// it.
     pub(crate) fn set_last_resort(&self, resort: Option<LastResort>) {
         *self.0.last_resort.lock().unwrap_or_else(PoisonError::into_inner) = resort;
     }
@@ -114,15 +115,15 @@ impl StopFlag {
         resort.map(|mut resort| resort()).is_some()
     }
 
-    /// Stops the robot by force because its control loop hangs; whether that is possible. From now on the first signal
-    /// ends the process.
+    /// Stops the robot by force because its control loop hangs. Returns whether that is possible. The
+    /// next signal ends the process.
     pub(crate) fn take_power(&self) -> bool {
         self.0.powerless.store(true, Ordering::Relaxed);
         self.resort()
     }
 
-    /// What a program that ends as asked exits with, if a signal other than Ctrl-C asked: 128 and the signal, as a shell says
-    /// of one that died of it. None for Ctrl-C, with which people end what has no end.
+    /// The exit code after an orderly stop by a signal: 128 and the number of the signal, as in a shell.
+    /// `None` for Ctrl-C, the usual end of a plan that has no end.
     pub fn exit_code(&self) -> Option<u8> {
         match self.0.signal.load(Ordering::Relaxed) {
             0 => None,
@@ -147,13 +148,14 @@ mod signals {
     use super::{EXIT_SIGNAL, StopFlag};
     use crate::keys;
 
-    /// All that would end the process before the robot has stopped. A broken pipe is an error of what writes into it.
+    /// All signals that would end the process before the robot has stopped. A broken pipe is not one of
+    /// them: its writer gets an error.
     const ALL: [i32; 9] =
         [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
 
     static MADE: Mutex<Option<(StopFlag, Handle)>> = Mutex::new(None);
 
-    /// The flag; the first call makes it and the thread that raises it.
+    /// The flag. The first call creates it and the thread that raises it.
     pub(super) fn flag() -> io::Result<StopFlag> {
         let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((flag, _)) = &*made {
@@ -169,14 +171,13 @@ mod signals {
         Ok(flag)
     }
 
-    /// From now on SIGTSTP comes to the thread, too.
+    /// Delivers SIGTSTP to the thread, too.
     pub(super) fn take_sleep() -> io::Result<()> {
         let made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         made.as_ref().map_or(Ok(()), |(_, handle)| handle.add_signal(SIGTSTP))
     }
 
-    /// A thread of its own may do what the handler of a signal may not, and does it also while the
-    /// others hang.
+    /// A thread may do more than a signal handler, also while other threads hang.
     fn handle(mut signals: Signals, flag: &StopFlag) {
         for signal in signals.forever() {
             let sleeps = signal == SIGTSTP && !flag.0.awake.load(Ordering::Relaxed);
@@ -184,7 +185,7 @@ mod signals {
                 if signal == SIGQUIT {
                     flag.resort();
                 }
-                // There is no other end, and no other sleep, than this one; nothing is to be done about a failure.
+                // There is no other way to end or to suspend, so a failure has no remedy.
                 keys::without_terminal(|| drop(low_level::emulate_default_handler(signal)));
                 continue;
             }
@@ -192,7 +193,7 @@ mod signals {
             if let (false, Ok(number)) = (of_user, u8::try_from(signal)) {
                 flag.0.signal.store(number, Ordering::Relaxed);
             }
-            // A limit of the system that was reached is reached again by what is written at the end.
+            // The last lines of the run reach the same limit of the system again.
             let of_limit = matches!(signal, SIGXCPU | SIGXFSZ);
             if flag.raise() && !of_limit {
                 flag.resort();
@@ -212,7 +213,7 @@ mod console {
 
     static FLAG: Mutex<Option<StopFlag>> = Mutex::new(None);
 
-    /// The flag; the first call makes it and the handler that raises it.
+    /// The flag. The first call creates it and the handler that raises it.
     pub(super) fn flag() -> io::Result<StopFlag> {
         let mut made = FLAG.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(flag) = &*made {
@@ -254,10 +255,10 @@ mod tests {
         assert_eq!(done.load(Ordering::Relaxed), 1);
     }
 
-    /// The flag is one for the process: no other test here may use that of signals.
+    /// The process has one flag: no other test here may use signals.
     #[cfg(unix)]
     #[test]
-    fn what_would_put_a_process_to_sleep_asks_it_to_stop() {
+    fn a_signal_that_suspends_a_process_asks_it_to_stop() {
         let stop = StopFlag::on_signals().unwrap();
         stop.stay_awake().unwrap();
         signal_hook::low_level::raise(signal_hook::consts::SIGTSTP).unwrap();

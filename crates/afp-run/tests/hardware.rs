@@ -277,7 +277,7 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
 }
 
 #[test]
-fn a_robot_that_is_there_is_sampled_although_its_time_hits_no_grid() {
+fn a_real_robot_is_sampled_although_its_time_is_on_no_grid() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("a.mcap");
     let (ran, _, seen) = on_board(WAITS, &["--until", "200ms", "--log", log.to_str().unwrap()]);
@@ -306,7 +306,7 @@ fn a_stop_is_taken_however_late_it_comes_and_nobody_presses_what_is_there() {
 }
 
 #[test]
-fn settings_go_to_the_robot_and_what_is_of_the_simulation_is_refused() {
+fn settings_go_to_the_robot_and_those_of_the_simulation_are_refused() {
     let (ran, _, seen) = on_board(WAITS, &["--set", "robot.port=none"]);
     let why = message(ran);
     assert!(why.contains("the robot cannot be reached: there is no board at 'none'"), "{why}");

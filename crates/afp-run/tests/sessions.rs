@@ -55,7 +55,7 @@ fn at(seconds: u64) -> Instant {
 }
 
 #[test]
-fn a_slow_sensor_makes_polls_late_whoever_drives() {
+fn a_slow_sensor_makes_polls_late_under_each_driver() {
     let mut session = session();
     let slow = find_fault(TABLE, "touch", "slow").unwrap();
     session.at(Instant::ZERO, Request::Break(slow, None, Duration::MAX)).unwrap();
@@ -134,7 +134,7 @@ fn looking_judging_logging_and_pausing_do_not_change_the_run() {
 }
 
 #[test]
-fn a_keyframe_goes_on_as_its_run_does() {
+fn a_keyframe_continues_like_its_run() {
     // With noise, a fault across each end, a held control, and a plan that watches optical flow.
     for (plan, seed) in [(PLAN, 3), (MOTION, 5)] {
         let mut session = session_of(plan, seed);

@@ -227,7 +227,7 @@ impl SessionError {
                 "the toolbox file and the Rust crate behind it do not belong together".to_owned()
             }
             SessionError::World(_) | SessionError::OtherWorld => {
-                "look at the world that the robot is to be in".to_owned()
+                "look at the world file".to_owned()
             }
             SessionError::Hardware(_) => {
                 "look at the robot and its connection, and at 'settings' in '[robot.hardware]'"

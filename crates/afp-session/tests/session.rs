@@ -149,7 +149,7 @@ fn faults_are_a_set_that_the_last_begun_rules() {
 }
 
 #[test]
-fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
+fn impossible_requests_are_refused_at_once_and_late_requests_are_reported() {
     let mut session = session();
     let mut notes = Notes::default();
     for (request, why) in [

@@ -61,7 +61,7 @@ pub(crate) fn copy(
     check_place(folder, plan)?;
     if let Some((path, _)) = others.iter().find(|(path, _)| !leads_into(folder, path)) {
         return Err(format!(
-            "'{}' would lie outside of '{}': put the plan into a folder of its own, such as 'plans'",
+            "'{}' would be outside of '{}': put the plan into a folder of its own, such as 'plans'",
             path.display(),
             folder.root().display()
         ));
@@ -114,8 +114,8 @@ mod tests {
 
     #[test]
     fn the_title_of_an_example_is_the_help_of_its_plan() {
-        let text = "use std\n\n/// Places.\ntable t(x: length) {}\n\n/// Drive to a room,\n/// round what stands there. And back.\nplan P {\n";
-        assert_eq!(title(text), "Drive to a room, round what stands there.");
+        let text = "use std\n\n/// Places.\ntable t(x: length) {}\n\n/// Drive to a room,\n/// around the obstacles. And back.\nplan P {\n";
+        assert_eq!(title(text), "Drive to a room, around the obstacles.");
         assert_eq!(title("/// All of it.\nuse std\n\nplan P {"), "All of it.");
         assert_eq!(title("plan P {"), "");
     }

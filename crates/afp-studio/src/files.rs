@@ -91,7 +91,7 @@ impl Folder {
                 path.display()
             ));
         }
-        let outside = || format!("'{}' lies outside of '{}'", path.display(), self.root.display());
+        let outside = || format!("'{}' is outside of '{}'", path.display(), self.root.display());
         let real = match fs::canonicalize(path) {
             Ok(real) => real,
             // For a new file its folder decides. A dangling link is not followed.

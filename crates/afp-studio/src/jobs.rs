@@ -157,7 +157,7 @@ mod tests {
                 .iter()
                 .map(|event| match event {
                     Event::JobSaid(1, line) => line,
-                    _ => panic!("a line alone"),
+                    _ => panic!("one line"),
                 })
                 .collect();
             assert!(said == expected, "{} lines", said.len());

@@ -97,7 +97,7 @@ impl Trust {
 /// The crates of a folder's project; an unreadable project may contain any code.
 fn code_of(folder: &Path) -> Vec<String> {
     let Ok(file) = ProjectFile::find(folder) else {
-        return vec![format!("what the project file of '{}' names", folder.display())];
+        return vec![format!("the code that the project file of '{}' names", folder.display())];
     };
     let project = &file.project;
     let robot = project.robot.iter().map(|_| format!("the robot of '{}'", file.path().display()));

@@ -237,7 +237,7 @@ mod tests {
         assert_eq!((several.len(), several.nth(2), several.nth(3)), (4, 2, 9));
         assert_eq!(several.to_string(), "7,1,2,9");
         assert_eq!(seeds("3,4,5").unwrap(), all);
-        assert_eq!(seeds("1,0..2").unwrap_err(), "the seed 1 is there twice");
+        assert_eq!(seeds("1,0..2").unwrap_err(), "the seed 1 is given twice");
         assert!(seeds("1,0..99999999").unwrap_err().contains("more than 1000000 seeds"));
         assert!(seeds("3..3").is_err() && seeds("-1..2").is_err() && seeds("x").is_err());
         assert_eq!(worlds("random:7..9").unwrap(), ["random:7", "random:8"]);

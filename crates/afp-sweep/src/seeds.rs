@@ -29,7 +29,7 @@ impl Seeds {
     pub fn list(seeds: Vec<u64>) -> Result<Self, String> {
         let mut known = BTreeSet::new();
         if let Some(twice) = seeds.iter().find(|seed| !known.insert(**seed)) {
-            return Err(format!("the seed {twice} is there twice"));
+            return Err(format!("the seed {twice} is given twice"));
         }
         let follow =
             seeds.windows(2).all(|pair| matches!(pair, [a, b] if a.checked_add(1) == Some(*b)));

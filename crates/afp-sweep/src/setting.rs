@@ -189,7 +189,7 @@ fn different_worlds(worlds: &[WorldChoice]) -> Result<(), RunError> {
     let twice = names
         .find(|name| !known.insert(name.canonicalize().unwrap_or_else(|_| (*name).to_owned())));
     twice.map_or(Ok(()), |name| {
-        let message = format!("the world '{}' is there twice", name.display());
+        let message = format!("the world '{}' is given twice", name.display());
         Err(RunError::usage(message, "name each world once"))
     })
 }
@@ -205,7 +205,7 @@ fn different_values(axis: &Axis, whole: &[i64]) -> Result<(), RunError> {
     };
     let twice = axis.points.iter().enumerate().find(|point| !known.insert(value(point)));
     twice.map_or(Ok(()), |(_, point)| {
-        let message = format!("'{}={}' is there twice", axis.name, point.text);
+        let message = format!("'{}={}' is given twice", axis.name, point.text);
         Err(RunError::usage(message, "give each value once"))
     })
 }

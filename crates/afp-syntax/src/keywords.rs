@@ -154,7 +154,7 @@ mod tests {
     use crate::kind::Kind;
 
     #[test]
-    fn slips_and_words_of_elsewhere_are_told() {
+    fn slips_and_words_of_other_languages_are_reported() {
         for (word, list, ours) in [
             ("strat", PLAN, Some("start")),
             ("input", PLAN, Some("in")),

@@ -291,7 +291,7 @@ impl<'t> Lexer<'t, '_> {
                 (Trick::Break, Some(Kind::Whitespace | Kind::Unknown)) => {
                     ("end the line with a line feed", "\n")
                 }
-                (Trick::Break, _) => ("remove it; what follows belongs to the comment", " "),
+                (Trick::Break, _) => ("remove it; the text after it belongs to the comment", " "),
                 _ => ("remove it", ""),
             };
             let message = message!("'{}' {}", hidden.shown, Words(hidden.fault()));

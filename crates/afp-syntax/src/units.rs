@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn celsius_stands_alone() {
+    fn celsius_is_not_combined() {
         assert!(Unit::parse("degC").is_some());
         assert_eq!(Unit::parse("degC/s"), None);
         assert_eq!(Unit::parse("V/degC"), None);

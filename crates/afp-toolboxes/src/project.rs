@@ -217,7 +217,7 @@ mod tests {
     const WAIT: &str = "supervisor Late {\n    every 10 ms\n    event Due\n}\n";
 
     #[test]
-    fn a_file_of_another_toolbox_is_told_also_where_one_of_the_name_is_there() {
+    fn a_file_of_another_toolbox_is_reported_also_if_the_name_exists() {
         let (a, b) = (
             format!("toolbox a version \"1.0\"\n{WAIT}"),
             format!("toolbox b version \"1.0\"\n{WAIT}"),

@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_read_as_people_write_them() {
+    fn values_are_shown_in_usual_units() {
         for (number, unit, text) in [
             (0.3, "m", "30 cm"),
             (0.123_456, "m", "12.346 cm"),
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_has_the_unit_of_what_is_beside_it() {
+    fn zero_has_the_unit_of_its_neighbour() {
         let beside = |number, other| {
             Measured::new(number, "s").beside(Measured::new(other, "s")).to_string()
         };
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn what_reads_the_same_is_equal() {
+    fn equal_texts_have_equal_values() {
         assert_eq!(Measured::new(0.300_000_1, "m"), Measured::new(0.3, "m"));
         assert_ne!(Measured::new(0.300_1, "m"), Measured::new(0.3, "m"));
     }

@@ -78,7 +78,7 @@ fn celsius_is_a_decimal_sum() {
 }
 
 #[test]
-fn what_is_too_large_is_no_value_and_what_is_too_small_is_zero() {
+fn too_large_a_number_is_not_a_value_and_too_small_a_number_is_zero() {
     for text in ["1e999 s", "1e99999999999 s", "1e308 min", "1e999 degC", "1e400 deg"] {
         assert_eq!(read(text), Err(Error::NotAValue), "{text}");
     }

@@ -158,7 +158,7 @@ fn command() -> impl Strategy<Value = Command> {
 
 proptest! {
     #[test]
-    fn each_command_arrives_as_it_was_sent(commands in prop::collection::vec(command(), 1..20)) {
+    fn each_command_arrives_unchanged(commands in prop::collection::vec(command(), 1..20)) {
         let (mut sender, mut receiver) = connected();
         let line: Vec<u8> =
             commands.iter().flat_map(|command| send(&mut sender, command)).collect();

@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn the_next_place_is_told_and_the_one_where_the_robot_is_remembered() {
+    fn the_next_place_is_returned_and_the_place_of_the_robot_is_remembered() {
         let mut robot = Fake::new(&[]);
         robot.map_offset = [0.5, 0.25];
         robot.view = [2.0, 1.0];
@@ -87,14 +87,14 @@ mod tests {
     }
 
     #[test]
-    fn who_gets_nowhere_is_told_so() {
+    fn a_robot_without_progress_gets_a_fault() {
         let mut robot = Fake::new(&[]);
         robot.no_way = true;
         assert!(matches!(choose(&mut robot, &Path::default()), Ok(Some(State::NoView))));
     }
 
     #[test]
-    fn what_is_silent_is_a_fault() {
+    fn silence_is_a_fault() {
         let mut robot = Fake::new(&[]);
         robot.dead_localisation = true;
         assert_eq!(choose(&mut robot, &Path::default()).map(|_| ()), Err(NO_POSITION));

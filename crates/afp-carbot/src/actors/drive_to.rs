@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_silent_or_blocked_is_a_fault() {
+    fn silence_and_blocked_wheels_are_faults() {
         let fault = |break_it: fn(&mut Fake)| {
             let mut robot = Fake::new(&[]);
             break_it(&mut robot);

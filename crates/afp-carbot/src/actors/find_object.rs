@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_once_around_for_what_is_not_there_and_waits_not_for_what_has_gone() {
+    fn turns_once_around_for_a_missing_object_and_does_not_wait_for_one_that_has_gone() {
         let mut robot = Fake::new(&[]);
         assert_eq!(find(&mut robot), Ok(Some(State::NoObjectFound)));
         assert!(robot.motion.heading.si() > core::f64::consts::TAU);

@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_near_enough_is_reached_at_once() {
+    fn a_near_object_is_reached_at_once() {
         let mut robot = Fake::new(&[]);
         robot.post = Some((0.6, 0.0));
         assert_eq!(follow(&mut robot), Ok(Some(State::ObjectReached)));
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn what_goes_out_of_sight_is_lost_where_the_robot_stands() {
+    fn an_object_out_of_sight_is_lost_at_the_place_of_the_robot() {
         let mut robot = Fake::new(&[]);
         (robot.post, robot.post_goes) = (Some((3.0, 0.0)), 2000);
         assert_eq!(follow(&mut robot), Ok(Some(State::ObjectLost)));

@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn who_begins_near_the_end_is_there_and_who_comes_from_afar_drives_on_to_it() {
+    fn near_the_end_the_path_is_complete_and_from_afar_the_robot_drives_to_it() {
         let mut robot = Fake::new(&[]);
         assert_eq!(follow(&mut robot, &[[0.0, 0.0], [0.09, 0.0]], 1), Ok(Some(State::Arrived)));
         assert_eq!(robot.motion.x.si(), 0.0);
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_silent_or_blocked_is_a_fault() {
+    fn silence_and_blocked_wheels_are_faults() {
         let fault = |break_it: fn(&mut Fake)| {
             let mut robot = Fake::new(&[]);
             break_it(&mut robot);

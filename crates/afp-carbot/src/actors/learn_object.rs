@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_ahead_is_learnt_and_what_is_around_it_is_not() {
+    fn the_object_ahead_is_learnt_without_its_surroundings() {
         let mut robot = Fake::new(&[]);
         robot.post = Some((0.8, 0.0));
         let look = learn(&mut robot).unwrap().expect("it is special");

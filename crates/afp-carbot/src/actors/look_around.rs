@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_silent_stuck_or_frozen_is_a_fault_and_no_free_space() {
+    fn a_silent_stuck_or_frozen_sensor_is_a_fault_and_not_free_space() {
         let fault = |break_it: fn(&mut Fake)| {
             let mut robot = Fake::new(&[plane(0.0, 0.7)]);
             break_it(&mut robot);

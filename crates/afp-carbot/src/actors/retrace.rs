@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_silent_or_blocked_is_a_fault() {
+    fn silence_and_blocked_wheels_are_faults() {
         let mut robot = Fake::new(&[]);
         robot.dead_odometry = true;
         assert_eq!(back(&mut robot, 0.15), Err(NO_ODOMETRY));

@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_felt_on_the_way_along_the_wall_is_the_wall() {
+    fn contacts_along_the_wall_belong_to_the_wall() {
         let mut robot = Fake::new(&[plane(-60.0, 0.7)]);
         let state = search(&mut robot);
         let Ok(Some(State::WallFound { angle })) = state else { panic!("{state:?}") };

@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn light_alone_and_sound_alone() {
+    fn only_light_and_only_sound() {
         for (light, sound) in [(true, false), (false, true)] {
             let mut robot = Fake::new(&[]);
             let inputs = inputs(light, sound, 1);

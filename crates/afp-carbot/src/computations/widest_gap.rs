@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_as_far_away_as_wanted_is_free_and_a_narrow_gap_is_none() {
+    fn a_distant_direction_is_free_and_a_narrow_gap_is_not() {
         assert_eq!(found(&map(1.0, &[(-120, 120)], true), 0.1), Some((0, 200)));
         let narrow = map(0.5, &[(-120, -5), (15, 120)], true);
         assert_eq!((found(&narrow, 0.2), found(&narrow, 0.3)), (Some((5, 26)), None));

@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn echoes_that_come_late_are_no_news_for_a_robot_that_drives() {
+    fn late_echoes_are_not_new_readings_for_a_driving_robot() {
         let at = |ms| Instant::ZERO + Duration::from_millis(ms);
         let mut guard = Guard::of_echoes(at(0));
         assert_eq!(guard.next(Reading::valid(2.0, at(50)), at(0), at(250)), Ok(Some(2.0)));
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_reading_again_is_no_news() {
+    fn a_repeated_reading_is_not_new() {
         let mut guard = Guard::new(NO_RANGE, Instant::ZERO);
         let at = |ms| Instant::ZERO + Duration::from_millis(ms);
         let frozen = Reading::valid(2.0, at(10));

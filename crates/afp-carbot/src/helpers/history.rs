@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_odometry_does_not_know_is_not_guessed() {
+    fn an_unknown_pose_is_not_guessed() {
         assert_eq!(History::new().at(at(0)), None);
         let history = turning(5);
         assert_eq!(history.at(at(1000)), None, "forgotten");
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_old_or_invalid_is_not_noted() {
+    fn old_and_invalid_readings_are_not_noted() {
         let mut history = turning(5);
         let elsewhere = Motion { heading: Angle::from_si(9.0), ..Motion::default() };
         history.note(Reading::valid(elsewhere, at(2000)));

@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn driving_ahead_everything_moves_away_from_the_middle_by_no_more_than_what_is_near() {
+    fn while_driving_ahead_no_pixel_leaves_the_middle_faster_than_near_ones() {
         let step = step(0.02, 0.0);
         assert!(off(step, [40.0, -20.0], [40.4, -20.2]) < 1e-9, "a wall");
         assert!(off(step, [40.0, -20.0], [39.0, -19.5]) > 1.0, "it comes towards the middle");

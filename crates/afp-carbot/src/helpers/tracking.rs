@@ -11,10 +11,10 @@ faults! {
         "the wheels did not turn for 300 ms although commanded; check for an obstacle or an empty battery";
     /// The robot's motion differs from the command.
     pub DRIVE_STALLED = "drive-stalled",
-        "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low";
+        "the robot did not move as commanded for 300 ms: a wheel does not follow, or the battery is low";
     /// The odometry counts no distance.
     pub NO_PROGRESS = "no-progress",
-        "the robot was told to go 10 cm, and the odometry counted less than a quarter of it";
+        "the robot was commanded to drive 10 cm, but the odometry counted less than a quarter of it";
 }
 
 /// How long the motion may differ from the command: motors lag and wheels need steering.

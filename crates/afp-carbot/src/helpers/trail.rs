@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_gone_back_is_taken_off() {
+    fn a_retraced_part_is_removed() {
         let out = (0..20).map(|n| (0.02 * f64::from(n), 0.0));
         let back = (10..19).rev().map(|n| (0.02 * f64::from(n), 0.0));
         let places: Vec<_> = out.chain(back).collect();

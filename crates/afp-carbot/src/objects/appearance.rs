@@ -95,14 +95,14 @@ mod tests {
     use std::vec::Vec;
 
     #[test]
-    fn light_and_shade_leave_a_colour_as_it_is() {
+    fn light_and_shade_do_not_change_a_colour() {
         let red = Appearance::of_color([0.69, 0.19, 0.19], 0.08);
         assert!(red.has([176, 48, 48]) && red.has([88, 24, 24]) && red.has([255, 70, 70]));
         assert!(!red.has([176, 120, 48]) && !red.has([128, 128, 128]) && !red.has([8, 2, 2]));
     }
 
     #[test]
-    fn what_is_learnt_is_what_the_middle_alone_shows() {
+    fn only_the_middle_of_the_picture_is_learnt() {
         for (width, height, share) in [(16, 16, 0.5), (640, 480, 0.2)] {
             let picture = |inside: [u8; 3], around: [u8; 3]| -> Vec<u8> {
                 let is_in =

@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_begins_where_somebody_is_and_ends_where_it_ended() {
+    fn the_rest_begins_at_the_robot_and_ends_at_the_end_of_the_path() {
         let path = Path::new([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]).unwrap();
         let rest = |x, y| {
             path.rest_from([x, y], 0.1).map(|path| path.places().collect::<std::vec::Vec<_>>())
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_place_tells_how_far_it_is_and_what_is_left() {
+    fn the_nearest_place_has_its_distance_and_the_rest_of_the_path() {
         let near = |x, y| corner().nearest([x, y]).unwrap();
         assert_eq!(near(0.25, 0.5), Nearest { off: 0.5, rest: 2.75 });
         assert_eq!(near(1.5, 1.5), Nearest { off: 0.5, rest: 0.5 });

@@ -154,14 +154,14 @@ mod tests {
     }
 
     #[test]
-    fn what_runs_into_the_lane_at_a_small_angle_is_heard() {
+    fn an_obstacle_at_a_small_angle_to_the_lane_is_heard() {
         for side in [-1.0, 1.0] {
             assert!(!free(&[plane(side * 75.0, 0.4)]), "{side}");
         }
     }
 
     #[test]
-    fn what_is_not_heard_straight_ahead_is_found_by_swinging() {
+    fn an_obstacle_beside_the_beam_is_found_by_swinging() {
         let slanted = [plane(-50.0, 0.45)];
         assert!(!free(&slanted));
     }

@@ -97,14 +97,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_ignored_is_searched_for_again_after_the_period() {
+    fn an_ignored_path_is_searched_again_after_the_period() {
         let mut robot = Fake::new(&[]);
         assert!(matches!(plan(&mut robot, 2, 3200), Ok(None)));
         assert_eq!(robot.searches, 4);
     }
 
     #[test]
-    fn what_is_silent_is_a_fault() {
+    fn silence_is_a_fault() {
         let mut robot = Fake::new(&[]);
         robot.dead_localisation = true;
         assert_eq!(plan(&mut robot, 3, 1000).map(|_| ()), Err(NO_POSITION));

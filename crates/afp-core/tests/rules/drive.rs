@@ -65,7 +65,7 @@ fn a_panic_that_unwinds_past_the_driver_stops_the_platform() {
 }
 
 #[test]
-fn a_plan_that_cannot_start_leaves_the_platform_alone() {
+fn a_plan_that_cannot_start_does_not_touch_the_platform() {
     let mut plan = scheduler(plan("p").entry("size", EntryKind::In, Value::Unset).with(actor("a")));
     let mut world = World::default();
     assert_eq!(plan.run(&mut world), Err(StartError::InputMissing(EntryId(0))));
@@ -109,7 +109,7 @@ fn a_fault_that_an_edge_took_is_not_why_the_plan_ended() {
 }
 
 #[test]
-fn an_actor_that_cannot_be_interrupted_is_who_failed() {
+fn an_actor_that_cannot_be_interrupted_is_the_source_of_the_fault() {
     let world = World::default().fails("a", Phase::Interrupt, 0..100);
     let mut run = Run::started(two(), world);
     run.scheduler.request_stop();

@@ -66,7 +66,7 @@ fn output_of_an_actor_commits_nothing_and_interrupts_it() {
 }
 
 #[test]
-fn what_a_failed_commit_had_staged_is_not_part_of_the_next() {
+fn values_of_a_failed_commit_are_not_part_of_the_next_commit() {
     let plan = plan("p")
         .var("x")
         .var("y")
@@ -198,7 +198,7 @@ fn an_error_edge_to_terminate_ends_the_plan_ok() {
 }
 
 #[test]
-fn a_failed_interrupt_ends_the_run_whatever_is_connected() {
+fn a_failed_interrupt_ends_the_run_despite_an_error_edge() {
     for (who, phase) in [("g", Phase::Poll), ("a", Phase::Poll)] {
         let world = World::default().fails(who, phase, 10..11).fails("a", Phase::Interrupt, 10..11);
         let mut run = Run::started(guarded_actor(), world);

@@ -29,7 +29,7 @@ fn a_thousand_edges_in_a_step_and_no_more() {
 }
 
 #[test]
-fn each_step_counts_anew() {
+fn each_step_counts_from_zero() {
     let plan = plan("p").with(actor("a").on("Done", "b")).with(actor("b").on("Done", "a"));
     let mut run =
         Run::started(plan, World::default().says("a", 0, 0..30_000).says("b", 0, 0..30_000));

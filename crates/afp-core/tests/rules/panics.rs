@@ -140,10 +140,10 @@ fn a_panic_of_the_sink_or_the_clock_is_nobodys_of_the_plan() {
         assert_eq!(run.step(300), Wake::Ended(Ending::Error(Fault::PANIC_OUTSIDE)), "case {n}");
         assert_lines(
             &run.trace(),
-            "0.020000 p fault panic-outside: what records or times the run panicked
+            "0.020000 p fault panic-outside: the sink or the clock of the run panicked
              0.020000 p ended Error(panic-outside)",
         );
-        assert_eq!(run.failure().as_deref(), Some("p: what records or times the run panicked"));
+        assert_eq!(run.failure().as_deref(), Some("p: the sink or the clock of the run panicked"));
         assert_eq!(run.emergency_stops(), 1);
     }
 }

@@ -190,7 +190,7 @@ fn entry_is_outer_look_first_then_inner_start_then_inner_look() {
 }
 
 #[test]
-fn each_activation_starts_afresh() {
+fn each_activation_starts_from_the_beginning() {
     let inner = plan("Inner")
         .entry("n", EntryKind::Out, Value::Unset)
         .with(actor("work").on("One", "terminate").on("Two", "terminate").writes("One", "n", 1));

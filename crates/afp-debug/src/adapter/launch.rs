@@ -194,7 +194,9 @@ impl Adapter<'_> {
                 return Err("'token' is the one that 'afpc dap' printed".into());
             }
             if !self.is_admitted(self.asker) && self.admitted().count() >= *most {
-                return Err(Refusal(format!("{most} clients are there already: end one first")));
+                return Err(Refusal(format!(
+                    "{most} clients are already connected: end one first"
+                )));
             }
         }
         if let Some(client) = self.clients.get_mut(&self.asker) {

@@ -90,9 +90,7 @@ impl Run<'_> {
         let (at, now) = (Instant::ZERO + Duration::from_secs_f64(at), self.target.now());
         if at > now {
             let now = now.as_secs_f64();
-            return Err(Refusal(format!(
-                "the run is at {now:.3} s: what comes later is not known"
-            )));
+            return Err(Refusal(format!("the run is at {now:.3} s: later events are unknown")));
         }
         Ok(self.target.past(at)?)
     }

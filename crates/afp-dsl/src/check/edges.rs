@@ -118,7 +118,7 @@ impl<'a> Elements<'a> {
         if let Some(Name { span, .. }) = text.filter(|_| reason.is_empty()) {
             diags.push(
                 Diagnostic::new(Code::E0230, *span, "the reason is empty")
-                    .help("say why the plan fails, or write 'fail' alone"),
+                    .help("write the reason of the fault, or only 'fail'"),
             );
             return None;
         }

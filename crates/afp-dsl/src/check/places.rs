@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_in_what_is_found_as_by_trying_all() {
+    fn nesting_is_found_as_by_trying_all() {
         let ranges = [span(0, 4), span(4, 9), span(12, 12), span(14, 20)];
         let places =
             [span(3, 5), span(6, 20), span(7, 8), span(12, 12), span(15, 40), span(19, 21)];

@@ -105,7 +105,7 @@ impl Watchers<'_> {
             Some(own) => Diagnostic::new(
                 Code::E0248,
                 name.span,
-                message!("'{}' watches this element alone", name.text),
+                message!("'{}' watches only this element", name.text),
             )
             .unknown(Sought::Supervisor, &name.text)
             .note(own.span, "it is the element's own")

@@ -28,7 +28,7 @@ pub(super) fn check(
             diags.push(
                 Diagnostic::new(Code::E0247, span, message)
                     .note(element.span, "only events may lead to this computation")
-                    .help("use a second computation that leads to elements alone"),
+                    .help("use a second computation that leads only to elements"),
             );
         }
     };

@@ -249,7 +249,7 @@ impl Checker<'_> {
             entries,
             indices: &self.head.indices,
             readable: &known,
-            unreadable: "write a value; a scenario knows those of 'const' entries alone",
+            unreadable: "write a value; a scenario knows only the values of 'const' entries",
             text: self.context.file.text,
             record: self.context.program.record,
         };

@@ -41,7 +41,7 @@ pub(super) fn own(
         entries: &[],
         indices: &indices,
         readable: &|_| false,
-        unreadable: "write a value: a table has constants alone",
+        unreadable: "write a value: a table has only constants",
         text: &file.source.text,
         record,
     };

@@ -1,4 +1,4 @@
-//! Reads a toolbox file and checks what it declares.
+//! Reads a toolbox file and checks its declarations.
 
 mod cases;
 mod condition;
@@ -27,17 +27,17 @@ use device::Devices;
 use ports::Site;
 
 impl Toolbox {
-    /// Reads a toolbox file. `file` is the index that spans shall carry, `rust_path` the path of
-    /// the crate that implements the toolbox.
+    /// Reads a toolbox file. `file` is the index for its spans, `rust_path` the path of the crate
+    /// that implements the toolbox.
     ///
-    /// `None` when there are errors; all of them are reported.
+    /// Returns `None` if there are errors; all of them are reported.
     pub fn parse(source: &Source, file: u16, rust_path: &str) -> (Option<Toolbox>, Diagnostics) {
         let read = read_file(source, file, rust_path);
         (read.toolbox, read.diags)
     }
 
-    /// As [`Toolbox::parse`], with what could be read of a toolbox that has errors: so that whoever names its templates
-    /// is not told that they are missing.
+    /// Like [`Toolbox::parse`], but returns the readable parts of a toolbox with errors, so that
+    /// its templates are not reported as missing.
     pub fn parse_broken(
         source: &Source,
         file: u16,
@@ -52,11 +52,11 @@ impl Toolbox {
 }
 
 impl Toolboxes {
-    /// Reads a toolbox file and adds it. `rust_path` is the path of the crate that implements it. Gives the name that the file
-    /// says, if it says one.
+    /// Reads a toolbox file and adds it. `rust_path` is the path of the crate that implements it.
+    /// Returns the name in the file, if there is one.
     ///
-    /// Its diagnostics are kept, see [`Toolboxes::diagnostics`]. A toolbox of a name that is there
-    /// already takes the place of the earlier one.
+    /// Its diagnostics are in [`Toolboxes::diagnostics`]. It replaces an earlier toolbox of the
+    /// same name.
     pub fn add(&mut self, source: Source, rust_path: &str) -> Option<String> {
         let source = Arc::new(source);
         let file = self.add_source(source.clone())?;
@@ -79,7 +79,7 @@ impl<'a> FromIterator<(&'a str, &'a str, &'a str)> for Toolboxes {
     }
 }
 
-/// Reads a toolbox file; parameters as of [`Toolbox::parse`].
+/// Reads a toolbox file; for parameters see [`Toolbox::parse`].
 fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
     let mut diags = Diagnostics::default();
     let tree = parse(&source.text, file, &mut diags).file();
@@ -102,7 +102,7 @@ fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
     }
 }
 
-/// Reads a computation that a plan file declares.
+/// Reads a computation declared in a plan file.
 pub(crate) fn computation(
     node: &ast::Template,
     (types, source): (&Types, &str),
@@ -112,7 +112,7 @@ pub(crate) fn computation(
     template::read(node, &Site { types, source, record, devices: &[] }, diags)
 }
 
-/// Finds out what names mean that only toolboxes have, in a file that is none.
+/// Resolves names of declarations that only toolboxes may have, in a file that is not a toolbox.
 pub(crate) fn names_only(tree: &File, source: &Source, file: u16, record: &Recorder) {
     read(tree, source, file, "", record, &mut Diagnostics::default());
 }
@@ -159,7 +159,7 @@ fn read(
     name.map(|_| toolbox)
 }
 
-/// The line that says which toolbox a file is.
+/// The line that names the toolbox of a file.
 fn head<'i>(items: &'i [Item], file: u16, diags: &mut Diagnostics) -> Option<&'i ast::Toolbox> {
     let mut heads = items.iter().filter_map(|item| match item {
         Item::Toolbox(head) => Some(head),
@@ -194,7 +194,7 @@ fn no_uses(items: &[Item], diags: &mut Diagnostics) {
     }
 }
 
-/// Enums and object types, and the names of everything that the toolbox declares.
+/// Enums, object types and the names of all declarations of the toolbox.
 fn declare(items: &[Item], toolbox: &mut Toolbox, diags: &mut Diagnostics) -> Types {
     let mut types = Types { generic: true, ..Types::default() };
     let mut names = DeclaredNames::default();

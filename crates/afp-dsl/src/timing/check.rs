@@ -52,7 +52,7 @@ fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
         (response.tick, "of the target's tick"),
         (response.step, "of a step that is running"),
         (response.before, "of supervisors before it"),
-        (response.entered, "of what an event of theirs leads to"),
+        (response.entered, "of elements that their events start"),
         (response.own, "of its own"),
     ];
     let parts = parts.into_iter().filter(|(time, _)| *time > 0);

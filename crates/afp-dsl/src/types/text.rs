@@ -1,7 +1,7 @@
-//! Types and values as text: with an article in sentences, and in the spelling of literals.
+//! Types and values as text: with an article for sentences, and in the syntax of literals.
 //!
-//! A quantity, which is in SI units everywhere, gets the unit that makes it shortest and reads back
-//! as the very same double.
+//! A quantity in SI units is written with the unit that makes it shortest and reads back as exactly
+//! the same double.
 
 use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::words;
@@ -9,7 +9,8 @@ use afp_syntax::literal::Literal;
 use afp_syntax::units::Unit;
 use afp_types::{Nanoseconds, RADIANS_PER_DEGREE, Rounded};
 
-/// A value in SI units with the unit that makes the text shortest, the usual one where two do.
+/// A value in SI units with the unit that makes the text shortest. Of two equally short units, the
+/// usual one.
 ///
 /// ```
 /// use afp_dsl::types::text::quantity;
@@ -30,12 +31,12 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     shortest.unwrap_or_else(|| format!("{} {}", number(value), dimension.si_unit()))
 }
 
-/// A time as people write it, exact: `20 s`, `1.5 ms`.
+/// An exact time in usual units: `20 s`, `1.5 ms`.
 pub fn duration(nanoseconds: u64) -> String {
     Nanoseconds(nanoseconds).to_string()
 }
 
-/// A plain number in the spelling of literals.
+/// A plain number in the syntax of literals.
 pub fn number(value: f64) -> String {
     let plain = value.to_string();
     let short = format!("{value:e}");
@@ -53,7 +54,7 @@ fn in_unit(value: f64, dimension: Dimension, unit_text: &str) -> Option<String> 
     for _ in 0..unit.degrees.unsigned_abs() {
         factor *= if unit.degrees > 0 { RADIANS_PER_DEGREE } else { 1.0 / RADIANS_PER_DEGREE };
     }
-    // Fifteen digits undo the rounding of the division; whether they do is checked.
+    // Fifteen digits usually undo the rounding of the division; the code checks it.
     let rounded: f64 = format!("{:.14e}", value / factor).parse().ok()?;
     let text = format!("{} {unit_text}", number(rounded));
     let back = Literal::parse(&text).filter(|it| it.dimension() == dimension)?.value()?;
@@ -75,7 +76,7 @@ pub(crate) fn a_type(ty: &Type) -> String {
     }
 }
 
-/// A value in a formula, such as `a length`; of a generic type `a value of type 'any'`.
+/// A value in a formula, such as `a length`; for a generic type `a value of type 'any'`.
 pub(crate) fn a_value(ty: &Type) -> String {
     match ty.is_generic() {
         true => format!("a value of type '{ty}'"),
@@ -83,7 +84,7 @@ pub(crate) fn a_value(ty: &Type) -> String {
     }
 }
 
-/// A type as a plan writes it; of a generic one a type that fits.
+/// A type in the spelling of a plan; for a generic type a type that fits.
 pub(crate) fn written(ty: &Type) -> String {
     match ty {
         Type::Bool => "bool".to_owned(),
@@ -95,7 +96,7 @@ pub(crate) fn written(ty: &Type) -> String {
     }
 }
 
-/// A dimension with its article; none is a bare number.
+/// A dimension with its article; without a dimension, a bare number.
 pub(crate) fn a_dimension(dimension: Dimension) -> String {
     if dimension == Dimension::NONE {
         return "a bare number".to_owned();
@@ -103,17 +104,17 @@ pub(crate) fn a_dimension(dimension: Dimension) -> String {
     words::a(&dimension.name())
 }
 
-/// A value in SI units as people write it, such as `31 cm/s` or `2 km`: as drawings do where that is
-/// short, otherwise rounded and in the usual unit.
+/// A value in SI units for messages, such as `31 cm/s` or `2 km`: exact if that is short, otherwise
+/// rounded and in the usual unit.
 pub(crate) fn value(value: f64, ty: &Type) -> String {
     let dimension = match ty {
         Type::Quantity(dimension) => dimension,
-        // What an int begins or ends with is one, too.
+        // The limits of an int are ints.
         Type::Int => return (value as i64).to_string(),
         _ => return Rounded(value, DECIMALS).to_string(),
     };
     let exact = quantity(value, *dimension);
-    // Zero is as short in any unit.
+    // Zero is equally short in each unit.
     if exact.len() <= SHORT && value != 0.0 {
         return exact;
     }
@@ -123,9 +124,9 @@ pub(crate) fn value(value: f64, ty: &Type) -> String {
     format!("{} {symbol}", Rounded(value / factor, DECIMALS)).trim_end().to_owned()
 }
 
-/// A longer exact value, in letters, has come from a calculation.
+/// The number of letters above which an exact value is the result of a calculation.
 const SHORT: usize = 14;
-/// Any other is told to so many decimals.
+/// The decimals of such a value.
 const DECIMALS: usize = 9;
 
 #[cfg(test)]
@@ -160,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_shown_as_people_write_them() {
+    fn values_are_shown_in_usual_units() {
         let shown = |number, dimension| {
             value(number, &Type::Quantity(Dimension::named(dimension).unwrap()))
         };

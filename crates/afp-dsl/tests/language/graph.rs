@@ -25,7 +25,7 @@ fn every_case_has_the_graph_it_should() {
 }
 
 #[test]
-fn the_plan_of_the_paper_compiles_without_a_word() {
+fn the_plan_of_the_paper_compiles_without_a_diagnostic() {
     let text = include_str!("../../../../plans/wall_following.afp");
     let compiled = support::compile(text, &support::toolboxes());
     assert!(compiled.diags.is_empty(), "{}", compiled.render(false));
@@ -50,7 +50,7 @@ fn the_plan_of_the_paper_compiles_without_a_word() {
 }
 
 #[test]
-fn an_example_of_the_house_style_looks_as_it_is_shown_there() {
+fn an_example_of_the_house_style_has_the_shown_text() {
     let text = "use carbot\n\nplan P {\n    start go\n\n\n    actor go: Forward(distance = 30) {\n        ForwardSuccessful -> go\n    }\n}\n";
     let compiled = support::compile(text, &support::toolboxes());
     let expected = "\

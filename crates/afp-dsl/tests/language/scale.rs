@@ -214,7 +214,7 @@ fn of_thousands_of_errors_twenty_are_shown() {
 }
 
 #[test]
-fn one_cause_is_reported_once_however_often_it_is_there() {
+fn one_cause_is_reported_once_however_often_it_occurs() {
     let toolboxes = support::toolboxes();
     let edges =
         |count: usize| "    actor a: Forward { ForwardSuccessful -> zurück }\n".repeat(count);

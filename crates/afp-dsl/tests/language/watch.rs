@@ -79,7 +79,7 @@ fn watches_are_formulas_of_the_plan() {
 }
 
 #[test]
-fn what_cannot_be_watched_says_why() {
+fn an_expression_that_cannot_be_watched_has_a_reason() {
     let graph = graph();
     for (text, why) in [
         ("", "expected a formula (help: "),

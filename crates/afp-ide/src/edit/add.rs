@@ -156,7 +156,7 @@ fn new_names(nodes: &[Node], scope: &Scope) -> Result<(), Refused> {
         }
         name::check_free(scope, &new, None)?;
         if name::fresh(&new, &seen) != new {
-            return Err(Refused::new(format!("'{new}' is there twice")));
+            return Err(Refused::new(format!("'{new}' is given twice")));
         }
         seen.push(new);
     }

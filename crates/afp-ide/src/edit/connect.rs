@@ -71,7 +71,7 @@ fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> 
         "terminate" | "fail" => Ok(()),
         "ignore" if tree::has_events(component) => Ok(()),
         "resume" if tree::has_events(component) || tree::is_computation(component) => Ok(()),
-        "resume" => Err(Refused::new("what has ended cannot be resumed")),
+        "resume" => Err(Refused::new("an element that has ended cannot be resumed")),
         "ignore" => Err(Refused::new("a state cannot lead to 'ignore'")),
         _ if to.strip_prefix("fail ").is_some_and(is_text) => Ok(()),
         _ if children(plan, Kind::Element).any(|element| tree::is_named(&element, to)) => Ok(()),

@@ -120,7 +120,7 @@ fn check_kind(
         return Err(Refused::new(format!("'{}' is no supervisor", item.name())));
     }
     if same_plan && is_home {
-        return Err(Refused::new(format!("'{}' is there already", item.name())));
+        return Err(Refused::new(format!("'{}' is already in this place", item.name())));
     }
     Ok(())
 }

@@ -64,7 +64,7 @@ pub(super) fn column(
     to: &str,
 ) -> Result<(), Refused> {
     if matches!(to, "table" | "index") {
-        return Err(Refused::new(format!("'{to}' is a port of what reads tables")));
+        return Err(Refused::new(format!("'{to}' is a port of computations that read tables")));
     }
     let missing = format!("the table '{table}' has no column '{column}'");
     inner(workspace, (&Item::table(table), Kind::Column), column, to, &missing)

@@ -7,9 +7,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
     let in_toolbox = matches!(within, Kind::Template | Kind::InPort | Kind::OutPort);
     Some(match word {
         "use" => "Brings a toolbox, or the plans of another file, into view.",
-        "plan" => {
-            "What a robot does: elements, of which one is active, and what watches over them."
-        }
+        "plan" => "A robot's behaviour: elements, one of which is active, and their supervisors.",
         "scenario" => "A test of a plan: stimuli and expected behaviour.",
         "enum" => "A type whose values are listed.",
         "table" => "Rows of constants for a computation that reads tables.",
@@ -47,17 +45,17 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "stop" if within == Kind::Timing => {
             "How long the robot takes from an interruption to standstill."
         }
-        "uses" => "What it commands; one element at a time may.",
+        "uses" => "A part of the robot that it controls; only one element at a time may.",
         "state" => "A way in which it ends.",
         "and" if within == Kind::When => "Both comparisons must hold.",
-        "event" => "What it may report.",
+        "event" => "A report that may interrupt the active element.",
         "exclusive" => "Two events that never hold at the same time.",
         "when" => "It holds, or is reached, only if all comparisons hold.",
         "after" if within == Kind::After => "The time from the start to the event.",
-        "expect" => "What must happen.",
-        "never" => "What must not happen.",
+        "expect" => "A claim that must hold.",
+        "never" => "A claim that must never hold.",
         "until" => "When the run ends at the latest.",
-        "at" if within == Kind::Stimulus => "What happens from outside, and when.",
+        "at" if within == Kind::Stimulus => "An action from outside, and its time.",
         _ => return None,
     })
 }

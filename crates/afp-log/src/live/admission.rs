@@ -57,7 +57,7 @@ impl Tokens {
         }
         let query = request.uri().query().unwrap_or_default();
         let said = query.split('&').find_map(|pair| pair.strip_prefix("token="));
-        let said = said.ok_or((401, "write the address as it was printed, with '?token='\n"))?;
+        let said = said.ok_or((401, "use the printed address, with '?token='\n"))?;
         self.role(said).ok_or((401, "wrong token: use the printed address\n"))
     }
 }

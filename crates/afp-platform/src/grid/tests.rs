@@ -4,7 +4,7 @@ use afp_session::Pose2;
 const HALL: &str = "Hall\ncell 50 cm\n\n#####\n# * #\n#> o#\n#####\n";
 
 #[test]
-fn a_drawing_is_read_as_it_is_seen() {
+fn a_drawing_is_read_line_by_line() {
     let hall = Grid::read(HALL, "*o").unwrap();
     assert_eq!(hall.name, "Hall");
     assert_eq!(hall.start, Pose2 { x: 0.75, y: 0.75, heading: 0.0 });
@@ -24,7 +24,7 @@ fn a_drawing_is_read_as_it_is_seen() {
 }
 
 #[test]
-fn what_is_wrong_is_shown_at_its_place() {
+fn an_error_is_shown_at_its_place() {
     for (text, at, why) in [
         ("Hall\ncell 3 m\n#>#", "cell 3 m", "'cell 25 cm'"),
         ("Hall\ncell 0 cm\n#>#", "cell 0 cm", "from 1 to 500"),

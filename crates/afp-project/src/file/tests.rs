@@ -37,7 +37,7 @@ fn mistakes_are_shown_at_their_lines() {
 }
 
 #[test]
-fn a_key_above_its_table_is_told_where_it_belongs() {
+fn a_key_above_its_table_is_reported_with_its_place() {
     let folder = project(&[("afp.toml", "world = 'a'\nruns = 3\n")]);
     let text = ProjectFile::find(folder.path()).unwrap_err().to_string();
     assert!(text.contains("error: 'world' stands above the tables\n"), "{text}");
@@ -52,7 +52,7 @@ fn a_key_above_its_table_is_told_where_it_belongs() {
 }
 
 #[test]
-fn a_toolbox_file_that_is_not_there_is_said_at_its_name() {
+fn a_missing_toolbox_file_is_reported_at_its_name() {
     let folder = project(&[("afp.toml", "[toolboxes]\na = { path = 'x.afp' }\n")]);
     let text = find(folder.path()).toolboxes().unwrap_err().to_string();
     assert!(text.contains("cannot read") && text.contains("x.afp"), "{text}");
@@ -82,7 +82,7 @@ fn the_crate_is_the_one_around_the_toolbox_file() {
 }
 
 #[test]
-fn crates_elsewhere_are_named_by_what_is_said() {
+fn crates_in_other_folders_are_named_in_the_error() {
     let text = "[toolboxes]
 a = { path = 'a.afp', crate = { git = 'https://x', package = 'far-away', module = 'm' } }
 b = { path = 'a.afp', crate = { path = 'b' } }";
@@ -99,7 +99,7 @@ b = { path = 'a.afp', crate = { path = 'b' } }";
 }
 
 #[test]
-fn a_crate_that_is_not_there_is_said_at_the_toolbox() {
+fn a_missing_crate_is_reported_at_the_toolbox() {
     let said = |text: &str, files: &[(&str, &str)]| {
         let all = [&[("afp.toml", text), ("a/a.afp", "")], files].concat();
         let folder = project(&all);
@@ -119,7 +119,7 @@ fn a_crate_that_is_not_there_is_said_at_the_toolbox() {
 }
 
 #[test]
-fn a_toolbox_that_is_a_folder_is_told_what_path_names() {
+fn a_folder_as_a_toolbox_is_reported_with_the_meaning_of_path() {
     let folder = project(&[("afp.toml", "[toolboxes]\na = { path = '.' }")]);
     let text = find(folder.path()).toolboxes().unwrap_err().to_string();
     assert!(text.contains("'.' is a folder"), "{text}");
@@ -148,7 +148,7 @@ fn the_crate_of_a_robot_is_named_or_that_of_its_toolbox_or_around_the_project_fi
 }
 
 #[test]
-fn a_robot_without_a_crate_is_said_at_its_heading() {
+fn a_robot_without_a_crate_is_reported_at_its_heading() {
     let folder = project(&[("afp.toml", "[robot]\nsim = 'Toy'\ncrate = { path = 'x' }")]);
     let text = find(folder.path()).robot().unwrap_err().to_string();
     assert!(text.contains("cannot read the manifest"), "{text}");

@@ -57,7 +57,7 @@ fn wrong(text: &str) -> Vec<&str> {
 }
 
 #[test]
-fn what_is_wrong_is_named_at_its_place_all_at_once() {
+fn all_errors_are_reported_at_their_places() {
     assert_eq!(wrong("run = 3\n[rum]\n[afp]\npaht = 1"), ["3", "rum", "paht"]);
     assert_eq!(wrong("[run]\nworlds = 'x'\nworld = 7"), ["worlds", "7"]);
     assert_eq!(wrong("[run]\nmeasures = 'wall'"), ["'wall'"]);
@@ -70,7 +70,7 @@ fn what_is_wrong_is_named_at_its_place_all_at_once() {
 }
 
 #[test]
-fn what_is_wrong_with_a_target_is_named_at_its_place() {
+fn an_error_of_a_target_is_reported_at_its_place() {
     assert_eq!(wrong("[target.a]\ntock = 1"), ["tock"]);
     assert_eq!(wrong("[target.a]\ntick = 1"), ["1"]);
     assert_eq!(wrong("[target.a]\ntick = \"0 s\""), ["\"0 s\""]);
@@ -136,7 +136,7 @@ fn the_robot_itself_is_read_in_one_line_or_in_a_table() {
 }
 
 #[test]
-fn what_is_wrong_with_the_robot_itself_is_named_at_its_place() {
+fn an_error_of_the_robot_is_reported_at_its_place() {
     let hardware = |text: &str| format!("[robot]\nsim = 'V'\nhardware = {text}");
     let wrong_in = |text: &str| wrong(hardware(text).leak()).join(" ");
     assert_eq!(wrong_in("3"), "3");
@@ -158,7 +158,7 @@ fn settings_of_the_control_loop_are_read_and_errors_are_at_their_place() {
 }
 
 #[test]
-fn what_is_wrong_with_a_robot_is_named_at_its_place() {
+fn an_error_of_a_robot_type_is_reported_at_its_place() {
     assert_eq!(wrong("[robot]\ntoolbox = 'v'\nsim = 'V'"), ["'v'"]);
     assert_eq!(wrong("[robot]\ncrate = 'v'"), ["robot"]);
     assert_eq!(wrong("[robot]\nsim = 'a b'"), ["'a b'"]);

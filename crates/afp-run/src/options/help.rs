@@ -70,7 +70,7 @@ fn fail(devices: &[DeviceRow]) -> (String, String) {
         let none = "Breaks something; nothing of this robot can fail".to_owned();
         return (none.clone(), none);
     }
-    let short = format!("Breaks something, for a while or for good: {}", examples.join(", "));
+    let short = format!("Breaks something, temporarily or permanently: {}", examples.join(", "));
     let long = format!("{short}\n\n{}", groups(devices).join("\n"));
     (short, long)
 }

@@ -161,14 +161,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_pressed_has_a_name_and_a_time() {
+    fn a_press_has_a_name_and_a_time() {
         let at = Instant::ZERO + Duration::from_secs(20);
         assert_eq!(press("escape@20s"), Ok(Press { control: "escape".to_owned(), at }));
         assert!(press("escape").is_err());
     }
 
     #[test]
-    fn what_is_read_shows_as_it_is_written() {
+    fn a_parsed_value_is_displayed_as_written() {
         for text in
             ["ultrasonic.frozen@5s..7s", "odometry.delayed=300ms@1.5s", "wheels.slip=0.3@0s"]
         {
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fails_has_a_time_that_goes_on() {
+    fn a_fault_has_a_time_range_that_increases() {
         for (text, says) in [
             ("ultrasonic.frozen", "DEVICE.FAULT@5s..7s"),
             ("touch.lost@3s..2s", "it ends before it begins"),

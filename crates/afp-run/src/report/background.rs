@@ -55,7 +55,7 @@ impl BackgroundWriter {
     /// Waits until all text is written. Called when the robot stands still.
     fn finish(&mut self) -> io::Result<()> {
         self.pieces = None;
-        let gone = || io::Error::other("what writes standard output is gone");
+        let gone = || io::Error::other("the thread that writes standard output has ended");
         match self.writer.take() {
             Some(writer) => writer.join().map_err(|_| gone())?,
             None => Err(gone()),
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reader_who_waits_holds_nobody_up_and_loses_the_last_lines_alone() {
+    fn a_waiting_reader_blocks_nobody_and_loses_only_the_last_lines() {
         let (go, word) = channel();
         let (out, written) = channel();
         let mut writer = BackgroundWriter::new(Box::new(Slow(word, out)), Arc::default()).unwrap();
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_of_the_reader_is_told() {
+    fn an_error_of_the_reader_is_reported() {
         let (out, written) = channel();
         drop(written);
         let slow = Box::new(Slow(channel().1, out));

@@ -74,7 +74,7 @@ impl Paths {
             (PictureFormat::Svg, _) => Ok(None),
             (PictureFormat::Png, Some(raster)) => Ok(Some(raster)),
             (PictureFormat::Png, None) => Err(RunError::usage(
-                "this program draws SVG alone",
+                "this program draws only SVG",
                 "'afpc log RUN.mcap --svg PICTURE.png' draws its log as a PNG",
             )),
         }

@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_in_lists_is_found_by_number() {
+    fn items_of_lists_are_found_by_number() {
         let text = "wall = [{ points_m = [[0, 0], [4, 0]] }]\n[[box]]\nlane.0 = 1\nby_m = [[1, 2], [3, 4]]\n";
         for (key, value, was, is) in [
             ("wall.0.points_m.1.0", "8m", "[4, 0]", "[8.0, 0]"),
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_or_does_not_fit_is_refused() {
+    fn missing_and_unfit_settings_are_refused() {
         let set = "'robot' is a table";
         for (key, text, why) in [
             ("robot", "3", set),

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_multiple_that_time_passes_over_is_taken_as_soon_as_it_stands() {
+    fn a_multiple_inside_a_step_is_taken_at_its_end() {
         let late = |next: Instant| next + Duration::from_nanos(300_000);
         assert_eq!(taken(&[20], 60, late), [[0, 20, 40, 60]]);
         // Two grid points at once make one sample.
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn who_comes_later_waits_for_the_next_multiple() {
+    fn a_late_start_waits_for_the_next_multiple() {
         let [seven, twenty] = [7, 20].map(Duration::from_millis);
         let mut grid = SampleGrid::NONE;
         grid.fit([twenty].into_iter(), Instant::ZERO, false);

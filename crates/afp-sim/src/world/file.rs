@@ -185,7 +185,7 @@ impl Check<'_> {
             }
             (None, Some(path)) => self.path(&key.at("path"), path).map(Mobility::Scripted),
             (Some(_), Some(_)) => {
-                let message = "what goes its own way cannot be pushed";
+                let message = "an object with a path cannot be pushed";
                 Err(self.error(&key.at("mass_kg"), message, "leave 'mass_kg' or 'path' out"))
             }
         }
@@ -201,7 +201,11 @@ impl Check<'_> {
         let stands = *mobility == Mobility::Fixed;
         if mapped == Some(true) && !stands {
             let help = "leave 'mapped' out";
-            return Err(self.error(&key.at("mapped"), "what moves is on no map", help));
+            return Err(self.error(
+                &key.at("mapped"),
+                "a moving object cannot be on the map",
+                help,
+            ));
         }
         Ok(mapped.unwrap_or(stands))
     }

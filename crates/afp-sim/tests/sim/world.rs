@@ -125,7 +125,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[2.0, 0.5], [2.0, 0.9], [2.5, 0.5]",
         "[900.0, 0.0], [900.00001, 0.0], [900.0, 0.001]",
-        "line 18, column 12: points_m: the corner [900.00001, 0] lies in a line with those beside it; leave it out",
+        "line 18, column 12: points_m: the corner [900.00001, 0] is on the line between its neighbours; leave it out",
     ),
     (
         "[1.0, 0.5]",
@@ -176,7 +176,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[2.5, 0.5]]",
         "[2.0, 1.0]]",
-        "line 18, column 12: points_m: the corner [2, 0.9] lies in a line with those beside it; leave it out",
+        "line 18, column 12: points_m: the corner [2, 0.9] is on the line between its neighbours; leave it out",
     ),
     (
         "[2.5, 0.5]]",
@@ -196,7 +196,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[2.0, 0.5], [2.0, 0.9], [2.5, 0.5]",
         "[900.0, 900.0], [901.0, 900.00001], [902.0, 900.0]",
-        "points_m: the corner [901, 900.00001] lies in a line with those beside it; leave it out",
+        "points_m: the corner [901, 900.00001] is on the line between its neighbours; leave it out",
     ),
     (
         "[robot]",

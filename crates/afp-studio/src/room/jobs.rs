@@ -157,10 +157,7 @@ impl Room {
             return Ok(());
         }
         match kind == "build" || !self.code(params)?.is_empty() {
-            true => {
-                Err("this would run what lies in the folder: say first that you trust it"
-                    .to_owned())
-            }
+            true => Err("this would run code from the folder: trust the folder first".to_owned()),
             false => Ok(()),
         }
     }

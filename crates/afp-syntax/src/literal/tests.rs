@@ -39,7 +39,7 @@ fn celsius_has_an_offset() {
 }
 
 #[test]
-fn exponents_work_and_overflow_is_told() {
+fn exponents_work_and_overflow_is_reported() {
     assert_eq!(value("1e3"), 1000.0);
     assert_eq!(value("2.5E-1 m"), 0.25);
     assert_eq!(value("1e-99999999999"), 0.0);

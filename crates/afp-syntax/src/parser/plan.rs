@@ -325,7 +325,7 @@ impl Parser<'_, '_> {
             return self.edge();
         }
         if self.nth(1) == Kind::Dot && self.nth(2) == Kind::Name && self.arrow_at(3).is_some() {
-            let message = "an edge begins with the name of its state or event alone";
+            let message = "an edge begins with only the name of its state or event";
             return self.instead(2, message, message!("write '{}'", self.word(2)), "");
         }
         let help = match self.word(0) {

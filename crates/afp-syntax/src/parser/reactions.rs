@@ -38,7 +38,7 @@ impl Parser<'_, '_> {
         let is_path = self.nth(1) == Kind::Dot && self.nth(3) == Kind::OpenBrace;
         let name = self.word(2);
         if is_path && self.at(Kind::Name) && !name.is_empty() {
-            let message = "a supervisor of the plan has its name alone";
+            let message = "write only the name of a supervisor of the plan";
             self.instead(2, message, message!("write 'on {}'", name), "");
         }
     }
@@ -76,7 +76,7 @@ impl Parser<'_, '_> {
             return false;
         }
         let better = format!("on {supervisor} {{ {event} -> {target} }}");
-        let message = "what events of the plan's supervisors do here stands in 'on'";
+        let message = "reactions to the plan's supervisors are written in 'on'";
         let error = Diagnostic::new(Code::E0102, self.ahead(5), message);
         let error = error.help(message!("write '{}'", better));
         // Several of one supervisor stand in one.

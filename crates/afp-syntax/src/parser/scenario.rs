@@ -82,7 +82,7 @@ impl Parser<'_, '_> {
                 self.open_item(Kind::Stimulus);
                 self.keyword();
                 self.quantity("write a time such as '2 s'");
-                self.expect(Kind::Colon, "write ':' and what happens then");
+                self.expect(Kind::Colon, "write ':' and an action");
                 self.action();
             }
             "from" => self.moment(),

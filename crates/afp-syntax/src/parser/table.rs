@@ -62,7 +62,7 @@ impl Parser<'_, '_> {
         }
         let here = self.next_span();
         let error = Diagnostic::new(Code::E0102, here, "a column has no range");
-        self.error(error.help("remove 'from' and what follows up to the next column"));
+        self.error(error.help("remove the text from 'from' to the next column"));
         self.open(Kind::Error);
         self.range();
         self.close();

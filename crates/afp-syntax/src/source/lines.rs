@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_that_are_not_there_stand_for_the_nearest_before() {
+    fn missing_positions_become_the_nearest_position_before() {
         let lines = Lines::new(TEXT);
         let at = |line, column| lines.offset(LineColumn { line, column }, Encoding::Utf16);
         assert_eq!(at(0, 4), 6, "inside of a character");

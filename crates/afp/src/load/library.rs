@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_library_lacks_is_told_with_the_calls_that_add_it() {
+    fn missing_parts_of_a_library_are_reported_with_the_calls_that_add_them() {
         let said = |text| {
             let loaded = Library::<Bare>::new().load_text("p.afp", text);
             loaded.err().map(|why| why.to_string()).unwrap_or_default()

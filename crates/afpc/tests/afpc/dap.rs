@@ -144,7 +144,7 @@ fn a_folder_is_found_by_each_of_its_names() {
         assert!(said.out.contains(r#""plan":"P""#), "{folder}: {said:?}");
     }
     let said = told_at(&place, "", &["dap", "--inside", "w"], &launch("other.afp"));
-    assert!(said.out.contains("'other.afp' lies outside of '"), "{said:?}");
+    assert!(said.out.contains("'other.afp' is outside of '"), "{said:?}");
     let said = told_at(&place, "", &["dap", "--inside", "w"], &launch("w/new.afp"));
     assert!(said.out.contains("cannot read the plan '"), "{said:?}");
     let said = told_at(&place, "", &["dap", "--inside", "nope"], b"");
@@ -180,7 +180,7 @@ fn only_files_inside_of_the_folder_can_run() {
         let world = framed("afp/world", &format!(r#"{{"program":"{program}"}}"#));
         for said in [launch, world] {
             let said = told_at(&place, "", &["dap", "--inside", "w"], said.as_bytes());
-            assert!(said.out.contains("lies outside of '"), "{program}: {said:?}");
+            assert!(said.out.contains("is outside of '"), "{program}: {said:?}");
         }
     }
 }

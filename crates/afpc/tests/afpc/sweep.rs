@@ -148,12 +148,12 @@ fn duplicate_values_are_refused() {
     let place = Place::with_plan();
     place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [1, 1, 0]\n");
     for (twice, what) in [
-        ("--seeds 1,1", "the seed 1 is there twice"),
-        ("--vary walldist=20cm,30cm,20cm", "'walldist=20cm' is there twice"),
-        ("--vary walldist=20cm,0.2m", "'walldist=0.2m' is there twice"),
-        ("--vary world.robot.charge=0.5,0.50", "'world.robot.charge=0.50' is there twice"),
-        ("--world random:1 --world random:0..3", "the world 'random:1' is there twice"),
-        ("--world w.toml --world ./w.toml", "the world './w.toml' is there twice"),
+        ("--seeds 1,1", "the seed 1 is given twice"),
+        ("--vary walldist=20cm,30cm,20cm", "'walldist=20cm' is given twice"),
+        ("--vary walldist=20cm,0.2m", "'walldist=0.2m' is given twice"),
+        ("--vary world.robot.charge=0.5,0.50", "'world.robot.charge=0.50' is given twice"),
+        ("--world random:1 --world random:0..3", "the world 'random:1' is given twice"),
+        ("--world w.toml --world ./w.toml", "the world './w.toml' is given twice"),
     ] {
         place.afpc(&format!("sweep wall_following.afp --until 1s {twice}")).fails(2, &[what]);
     }

@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_on_one_side_is_not_forgotten_when_the_other_is_free() {
+    fn an_obstacle_on_one_side_is_kept_when_the_other_side_is_free() {
         let mut glance = Glance::new(0.3, 0.2, 3.9);
         look(&mut glance, 1.0, 0.0);
         assert!(glance.turns(0.0));

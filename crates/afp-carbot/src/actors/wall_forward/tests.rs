@@ -54,7 +54,7 @@ fn stands_the_lane_distance_before_a_wall_ahead() {
 }
 
 #[test]
-fn a_wall_that_is_not_there_is_waited_for_as_long_as_wanted() {
+fn a_missing_wall_is_awaited_for_the_given_time() {
     for absent in [0.15, 0.25] {
         let mut robot = Fake::new(&[]);
         let inputs = Inputs { absent: Length::from_si(absent), ..inputs(2.0) };
@@ -149,7 +149,7 @@ fn a_sensor_that_dies_on_the_way_stops_the_robot_at_once_and_is_a_fault_later() 
 }
 
 #[test]
-fn echoes_that_come_too_late_are_a_fault_and_no_reason_to_drive_or_to_wait_for_ever() {
+fn late_echoes_are_a_fault_and_end_driving_and_waiting() {
     let mut robot = Fake::new(&[beside(0.475), plane(0.0, 2.0)]);
     robot.late_echoes = 150;
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));

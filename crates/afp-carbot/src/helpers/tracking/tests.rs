@@ -38,7 +38,7 @@ fn wheels_that_stand_are_noticed_within_half_a_second() {
 }
 
 #[test]
-fn the_platform_is_told_of_what_stands_ahead_and_of_nothing_else() {
+fn the_platform_receives_only_obstacles_ahead() {
     for (command, told) in [((0.3, 0.0), 1), ((0.2, 0.5), 1), ((-0.05, 0.0), 0), ((0.0, 1.5), 0)] {
         let mut robot = Fake::new(&[]);
         robot.follows = (0.0, 0.0);
@@ -107,7 +107,7 @@ fn gains<'a, T: ActorTemplate, A: Actor<T, Fake>>(
 }
 
 #[test]
-fn whoever_drives_on_after_a_gap_in_the_odometry_begins_from_a_standstill() {
+fn driving_after_a_gap_in_the_odometry_begins_from_a_standstill() {
     use crate::templates as t;
     let (distance, speed, tolerance) =
         (Length::from_si(5.0), Speed::from_si(0.3), Length::from_si(0.1));
@@ -161,7 +161,7 @@ fn whoever_drives_on_after_a_gap_in_the_odometry_begins_from_a_standstill() {
 }
 
 #[test]
-fn what_a_robot_cannot_do_is_not_expected_of_it() {
+fn the_expected_motion_stays_within_the_limits_of_the_robot() {
     let mut robot = Fake::new(&[]);
     robot.top_speed = 0.1;
     assert_eq!(drive(&mut robot, (0.4, 0.0), 5), Ok(()));

@@ -103,7 +103,7 @@ impl Odometry for Eyes {
 }
 
 #[test]
-fn what_moves_is_reported_with_its_bearing_and_its_share_from_the_second_picture_on() {
+fn motion_is_reported_with_bearing_and_share_from_the_second_picture_on() {
     let mut eyes = Eyes::new();
     eyes.move_places(&[2, 3, 4], &[4, 5, 6], 2.0);
     let (seen, last) = eyes.watch(200).unwrap();

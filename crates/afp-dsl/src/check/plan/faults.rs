@@ -41,7 +41,7 @@ pub(super) fn add_remarks(mut remarks: Diagnostics, faults: Faults, diags: &mut 
         Faults::Unconnected => {}
         Faults::EndPlan => remarks.change(|remark| {
             if remark.code == Code::E0208 {
-                remark.set_help("use an entry of that type: what fails here ends the plan");
+                remark.set_help("use an entry of that type: a fault here ends the plan");
             }
         }),
     }

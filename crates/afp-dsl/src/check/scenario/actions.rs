@@ -247,9 +247,7 @@ impl Checker<'_> {
                 message!("'{}' also brings {}, which has no value here", path.text(), names);
             let object = missing.iter().any(|(_, ty)| matches!(ty, Type::Object(_)));
             let help = match object {
-                true => {
-                    "choose another outcome: an object can be made by its component alone".into()
-                }
+                true => "choose another outcome: only its component can make an object".into(),
                 false => message!("write '({} = ...)' behind it", missing[0].0.name),
             };
             diags.push(

@@ -60,7 +60,7 @@ impl Checker<'_> {
             (_, Some(event)) if !matches!(found.part, Part::Element(_)) => {
                 let own = names.iter().take(names.len() - rest.len());
                 let supervisor: Vec<_> = own.map(|name| name.text.as_str()).collect();
-                message!("expect its event alone: 'expect {}.{}'", supervisor.join("."), event)
+                message!("expect only its event: 'expect {}.{}'", supervisor.join("."), event)
             }
             ([more, ..], _) => message!("remove '.{}'", more.text),
             ([], _) => "write the name of an element".into(),
@@ -194,7 +194,10 @@ impl Checker<'_> {
         let help = match others.as_slice() {
             [] => self.goals(from, from_path, &causes),
             others => {
-                message!("what leads there is {}", list(others.iter().map(String::as_str), "or"))
+                message!(
+                    "write {}, which leads to it",
+                    list(others.iter().map(String::as_str), "or")
+                )
             }
         };
         let subject = Subject::Path(by.map_or(from_path, |(_, path)| path).text());
@@ -276,7 +279,7 @@ impl Checker<'_> {
         let error = unknown(Code::E0602, name.span, message, &name.text, known, "remove 'by'");
         match self.paths.of_another(from, &name.text) {
             Some((place, other)) => {
-                error.note(place, message!("this one is about '{}' alone", other))
+                error.note(place, message!("this claim is only about '{}'", other))
             }
             None => error,
         }
@@ -302,7 +305,7 @@ impl Checker<'_> {
                 let owner = self.paths.name(found);
                 let message = message!("'{}' has no supervisor '{}'", owner, first.text);
                 let known = self.paths.supervisors(found);
-                let none = "name one of its states alone";
+                let none = "name only one of its states";
                 diags.push(match found.part {
                     Part::Element(_) => {
                         unknown(Code::E0602, first.span, message, &first.text, known, none)
@@ -350,7 +353,7 @@ impl Checker<'_> {
         };
         if rest.is_empty() {
             let name = path.text();
-            let message = message!("what is expected of '{}' is not said", name);
+            let message = message!("the claim about '{}' is missing", name);
             let outcome = self.paths.outcomes(found).first().map(|first| format!("{name}.{first}"));
             let help = match (found.part, outcome) {
                 (Part::Element(_), _) => message!("write '{} active'", name),

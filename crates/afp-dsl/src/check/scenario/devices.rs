@@ -25,7 +25,7 @@ impl Checker<'_> {
                 Diagnostic::new(Code::E0606, path.span(), message).help(help)
             }
             Found::Device(device) if names.len() == 1 && !device.controls.is_empty() => {
-                let message = message!("what of '{}' is pressed is not said", written);
+                let message = message!("the control of '{}' is missing", written);
                 let named = device.controls.iter().map(|it| format!("{written}.{}", it.name));
                 let named: Vec<_> = named.collect();
                 let help = message!("write {}", list(named.iter().map(String::as_str), "or"));
@@ -108,7 +108,7 @@ fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault),
         }
         // The device is required, as on the command line.
         (Found::Row(device, ..), [name]) => {
-            let message = message!("what fails as '{}' is not said", written);
+            let message = message!("the device that fails as '{}' is missing", written);
             let help = message!("write '{}.{}'", device.name, name.text);
             Diagnostic::new(Code::E0606, path.span(), message).help(help)
         }
@@ -118,7 +118,7 @@ fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault),
             Diagnostic::new(Code::E0606, path.span(), message).help(help)
         }
         (Found::Device(device), [_]) if !device.faults.is_empty() => {
-            let message = message!("how '{}' fails is not said", written);
+            let message = message!("the fault of '{}' is missing", written);
             let named = device.faults.iter().map(|it| format!("{written}.{}", it.name));
             let named: Vec<_> = named.collect();
             let help = message!("write {}", list(named.iter().map(String::as_str), "or"));

@@ -20,8 +20,8 @@ pub(super) fn wanted(
     let message = match (never, always, claim.is_event()) {
         (true, true, _) => "'never' holds always",
         (true, false, _) => "'never' is zero times",
-        (false, true, true) => "what happens at an instant cannot hold always",
-        (false, false, false) => "what lasts cannot be counted",
+        (false, true, true) => "an event at an instant cannot hold always",
+        (false, false, false) => "a condition that lasts cannot be counted",
         (false, true, false) => return Some(Wanted::Always),
         (false, false, true) => return count(bound, diags).map(Wanted::Times),
     };
@@ -38,7 +38,7 @@ fn count(bound: &Bound, diags: &mut Diagnostics) -> Option<u32> {
     let count = number.text.parse().ok().filter(|count| *count > 0);
     if count.is_none() {
         let help = match number.text.parse::<u32>() {
-            Ok(_) => "write 'never' for what must not happen",
+            Ok(_) => "write 'never' if it must not happen",
             Err(_) => "write a smaller number",
         };
         let message = message!("nothing can be expected {} times", Words(number.text));

@@ -107,7 +107,7 @@ fn range(first: &Name, behind: &Name, diags: &mut Diagnostics) -> Option<Range<u
 
 /// Reports an empty range; `before` is the text before a number.
 fn empty(what: &str, range: &Range<u64>, before: &str, place: Span) -> Diagnostic {
-    let message = message!("no {} lies in '{}{}..{}'", Words(what), before, range.start, range.end);
+    let message = message!("no {} is in '{}{}..{}'", Words(what), before, range.start, range.end);
     Diagnostic::new(Code::E0224, place, message).help(message!(
         "write the first {} and the one behind the last, such as '{}0..20'",
         Words(what),
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_told_to_be_too_much_is_not_made() {
+    fn a_range_that_is_reported_as_too_large_is_not_generated() {
         assert_eq!(over("over seeds 0..20\nover worlds \"random:0..50\""), (20, 50, 0));
         assert_eq!(over("over seeds 0..1000\nover worlds \"random:0..1000\""), (0, 0, 1));
         assert_eq!(over("over worlds \"random:0..1000\""), (0, 1000, 0));

@@ -79,7 +79,7 @@ impl Checker<'_> {
                         unknown(Code::E0604, name.span, message, &name.text, own, none)
                     }
                     None => {
-                        let message = message!("what is expected of '{}' is not said", written);
+                        let message = message!("the claim about '{}' is missing", written);
                         let full: Vec<_> = own.map(|own| format!("{written}.{own}")).collect();
                         let full = full.iter().map(String::as_str);
                         unknown(Code::E0604, *span, message, written, full, none)
@@ -131,7 +131,7 @@ fn field(
     }
     let message = match (names, fields) {
         ([], []) => message!("'{}' is for logs and pictures and cannot be compared", named.text),
-        ([], _) => message!("what of '{}' is expected is not said", named.text),
+        ([], _) => message!("the signal of '{}' is missing", named.text),
         ([name, ..], _) => message!("'{}' has no part '{}'", signal.name, name.text),
     };
     let own = &named.names;

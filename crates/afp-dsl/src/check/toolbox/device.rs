@@ -179,8 +179,7 @@ fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Optio
     let range = values.range(node.range(), node.ends(), diags);
     let Some(written) = node.default() else {
         let message = message!("'{}' has no default", name.text);
-        let help =
-            message!("write '{}: {} = ...': what is taken where nothing is said", name.text, ty);
+        let help = message!("write '{}: {} = ...', its default", name.text, ty);
         diags.push(Diagnostic::new(Code::E0515, name.span, message).help(help));
         return None;
     };

@@ -174,7 +174,7 @@ fn reserved(name: &Name, kind: TemplateKind) -> Diagnostic {
             "needs no declaration",
             "remove it, or choose another name; plans can connect it anyway",
         ),
-        false if own == "Error" => ("is what supervisors report", "choose another name"),
+        false if own == "Error" => ("is for supervisors", "choose another name"),
         false => ("is how elements fail", "choose another name"),
     };
     Diagnostic::new(Code::E0214, name.span, message!("'{}' {}", name.text, Words(message)))

@@ -34,7 +34,7 @@ fn an_edge_leads_to_fail_and_back() {
 #[test]
 fn events_and_computations_may_resume() {
     replaces(connect(touch(), "Pressed", "resume"), &[("Pressed -> back", "Pressed -> resume")]);
-    refused(PLAN, connect(go(), "Done", "resume"), "what has ended cannot be resumed");
+    refused(PLAN, connect(go(), "Done", "resume"), "an element that has ended cannot be resumed");
     let counts = PLAN.replace("actor back: B", "computation back: B");
     let resumes = counts.replace("Done -> go, Lost", "Done -> resume, Lost");
     assert_eq!(after(&counts, connect(back(), "Done", "resume")), resumes);

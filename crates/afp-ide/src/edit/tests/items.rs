@@ -116,7 +116,7 @@ fn invalid_items_are_refused() {
         add("actor ignore: A {}", None, None),
         "'ignore' cannot be the name of an element",
     );
-    refused(PLAN, add("var x: int var x: int", None, None), "'x' is there twice");
+    refused(PLAN, add("var x: int var x: int", None, None), "'x' is given twice");
     refused(PLAN, add("start go", None, None), "'start go' cannot be put here");
     refused(PLAN, add("} plan Q {", None, None), "the text is more than items of one list");
     refused(PLAN, add("", None, None), "the text holds no item");
@@ -314,7 +314,7 @@ fn items_move_between_plans_and_owners() {
     let timed = two.replace("every 1 ms", "every limit").replace("in limit: length\n", "");
     refused(&timed, shift(touch(), "Q", Some("b")), "'Q' has no entry 'limit'");
     refused(&two, shift(Item::inner("P", "gap"), "Q", None), "'gap' is used where it is");
-    refused(&two, shift(back(), "P", None), "'back' is there already");
+    refused(&two, shift(back(), "P", None), "'back' is already in this place");
     refused(&two, shift(back(), "Q", Some("b")), "'back' is no supervisor");
     replaces(
         shift(touch(), "P", None),

@@ -57,6 +57,6 @@ fn a_column_is_renamed_where_it_is_bound() {
     assert_eq!(after(&two, rename("far")), wanted);
     let refused = |to: &str| edit(&two, &rename(to)).unwrap_err().reason;
     assert_eq!(refused("y"), "'y' is already there");
-    assert_eq!(refused("index"), "'index' is a port of what reads tables");
+    assert_eq!(refused("index"), "'index' is a port of computations that read tables");
     assert_eq!(refused("2"), "'2' cannot be a name");
 }

@@ -74,7 +74,7 @@ impl<'a> Check<'a> {
         let flat = straight(&points).or_else(|| straight(&single));
         if let Some([x, y]) = flat.map(|at| points[at]) {
             let [x, y] = [x, y].map(number);
-            let message = format!("the corner [{x}, {y}] lies in a line with those beside it");
+            let message = format!("the corner [{x}, {y}] is on the line between its neighbours");
             return Err(self.error(key, &message, "leave it out"));
         }
         let turning = turning(&points).filter(|_| turning(&single).is_some());

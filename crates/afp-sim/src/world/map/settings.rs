@@ -67,7 +67,7 @@ impl Settings {
         // Reduced once, because each use would round a large angle differently.
         let yaw = yaw % core::f64::consts::TAU;
         let negate = keys.get("negate").and_then(truth);
-        let negate = negate.ok_or_else(|| keys.error("negate", "is to be 0 or 1"))?;
+        let negate = negate.ok_or_else(|| keys.error("negate", "must be 0 or 1"))?;
         let (threshold, free) = (keys.share("occupied_thresh")?, keys.share("free_thresh")?);
         if free > threshold {
             return Err(keys.error("free_thresh", "is more than 'occupied_thresh'"));
@@ -138,7 +138,7 @@ impl<'a, 'b> Keys<'a, 'b> {
     }
 
     fn number(&self, key: &str) -> Result<f64, WorldError> {
-        self.get(key).and_then(number).ok_or_else(|| self.error(key, "is to be a number"))
+        self.get(key).and_then(number).ok_or_else(|| self.error(key, "must be a number"))
     }
 
     /// The meaning of a word; `None` if the key is absent.
@@ -153,8 +153,8 @@ impl<'a, 'b> Keys<'a, 'b> {
         let names = names.join(" or ");
         // A message can only repeat words, and not a number or a list.
         let what = match word {
-            Some(word) => format!("'{word}' is not known; it is to be {names}"),
-            None => format!("is to be {names}"),
+            Some(word) => format!("'{word}' is unknown; it must be {names}"),
+            None => format!("must be {names}"),
         };
         Err(self.error(key, &what))
     }
@@ -172,7 +172,7 @@ impl<'a, 'b> Keys<'a, 'b> {
         let values = self.get("origin").and_then(|origin| origin.as_vec());
         let numbers = values.and_then(|all| all.iter().map(number).collect::<Option<Vec<f64>>>());
         let numbers = numbers.and_then(|all| <[f64; 3]>::try_from(all).ok());
-        numbers.ok_or_else(|| self.error("origin", "is to be three numbers: x, y and yaw"))
+        numbers.ok_or_else(|| self.error("origin", "must be three numbers: x, y and yaw"))
     }
 
     /// An error at the line of a key; at the start of the file if the key is missing.

@@ -70,7 +70,8 @@ impl Parser<'_, '_> {
         }
         let (line, toolbox) = (self.text_between(first, self.at), self.word_before());
         let tokens = 1 + colons + usize::from(!self.begins_line(1 + colons));
-        let help = message!("write '{}'; its names stand alone, or behind '{}.'", line, toolbox);
+        let help =
+            message!("write '{}'; then use its names directly, or after '{}.'", line, toolbox);
         self.instead(tokens, "a toolbox is used as a whole", help, "");
     }
 

@@ -88,7 +88,7 @@ impl<'a> Simulator<'a> {
         let whole = whole(path).map_err(|why| format!("cannot open '{named}': {why}"))?;
         match whole.starts_with(folder) {
             true => Ok(whole),
-            false => Err(format!("'{named}' lies outside of '{}'", folder.display())),
+            false => Err(format!("'{named}' is outside of '{}'", folder.display())),
         }
     }
 }

@@ -1,4 +1,8 @@
-//! The sentences of pages in Markdown, and of comments and names of tests in Rust.
+//! The sentences of pages in Markdown, and of comments, strings and names of tests in Rust.
+
+use std::sync::LazyLock;
+
+use regex::Regex;
 
 /// A sentence and its line, from 1.
 type Sentence = (usize, String);
@@ -28,6 +32,32 @@ pub fn of_rust(text: &str) -> Vec<Sentence> {
     }
     found.extend(of_lines(block.into_iter()));
     found
+}
+
+/// The sentences of string literals, without those of one or two words. A literal that spans lines
+/// has the line of its beginning.
+pub fn of_strings(text: &str) -> Vec<Sentence> {
+    let code = without_comments(text);
+    let mut found = Vec::new();
+    for literal in LITERAL.find_iter(&code) {
+        let line = code[..literal.start()].matches('\n').count() + 1;
+        let words = CONTINUED.replace_all(literal.as_str().trim_matches('"'), "");
+        let sentences = of_lines(std::iter::once((line, &*words)));
+        found.extend(sentences.into_iter().filter(|(_, text)| text.split(' ').count() > 2));
+    }
+    found
+}
+
+/// A string literal.
+static LITERAL: LazyLock<Regex> =
+    LazyLock::new(|| Regex::new(r#"'"'|"(?:[^"\\]|\\(?s:.))*""#).unwrap());
+
+/// The end of a line inside a literal, with the indentation of the next line.
+static CONTINUED: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"\\\n[ \n]*").unwrap());
+
+fn without_comments(text: &str) -> String {
+    let code = |line: &'_ str| if comment(line.trim()).is_some() { "" } else { line }.to_owned();
+    text.lines().map(|line| code(line) + "\n").collect()
 }
 
 fn comment(line: &str) -> Option<&str> {
@@ -164,4 +194,12 @@ fn comments_and_names_of_tests_are_read() {
     let rust = "//! A file.\n\n/// One.\n/// Two.\n#[test]\n#[ignore]\nfn it_holds() {\n    let x = 1; // not read\n}\n";
     let sentences: Vec<_> = of_rust(rust).into_iter().map(|(_, sentence)| sentence).collect();
     assert_eq!(sentences, ["A file.", "One.", "Two.", "it holds"]);
+}
+
+#[test]
+fn strings_are_read() {
+    let rust = "// \"not a string\"\nlet a = \"It is \\\"so\\\".  Two \\\n    words more.\";\nlet b = (\'\"\', \"a b\");\n";
+    let sentences: Vec<_> = of_strings(rust).into_iter().collect();
+    let wanted = [(2, "It is \\\"so\\\"."), (2, "Two words more.")];
+    assert_eq!(sentences, wanted.map(|(line, text)| (line, text.to_owned())));
 }

@@ -122,7 +122,7 @@ impl Checker<'_> {
         if possible.is_empty() {
             return error;
         }
-        let message = message!("whose '{}' is meant is not said", name.text);
+        let message = message!("the owner of '{}' is missing", name.text);
         let known = possible.iter().map(String::as_str);
         let said = unknown(error.code, error.span, message, "", known, "");
         match possible.as_slice() {

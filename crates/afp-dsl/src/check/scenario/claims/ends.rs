@@ -121,7 +121,7 @@ impl Checker<'_> {
         match ending.is_empty() {
             true => "nothing leads to 'terminate'; only an error ends it: 'end by Error'".into(),
             false => {
-                message!("what ends it is {}", list(ending.iter().map(String::as_str), "or"))
+                message!("write {}, which ends it", list(ending.iter().map(String::as_str), "or"))
             }
         }
     }
