@@ -81,13 +81,13 @@ fn a_turned_map_is_turned_about_its_corner() {
 #[test]
 fn errors_in_a_map_are_reported() {
     let cases = [
-        (YAML.replace("resolution: 0.1", "resolution: big"), "line 3, column 1: resolution: is"),
+        (YAML.replace("resolution: 0.1", "resolution: big"), "line 3, column 1: resolution: must"),
         (
             YAML.replace("[-1.0, -2.0, 0]", "[-1.0, -2.0]"),
             "line 4, column 1: origin: must be three",
         ),
-        (format!("{YAML}unknown: wall\n"), "line 8, column 1: unknown: 'wall' is not known"),
-        (YAML.replace("trinary", "foo"), "line 2, column 1: mode: 'foo' is not known"),
+        (format!("{YAML}unknown: wall\n"), "line 8, column 1: unknown: 'wall' is unknown"),
+        (YAML.replace("trinary", "foo"), "line 2, column 1: mode: 'foo' is unknown"),
         (
             YAML.replace("trinary", "5"),
             "line 2, column 1: mode: must be 'trinary' or 'scale' or 'raw'",
@@ -97,10 +97,10 @@ fn errors_in_a_map_are_reported() {
         (YAML.replace("0.65", "1.5"), "occupied_thresh: is not within 0 and 1"),
         (YAML.replace("0.196", "0.7"), "free_thresh: is more than 'occupied_thresh'"),
         (YAML.replace("0.65", "1.0"), "no cell of the map is occupied"),
-        (YAML.replace("image: room.pgm", "image: ''"), "line 1, column 1: image: is to name a"),
+        (YAML.replace("image: room.pgm", "image: ''"), "line 1, column 1: image: must name a"),
         (
             YAML.replace("image: room.pgm", "images: a"),
-            "image: is to name a picture, and is missing",
+            "image: must name a picture, and is missing",
         ),
         (YAML.replace("resolution: 0.1", "resolution: 0.01"), "no free place"),
         (YAML.replace("[-1.0", "[998"), "the map reaches farther than 1000 m"),
@@ -168,7 +168,7 @@ fn every_key_except_the_mode_is_required() {
         let (key, _) = line.split_once(':').unwrap();
         let without = YAML.replace(&format!("{line}\n"), "");
         let message = placed(&without, &World::map_text("m", &without, &room()).unwrap_err());
-        assert!(message.starts_with(&format!("line 1, column 1: {key}: is to")), "{message}");
+        assert!(message.starts_with(&format!("line 1, column 1: {key}: must")), "{message}");
         assert!(message.contains(", and is missing"), "{message}");
     }
     // Words and quotes in the notation of other YAML readers.

@@ -54,7 +54,7 @@ impl Settings {
         })?;
         let keys = Keys { text: yaml, map: documents.first() };
         let image = keys.get("image").and_then(Yaml::as_str).filter(|image| !image.is_empty());
-        let image = image.ok_or_else(|| keys.error("image", "is to name a picture"))?.to_owned();
+        let image = image.ok_or_else(|| keys.error("image", "must name a picture"))?.to_owned();
         let modes = [("trinary", Mode::Trinary), ("scale", Mode::Scale), ("raw", Mode::Raw)];
         let mode = keys.one_of("mode", &modes)?.unwrap_or(Mode::Trinary);
         let unknown_is_wall =
