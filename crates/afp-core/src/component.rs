@@ -6,7 +6,7 @@
 
 use core::task::Poll;
 
-use afp_types::Instant;
+use afp_types::{Duration, Instant};
 
 use crate::fault::Fault;
 
@@ -178,11 +178,99 @@ pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
     ) -> Result<Poll<T::State>, Fault>;
 
     /// Sends the stop command and returns. Called exactly once for an actor that started and did
-    /// not finish, before anything else starts.
+    /// not finish, before anything else starts; for a suspended actor ([`Resumable`]) later.
     ///
     /// # Errors
     /// A fault ends the whole run, since nothing may follow an actor that does not stop.
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
+}
+
+/// An actor that can be set aside while a handler is active, and continue afterwards.
+///
+/// The toolbox file declares it: `actor Light resumable`. The generated code then requires this
+/// implementation.
+///
+/// ```text
+///   running --suspend--> suspended --resume--> running
+///                            \------interrupted--> interrupt, then gone
+/// ```
+///
+/// The actor `Light` of [`Actor`] lights a lamp for a while, without the time of a suspension:
+///
+/// ```
+/// # use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
+/// # mod templates {
+/// # pub struct Light;
+/// # impl afp_core::ActorTemplate for Light {
+/// # type Inputs<'a> = ();
+/// # type Live<'a> = ();
+/// # type State = ();
+/// # }
+/// # }
+/// # struct Lamp { on: bool }
+/// # struct Light { until: Instant }
+/// # impl Actor<templates::Light, Lamp> for Light {
+/// # fn start(_: (), lamp: &mut Lamp, now: Instant) -> Result<Self, Fault> {
+/// # lamp.on = true;
+/// # Ok(Light { until: now + Duration::from_secs(2) })
+/// # }
+/// # fn poll(&mut self, _: (), lamp: &mut Lamp, now: Instant) -> Result<Poll<()>, Fault> {
+/// # lamp.on = now < self.until;
+/// # Ok(if lamp.on { Poll::Pending } else { Poll::Ready(()) })
+/// # }
+/// # fn interrupt(&mut self, lamp: &mut Lamp, _: Instant) -> Result<(), Fault> {
+/// # lamp.on = false;
+/// # Ok(())
+/// # }
+/// # }
+/// impl Resumable<templates::Light, Lamp> for Light {
+///     fn suspend(&mut self, lamp: &mut Lamp, _: Instant) -> Result<(), Fault> {
+///         lamp.on = false;
+///         Ok(())
+///     }
+///
+///     fn resume(&mut self, _: &mut Lamp, _: Instant, away: Duration) -> Result<(), Fault> {
+///         self.until += away;
+///         Ok(())
+///     }
+/// }
+/// # let mut lamp = Lamp { on: false };
+/// # let at = |seconds| Instant::ZERO + Duration::from_secs(seconds);
+/// # let mut light = Light::start((), &mut lamp, at(0))?;
+/// # light.suspend(&mut lamp, at(1))?;
+/// # assert!(!lamp.on);
+/// # light.resume(&mut lamp, at(11), Duration::from_secs(10))?;
+/// # assert!(light.poll((), &mut lamp, at(11))?.is_pending() && lamp.on);
+/// # assert!(light.poll((), &mut lamp, at(12))?.is_ready() && !lamp.on);
+/// # Ok::<(), Fault>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "the toolbox calls `{T}` resumable, but `{Self}` cannot be suspended on the platform `{E}`",
+    note = "write `impl afp::Resumable<{T}, _> for {Self}`, or remove `resumable` from the toolbox file"
+)]
+pub trait Resumable<T: ActorTemplate, E: ?Sized>: Actor<T, E> {
+    /// Stops and switches off all that the actor commands, and keeps its goal and its progress.
+    /// Afterwards nothing but `resume` or `interrupt` is called.
+    ///
+    /// # Errors
+    /// On a fault the actor cannot continue; `interrupt` follows.
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
+
+    /// Prepares the actor to continue after `away`, without a command that moves. The next poll
+    /// follows one period later.
+    ///
+    /// # Errors
+    /// On a fault the actor cannot continue; `interrupt` follows.
+    fn resume(&mut self, env: &mut E, now: Instant, away: Duration) -> Result<(), Fault>;
+}
+
+/// What a supervisor does when its element continues.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnReturn {
+    /// It keeps its state.
+    Continues,
+    /// It starts again, with new inputs.
+    Restarts,
 }
 
 /// A watching supervisor of template `T` on platform `E`.
@@ -262,6 +350,15 @@ pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
         env: &mut E,
         now: Instant,
     ) -> Result<Option<T::Event>, Fault>;
+
+    /// Called when an element that was set aside continues, for supervisors that were not polled
+    /// for `away`. The default starts the supervisor again.
+    ///
+    /// # Errors
+    /// As for [`Supervisor::start`].
+    fn resume(&mut self, _env: &mut E, _now: Instant, _away: Duration) -> Result<OnReturn, Fault> {
+        Ok(OnReturn::Restarts)
+    }
 }
 
 /// A computation of template `T`: without an environment, so without side effects.

@@ -30,8 +30,8 @@ pub use afp_types::{
 };
 pub use clock::{Clock, StillClock};
 pub use component::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Supervisor,
-    SupervisorTemplate,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, OnReturn,
+    Resumable, Supervisor, SupervisorTemplate,
 };
 pub use fault::{Detail, Failure, Fault, Reason, Subject};
 pub use job::{Job, Ticket, Worker};

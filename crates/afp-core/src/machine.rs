@@ -5,27 +5,31 @@
 //!
 //!   step:    sweep the supervisors in their fixed order
 //!              an event is taken   -> interrupt, commit, follow
+//!              ... that suspends   -> suspend, commit, set aside, follow
 //!              ... that may resume -> commit, compute; go on, or interrupt and follow
 //!            else poll the active element, if due
 //!              it reached a state  -> commit, follow
 //!              it failed           -> interrupt, follow its `Error` edge
 //!
 //!   follow:  take edges until an element is active or the plan ends
+//!              `return`            -> wake the supervisors of what is set aside, look, resume it
 //!   enter:   start its supervisors, look, read its inputs, start it
 //! ```
 //!
 //! A sub-plan is an element whose poll is the step of its own machine. Outer plans are polled
 //! first; the innermost element is interrupted first.
 
+mod aside;
 mod at;
 mod enter;
+mod give_back;
 mod held;
 mod leave;
 mod sweep;
 
 use crate::fault::Fault;
 use crate::rt::{
-    Committer, Cx, ElementRow, Flow, Plan, PlanState, Polled, Run, Slot, Tables, Target,
+    Aside, Committer, Cx, ElementRow, Flow, Plan, PlanState, Polled, Run, Slot, Tables, Target,
 };
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
 use afp_types::{Duration, ElementId, Instant, SupervisorId};
@@ -44,6 +48,8 @@ struct Level<P: PlanState> {
     slots: P::Slots,
     active: Option<ElementId>,
     due: Instant,
+    /// The element that is set aside while a handler is active.
+    aside: P::Aside,
 }
 
 #[derive(Clone, Copy)]
@@ -64,18 +70,14 @@ impl<P: PlanState> Machine<P> {
     /// A machine that has not started.
     pub fn new(plan: P) -> Self {
         let (tables, slots) = (plan.tables(), plan.slots());
-        Machine { tables, level: Level { plan, slots, active: None, due: Instant::MAX } }
+        let aside = P::Aside::default();
+        Machine { tables, level: Level { plan, slots, active: None, due: Instant::MAX, aside } }
     }
 
     /// A copy that runs independently; `None` if a component cannot be copied.
     pub fn try_clone(&self) -> Option<Self> {
-        let Level { plan, slots, active, due } = &self.level;
-        let plan = plan.try_clone()?;
-        let tables = plan.tables();
-        Some(Machine {
-            tables,
-            level: Level { plan, slots: slots.clone(), active: *active, due: *due },
-        })
+        let plan = self.level.plan.try_clone()?;
+        Some(Machine { tables: plan.tables(), level: self.level.with(plan) })
     }
 
     /// The plan.
@@ -123,9 +125,30 @@ impl<P: PlanState> Machine<P> {
     where
         P: Plan<R::Env>,
     {
-        let result = self.stepping(cx).interrupt_active();
+        let mut stepping = self.stepping(cx);
+        let result = stepping.interrupt_active().and_then(|()| stepping.abandon());
         self.level.plan.end();
         result
+    }
+
+    /// Suspends the active elements, innermost first. Nothing is called until [`Machine::resume`]
+    /// or [`Machine::interrupt`].
+    ///
+    /// # Errors
+    /// The fault of an actor: the sub-plan must be interrupted.
+    pub fn suspend<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Result<(), Fault>
+    where
+        P: Plan<R::Env>,
+    {
+        self.stepping(cx).suspend_level()
+    }
+
+    /// Continues after a suspension `away` ago, outer plans first.
+    pub fn resume<R: Run>(&mut self, away: Duration, cx: &mut Cx<'_, R>) -> Flow
+    where
+        P: Plan<R::Env>,
+    {
+        self.stepping(cx).resume_level(away)
     }
 
     /// Commits writes from outside.
@@ -144,9 +167,16 @@ impl<P: PlanState> Machine<P> {
 
 impl<P: PlanState + Clone> Clone for Machine<P> {
     fn clone(&self) -> Self {
-        let Level { plan, slots, active, due } = &self.level;
-        let level = Level { plan: plan.clone(), slots: slots.clone(), active: *active, due: *due };
-        Machine { tables: self.level.plan.tables(), level }
+        let plan = self.level.plan.clone();
+        Machine { tables: plan.tables(), level: self.level.with(plan) }
+    }
+}
+
+impl<P: PlanState> Level<P> {
+    /// The same state with a copy of the plan.
+    fn with(&self, plan: P) -> Self {
+        let Level { slots, active, due, aside, .. } = self;
+        Level { plan, slots: slots.clone(), active: *active, due: *due, aside: aside.clone() }
     }
 }
 
@@ -154,6 +184,7 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
     fn start(&mut self) -> Flow {
         self.level.active = None;
         self.level.due = Instant::MAX;
+        self.level.aside.set(None);
         if let Err(why) = self.level.plan.initialise() {
             // The values belong to the plan, whichever component was called last.
             self.cx.step.called = self.cx.place.plan;
@@ -220,6 +251,9 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
     fn end(&mut self, ending: Ending) -> Flow {
         self.level.active = None;
         self.level.plan.discard();
+        if let Err(fault) = self.abandon() {
+            return Flow::Fatal(fault);
+        }
         self.level.plan.end();
         self.cx.step.passed_on = matches!(ending, Ending::Error(_));
         if R::Sink::ENABLED {

@@ -58,9 +58,11 @@ impl State {
         self.follow(event, program);
         match &event.kind {
             EventKind::Started => self.start(id, event.at, program),
-            EventKind::Finished(_) | EventKind::Interrupted | EventKind::Diverted { .. } => {
-                self.leave(id, program);
-            }
+            EventKind::Finished(_)
+            | EventKind::Interrupted
+            | EventKind::Diverted { .. }
+            | EventKind::Suspended { .. } => self.leave(id, program),
+            EventKind::Returned { .. } => self.start(id, event.at, program),
             EventKind::Committed { entry_id, new, .. } => {
                 self.entries.insert(*entry_id, new.clone());
             }

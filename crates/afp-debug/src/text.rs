@@ -24,6 +24,10 @@ fn value(value: &Datum, unit: &str) -> String {
     }
 }
 
+fn before(started: bool) -> &'static str {
+    if started { "" } else { " before its start" }
+}
+
 impl Line<'_> {
     fn ended(
         &self,
@@ -87,6 +91,11 @@ impl fmt::Display for Line<'_> {
                 write!(f, "{component} diverted by {}", supervisor.path)
             }
             Kind::Resumed { supervisor } => write!(f, "{component} resumed by {}", supervisor.path),
+            Kind::Suspended { supervisor, started } => {
+                write!(f, "{component} suspended by {}{}", supervisor.path, before(*started))
+            }
+            Kind::Returned { away } => write!(f, "{component} returned after {away}"),
+            Kind::Abandoned { started } => write!(f, "{component} abandoned{}", before(*started)),
             Kind::Faulted(FaultText { code, text }) => {
                 write!(f, "{component} fault {code}: {text}")
             }

@@ -89,6 +89,19 @@ impl PlanEvent {
                 self.put_supervisor(supervisor);
                 Kind::Resumed
             }
+            EventKind::Suspended { supervisor, started } => {
+                self.put_supervisor(supervisor);
+                self.started = started;
+                Kind::Suspended
+            }
+            EventKind::Returned { away } => {
+                self.away_ns = away.as_nanos();
+                Kind::Returned
+            }
+            EventKind::Abandoned { started } => {
+                self.started = started;
+                Kind::Abandoned
+            }
             EventKind::Faulted(fault) => self.put_fault(fault, Kind::Faulted),
             EventKind::Ended { ending, fault } => {
                 self.set_ending(match ending {
@@ -190,6 +203,11 @@ fn kind(message: PlanEvent) -> EventKind {
         Kind::Started => EventKind::Started,
         Kind::Diverted => EventKind::Diverted { event: outcome, supervisor: supervisor() },
         Kind::Resumed => EventKind::Resumed { supervisor: supervisor() },
+        Kind::Suspended => {
+            EventKind::Suspended { supervisor: supervisor(), started: message.started }
+        }
+        Kind::Returned => EventKind::Returned { away: Duration::from_nanos(message.away_ns) },
+        Kind::Abandoned => EventKind::Abandoned { started: message.started },
         Kind::Faulted => EventKind::Faulted(fault),
         Kind::Ended => match ending {
             plan_event::Ending::NotEnded => EventKind::Unknown,

@@ -1,5 +1,7 @@
 //! Counts how often a run used each part of its plan, and records how it ended.
 
+use std::collections::BTreeMap;
+
 use afp_core::trace::{
     self, Cause, ComponentId, ComponentKind, Ending, Names, Outcome, Record, declared,
 };
@@ -19,6 +21,8 @@ pub struct Counts {
     /// The active actor.
     pub actor: Option<ComponentId>,
     kinds: Vec<ComponentKind>,
+    /// The element of each supervisor, and the sub-plan of each inner component.
+    owners: Vec<Option<ComponentId>>,
     left: Option<ComponentId>,
     cause: Option<LeftFor>,
     failure: Option<Failure>,
@@ -107,6 +111,7 @@ impl Counts {
             ending: None,
             actor: None,
             kinds: ids().map(|id| names.component(id).kind).collect(),
+            owners: owners(names),
             left: None,
             cause: None,
             failure: None,
@@ -124,6 +129,14 @@ impl Counts {
                 }
                 self.stopped(at, element);
                 self.leave(element);
+            }
+            Record::Suspended { element, started: true, .. } => self.suspended(at, element),
+            Record::Returned { component, .. } => self.returned(at, component),
+            Record::Abandoned { element, started: true } => {
+                self.with(element, |usage| usage.interruptions += 1);
+                if self.kind(element) == Some(ComponentKind::Actor) {
+                    self.interruptions += 1;
+                }
             }
             Record::Finished { element, state } => {
                 // A computation has no record of its start.
@@ -254,6 +267,24 @@ impl Counts {
         }
     }
 
+    /// Ends the active time of an element and of everything inside it.
+    fn suspended(&mut self, at: Instant, element: ComponentId) {
+        for id in (0..self.owners.len() as u32).map(ComponentId) {
+            let owner = |id: &ComponentId| self.owners.get(id.0 as usize).copied().flatten();
+            if std::iter::successors(Some(id), owner).any(|id| id == element) {
+                self.stopped(at, id);
+            }
+        }
+        self.actor = None;
+    }
+
+    fn returned(&mut self, at: Instant, id: ComponentId) {
+        self.with(id, |usage| usage.since = Some(at));
+        if self.kind(id) == Some(ComponentKind::Actor) {
+            self.actor = Some(id);
+        }
+    }
+
     fn stopped(&mut self, at: Instant, id: ComponentId) {
         self.with(id, |usage| {
             if let Some(since) = usage.since.take() {
@@ -314,6 +345,14 @@ impl Counts {
             }
         });
     }
+}
+
+/// The component whose path is that of each component without its last name.
+fn owners(names: &(impl Names + ?Sized)) -> Vec<Option<ComponentId>> {
+    let ids = || (0..names.components()).map(ComponentId);
+    let paths: BTreeMap<_, _> = ids().map(|id| (names.component(id).path, id)).collect();
+    let owner = |id| paths.get(names.component(id).path.rsplit_once('.')?.0).copied();
+    ids().map(owner).collect()
 }
 
 impl Usage {

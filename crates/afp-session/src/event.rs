@@ -96,6 +96,23 @@ pub enum EventKind {
         /// The supervisor of the event.
         supervisor: NamedComponent,
     },
+    /// An element was set aside for a handler.
+    Suspended {
+        /// The supervisor of the event.
+        supervisor: NamedComponent,
+        /// Whether the element had started.
+        started: bool,
+    },
+    /// A component that was suspended continues.
+    Returned {
+        /// The time since its suspension.
+        away: Duration,
+    },
+    /// An element that was set aside was given up, and interrupted if it had started.
+    Abandoned {
+        /// Whether the element had started.
+        started: bool,
+    },
     /// A component failed.
     Faulted(FaultText),
     /// A plan ended.
@@ -125,7 +142,7 @@ pub struct NamedOutcome {
     pub name: String,
     /// Its position among the outcomes of the component.
     pub outcome: Outcome,
-    /// Its target: an element, `terminate`, `fail`, `ignore`, `resume`; empty until the outcome is
+    /// Its target: an element, a keyword or `suspend` with an element; empty until the outcome is
     /// taken.
     pub target: String,
 }
@@ -261,6 +278,14 @@ impl RunEvent {
             EventKind::Event(EventAt { event, element, .. }) => {
                 let (event, element) = (event.outcome, element.id);
                 Record::Event { supervisor: component, event, element }
+            }
+            EventKind::Suspended { supervisor, started } => {
+                let (supervisor, started) = (supervisor.id, *started);
+                Record::Suspended { element: component, supervisor, started }
+            }
+            EventKind::Returned { away } => Record::Returned { component, away: *away },
+            EventKind::Abandoned { started } => {
+                Record::Abandoned { element: component, started: *started }
             }
             EventKind::Faulted(_) => {
                 Record::Faulted { component, fault: Fault::INTERNAL, detail: None }

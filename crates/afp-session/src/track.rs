@@ -96,6 +96,12 @@ impl Track {
             {
                 self.note_actor(at, Some(component));
             }
+            Record::Returned { component, .. }
+                if names.component(component).kind == ComponentKind::Actor =>
+            {
+                self.note_actor(at, Some(component));
+            }
+            Record::Suspended { started: true, .. } => self.note_actor(at, None),
             Record::Interrupted { element: left }
             | Record::Finished { element: left, .. }
             | Record::Faulted { component: left, .. }

@@ -191,6 +191,11 @@ impl<'a> Context<'a> {
         if matches!(ty, Type::Object(_)) { quote!(Object<#value>) } else { value }
     }
 
+    /// Whether an event of the plan sets an element aside.
+    pub fn suspends(&self) -> bool {
+        self.rows.elements.iter().any(|row| row.handler)
+    }
+
     /// The supervisors of an element, with their names.
     pub fn locals(&self, element: usize) -> impl Iterator<Item = &ComponentNames> {
         let locals = self.plan.elements[element].supervisors.iter();

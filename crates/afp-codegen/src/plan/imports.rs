@@ -49,6 +49,7 @@ const RT: &[&str] = &[
     "ReasonId",
     "Run",
     "Scale",
+    "SetAside",
     "Slot",
     "Started",
     "Supervisor",

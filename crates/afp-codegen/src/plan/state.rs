@@ -147,10 +147,12 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
     let to = if commits.is_empty() { quote!(_) } else { quote!(to) };
     let (initialise, outside) = (initialise(context), outside(context));
     let at_element = at_element(context);
+    let aside = aside(context);
     quote! {
         impl PlanState for #ty {
             type Tables = Rules;
             type Slots = [Slot; #slots];
+            type Aside = #aside;
 
             #[inline]
             fn tables(&self) -> Rules {
@@ -185,6 +187,14 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
                 self.staged = Staged::default();
             }
         }
+    }
+}
+
+/// The storage for the element that is set aside.
+fn aside(context: &Context<'_>) -> TokenStream {
+    match context.suspends() {
+        true => quote!(Option<SetAside>),
+        false => quote!(()),
     }
 }
 

@@ -152,6 +152,7 @@ impl P {
 impl PlanState for P {
     type Tables = Rules;
     type Slots = [Slot; 2];
+    type Aside = ();
 
     #[inline]
     fn tables(&self) -> Rules {

@@ -159,6 +159,7 @@ impl Inner {
 impl PlanState for Inner {
     type Tables = Rules;
     type Slots = [Slot; 0];
+    type Aside = ();
 
     #[inline]
     fn tables(&self) -> Rules {
@@ -452,6 +453,7 @@ impl P {
 impl PlanState for P {
     type Tables = Rules;
     type Slots = [Slot; 0];
+    type Aside = ();
 
     #[inline]
     fn tables(&self) -> Rules {

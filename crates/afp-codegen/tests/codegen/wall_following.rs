@@ -286,6 +286,7 @@ impl WallFollowing {
 impl PlanState for WallFollowing {
     type Tables = Rules;
     type Slots = [Slot; 3];
+    type Aside = ();
 
     #[inline]
     fn tables(&self) -> Rules {

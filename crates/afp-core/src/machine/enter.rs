@@ -6,7 +6,7 @@ use super::{Edge, Flow, Stepping, Stop};
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
-use crate::rt::{ElementKind, ElementRow, Plan, Run, Started, Tables};
+use crate::rt::{Aside, ElementKind, ElementRow, Plan, Run, Started, Tables};
 use crate::trace::Record;
 use afp_types::{ElementId, SupervisorId};
 
@@ -31,10 +31,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
 
     /// Starts a supervisor; it is due immediately.
     pub(super) fn start_supervisor(&mut self, supervisor: SupervisorId) -> Result<(), Fault> {
-        let slot = self.slot(supervisor.0).unwrap_or(usize::MAX);
-        if let Some(slot) = self.level.slots.as_mut().get_mut(slot) {
-            slot.next = self.cx.now;
-        }
+        self.due_now(supervisor);
         let id = self.supervisor_id(supervisor);
         self.cx.place.component = id;
         let result = self.cx.call(id, |cx| self.level.plan.start_supervisor(supervisor, cx));
@@ -45,8 +42,16 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         result
     }
 
+    /// Makes a supervisor due; its releases count from now.
+    pub(super) fn due_now(&mut self, supervisor: SupervisorId) {
+        let slot = self.slot(supervisor.0).unwrap_or(usize::MAX);
+        if let Some(slot) = self.level.slots.as_mut().get_mut(slot) {
+            slot.next = self.cx.now;
+        }
+    }
+
     /// Polls before the start: due global supervisors first, then the element's own.
-    fn look(&mut self, element: ElementId, row: &ElementRow) -> Option<Found> {
+    pub(super) fn look(&mut self, element: ElementId, row: &ElementRow) -> Option<Found> {
         let moment = Moment { element, look: true };
         // Includes the time of everything that ran since the last poll of a supervisor.
         self.cx.step.clock = self.cx.clock.now(self.cx.now);
@@ -65,44 +70,59 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         None
     }
 
-    /// The look found a reason not to start.
-    fn diverted(
+    /// The look found a reason not to start, or not to return.
+    pub(super) fn diverted(
         &mut self,
         element: ElementId,
         row: &ElementRow,
         found: Found,
     ) -> Result<Edge, Stop> {
-        let supervisor = self.supervisor_id(found.supervisor);
-        match found.what {
-            What::Event(event, _) => {
-                let element = self.component(element);
-                self.cx.trace(&Record::Event { supervisor, event, element });
-                self.cx.trace(&Record::Diverted { element, supervisor, event });
-            }
-            What::Leads(_, Err(Stop::Run(fault))) => return Err(Stop::Run(fault)),
-            What::Leads(event, _) => {
-                let element = self.component(element);
-                self.cx.trace(&Record::Diverted { element, supervisor, event });
-            }
-            What::Fault(fault) => {
-                self.level.plan.discard();
-                self.cx.failed(supervisor, fault);
-            }
+        self.trace_found(element, &found)?;
+        let aside = self.level.aside.get().is_some_and(|aside| aside.element == element);
+        if self.suspends(row, &found) {
+            return match aside {
+                true => self.suspend_again(found),
+                false => self.set_aside(element, found, (self.cx.now, false)),
+            };
         }
-        self.after_supervisor(element, row, found)
+        if let What::Event(event, _) | What::Leads(event, _) = found.what {
+            let supervisor = self.supervisor_id(found.supervisor);
+            let element = self.component(element);
+            self.cx.trace(&Record::Diverted { element, supervisor, event });
+        }
+        if !aside {
+            self.level.plan.leave(element);
+        } else if let What::Fault(fault) = found.what
+            && !self.t.table().is_global(found.supervisor)
+        {
+            return self.give_up(row, fault);
+        }
+        self.after_supervisor(row, found)
     }
 
     /// Reads the inputs and starts the element.
-    fn start_element(
+    pub(super) fn start_element(
         &mut self,
         element: ElementId,
         row: &ElementRow,
     ) -> Result<Option<Edge>, Stop> {
         let id = self.component(element);
         self.cx.place.component = id;
-        match self.cx.call(id, |cx| self.level.plan.start_element(element, cx)) {
+        let started = self.cx.call(id, |cx| self.level.plan.start_element(element, cx));
+        self.begun(element, row, started, &Record::Started { component: id })
+    }
+
+    /// Handles the result of a start, which `record` traces for an actor.
+    pub(super) fn begun(
+        &mut self,
+        element: ElementId,
+        row: &ElementRow,
+        started: Started,
+        record: &Record<'_>,
+    ) -> Result<Option<Edge>, Stop> {
+        match started {
             Started::Running => {
-                self.cx.trace(&Record::Started { component: id });
+                self.cx.trace(record);
                 self.level.active = Some(element);
                 self.level.due = self.cx.now + row.period;
                 Ok(None)

@@ -2,7 +2,7 @@
 
 use super::{Edge, Flow, Stepping, Stop};
 use crate::fault::Fault;
-use crate::rt::{ElementKind, ElementRow, Plan, Polled, Run, Tables, Target};
+use crate::rt::{Aside, ElementKind, ElementRow, Plan, Polled, Run, Tables, Target};
 use crate::trace::{Author, Ending, Outcome, Record};
 use afp_types::ElementId;
 
@@ -54,19 +54,23 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             if let Err(fault) = self.take_edge() {
                 return Flow::Fatal(fault);
             }
-            let element = match taken.target {
-                Some(Target::Element(element)) => element,
+            let entered = match taken.target {
+                Some(Target::Element(element)) => match self.abandon_before(element) {
+                    Ok(()) => self.enter(element),
+                    Err(fault) => return Flow::Fatal(fault),
+                },
+                Some(Target::Suspend(handler)) if P::Aside::USED => self.enter(handler),
+                Some(Target::Return) => self.give_back(),
                 Some(Target::Terminate) => return self.end(taken.ending),
                 Some(Target::Fail(reason)) => {
                     let reason = self.t.table().reasons.get(reason.index());
                     return self.fail(reason.copied().unwrap_or(Fault::INTERNAL));
                 }
-                Some(Target::Ignore | Target::Resume | Target::Suspend(_) | Target::Return)
-                | None => {
+                Some(Target::Ignore | Target::Resume | Target::Suspend(_)) | None => {
                     return Flow::Fatal(Fault::INTERNAL);
                 }
             };
-            match self.enter(element).transpose() {
+            match entered.transpose() {
                 None => return Flow::Running(self.wake()),
                 Some(next) => edge = next,
             }

@@ -2,10 +2,11 @@
 
 use afp_types::{Duration, Instant};
 
+use super::leave::after_fault;
 use super::{Edge, Flow, Stepping, Stop};
 use crate::clock::Clock;
 use crate::fault::Fault;
-use crate::rt::{ElementRow, Fired, Plan, Run, SupervisorRow, Tables, Target};
+use crate::rt::{Aside, ElementRow, Fired, Plan, Run, SupervisorRow, Tables, Target};
 use crate::trace::{Author, Cause, Ending, Outcome, Record, Sink, Verdict};
 use afp_types::{ElementId, SupervisorId};
 
@@ -193,49 +194,73 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         row: &ElementRow,
         found: Found,
     ) -> Flow {
-        let id = self.supervisor_id(found.supervisor);
-        match found.what {
-            What::Event(event, _) => {
-                let element = self.component(element);
-                self.cx.trace(&Record::Event { supervisor: id, event, element });
-            }
-            What::Leads(_, Err(Stop::Run(fault))) => return Flow::Fatal(fault),
-            What::Leads(..) => {}
-            What::Fault(fault) => {
-                self.level.plan.discard();
-                self.cx.failed(id, fault);
-            }
-        }
-        if let Err(fault) = self.interrupt_active() {
-            return Flow::Fatal(fault);
-        }
-        let edge = self.after_supervisor(element, row, found);
+        let edge = self.stopped(element, row, found, None);
         self.follow(edge)
     }
 
-    /// The edge of a supervisor's finding, its outputs committed. The element is no longer active.
-    pub(super) fn after_supervisor(
+    /// The edge of a finding that interrupts a started element or sets it aside. `away` is the time
+    /// since the element was suspended, if it still is.
+    pub(super) fn stopped(
         &mut self,
         element: ElementId,
         row: &ElementRow,
         found: Found,
+        away: Option<Duration>,
     ) -> Result<Edge, Stop> {
+        self.trace_found(element, &found)?;
+        if self.suspends(row, &found) {
+            return self.suspend_active(element, row, found, away);
+        }
+        self.interrupt_active().map_err(Stop::Run)?;
+        self.after_supervisor(row, found)
+    }
+
+    /// Traces an event that is taken, or a fault.
+    ///
+    /// # Errors
+    /// The fault of a computation that ends the run.
+    pub(super) fn trace_found(&mut self, element: ElementId, found: &Found) -> Result<(), Stop> {
+        let supervisor = self.supervisor_id(found.supervisor);
+        match found.what {
+            What::Event(event, _) => {
+                let element = self.component(element);
+                self.cx.trace(&Record::Event { supervisor, event, element });
+            }
+            What::Leads(_, Err(Stop::Run(fault))) => return Err(Stop::Run(fault)),
+            What::Leads(..) => {}
+            What::Fault(fault) => {
+                self.level.plan.discard();
+                self.cx.failed(supervisor, fault);
+            }
+        }
+        Ok(())
+    }
+
+    /// The edge of a supervisor's finding, its outputs committed. The element has been left.
+    pub(super) fn after_supervisor(
+        &mut self,
+        row: &ElementRow,
+        found: Found,
+    ) -> Result<Edge, Stop> {
+        match found.what {
+            What::Event(..) | What::Leads(..) => self.edge_of(found),
+            What::Fault(fault) if self.t.table().is_global(found.supervisor) => {
+                Err(Stop::Plan(Ending::Error(fault)))
+            }
+            What::Fault(fault) => after_fault(row, fault),
+        }
+    }
+
+    /// The edge of an event, its outputs committed.
+    pub(super) fn edge_of(&mut self, found: Found) -> Result<Edge, Stop> {
         match found.what {
             What::Event(_, target) => {
                 let id = self.supervisor_id(found.supervisor);
                 self.commit(Author::Component(id));
-                self.level.plan.leave(element);
                 Ok(Edge { target: Some(target), ending: Ending::Interrupted })
             }
-            What::Leads(_, edge) => {
-                self.level.plan.leave(element);
-                edge
-            }
-            What::Fault(fault) if self.t.table().is_global(found.supervisor) => {
-                self.level.plan.leave(element);
-                Err(Stop::Plan(Ending::Error(fault)))
-            }
-            What::Fault(fault) => self.error_edge(element, row, fault),
+            What::Leads(_, edge) => edge,
+            What::Fault(_) => Err(Stop::Run(Fault::INTERNAL)),
         }
     }
 
@@ -248,7 +273,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     ) -> Option<Target> {
         match target? {
             Target::Ignore => None,
-            Target::Element(element)
+            Target::Element(element) | Target::Suspend(element)
                 if element == moment.element
                     && (moment.look || self.t.table().is_global(supervisor)) =>
             {
@@ -261,8 +286,23 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
                 }
                 None
             }
+            // A handler takes time: its own events do not return from the look.
+            target if moment.look && self.returns(target) => {
+                self.t.table().is_global(supervisor).then_some(target)
+            }
             target => Some(target),
         }
+    }
+
+    /// Whether an edge returns, or leads to a computation that can.
+    fn returns(&self, target: Target) -> bool {
+        let row = |element| self.t.table().element(element);
+        P::Aside::USED
+            && match target {
+                Target::Return => true,
+                Target::Element(element) => row(element).is_some_and(|row| row.returns),
+                _ => false,
+            }
     }
 
     /// Whether an event with this target does not interrupt yet.

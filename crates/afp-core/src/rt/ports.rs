@@ -8,7 +8,8 @@ use core::any::Any as Dynamic;
 use afp_types::{Text, Value, ValueRef};
 
 use crate::component::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Supervisor, SupervisorTemplate,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Resumable, Supervisor,
+    SupervisorTemplate,
 };
 use crate::fault::{BadValue, Fault};
 
@@ -85,6 +86,15 @@ pub trait Registry<E: ?Sized> {
     where
         T: ActorTemplate + 'static,
         A: Actor<T, E> + Clone + Send + 'static,
+        for<'a> T::Inputs<'a>: FromArgs<'a>,
+        for<'a> T::Live<'a>: FromArgs<'a>,
+        T::State: Outcome;
+
+    /// Adds an actor that its toolbox calls `resumable`.
+    fn resumable<T, A>(&mut self, toolbox: &'static str, template: &'static str)
+    where
+        T: ActorTemplate + 'static,
+        A: Resumable<T, E> + Clone + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::State: Outcome;

@@ -6,7 +6,7 @@
 
 use core::marker::PhantomData;
 
-use crate::component::{Actor, ActorTemplate, Supervisor, SupervisorTemplate};
+use crate::component::{Actor, ActorTemplate, Resumable, Supervisor, SupervisorTemplate};
 use crate::rt::ports::{FromArgs, Outcome, Registry};
 
 /// A template `T`, its implementation `A`, and a platform `E`.
@@ -19,6 +19,16 @@ impl<T, A, E: ?Sized> Probe<T, A, E> {
 /// The platform supports the actor.
 pub trait ActorSupported<E: ?Sized> {
     fn actor(
+        &self,
+        registry: &mut impl Registry<E>,
+        names: (&'static str, &'static str),
+        missing: &[&'static str],
+    );
+}
+
+/// The platform supports the resumable actor.
+pub trait ResumableSupported<E: ?Sized> {
+    fn resumable(
         &self,
         registry: &mut impl Registry<E>,
         names: (&'static str, &'static str),
@@ -39,6 +49,13 @@ pub trait SupervisorSupported<E: ?Sized> {
 /// The platform lacks a trait that the template needs.
 pub trait Unsupported<E: ?Sized> {
     fn actor(
+        &self,
+        registry: &mut impl Registry<E>,
+        names: (&'static str, &'static str),
+        missing: &[&'static str],
+    );
+
+    fn resumable(
         &self,
         registry: &mut impl Registry<E>,
         names: (&'static str, &'static str),
@@ -71,6 +88,24 @@ where
     }
 }
 
+impl<T, A, E: ?Sized> ResumableSupported<E> for Probe<T, A, E>
+where
+    T: ActorTemplate + 'static,
+    A: Resumable<T, E> + Clone + Send + 'static,
+    for<'a> T::Inputs<'a>: FromArgs<'a>,
+    for<'a> T::Live<'a>: FromArgs<'a>,
+    T::State: Outcome,
+{
+    fn resumable(
+        &self,
+        registry: &mut impl Registry<E>,
+        (toolbox, template): (&'static str, &'static str),
+        _: &[&'static str],
+    ) {
+        registry.resumable::<T, A>(toolbox, template);
+    }
+}
+
 impl<T, A, E: ?Sized> SupervisorSupported<E> for Probe<T, A, E>
 where
     T: SupervisorTemplate + 'static,
@@ -91,6 +126,15 @@ where
 
 impl<T, A, E: ?Sized> Unsupported<E> for &Probe<T, A, E> {
     fn actor(
+        &self,
+        registry: &mut impl Registry<E>,
+        (toolbox, template): (&'static str, &'static str),
+        missing: &[&'static str],
+    ) {
+        registry.unsupported(toolbox, template, missing);
+    }
+
+    fn resumable(
         &self,
         registry: &mut impl Registry<E>,
         (toolbox, template): (&'static str, &'static str),

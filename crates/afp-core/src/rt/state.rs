@@ -1,9 +1,10 @@
 //! The scheduler's interface of a plan.
 
-use afp_types::{Value, ValueRef};
+use afp_types::{Duration, Value, ValueRef};
 
-use crate::component::Events;
+use crate::component::{Events, OnReturn};
 use crate::fault::{BadValue, Fault};
+use crate::rt::aside::Aside;
 use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
 use crate::rt::run::Run;
 use crate::rt::table::{ElementId, SupervisorId, Tables};
@@ -19,6 +20,10 @@ pub trait PlanState: Sized {
     /// Storage for the releases of its [`crate::rt::PlanTable::slots`] supervisors.
     #[doc(hidden)]
     type Slots: AsRef<[Slot]> + AsMut<[Slot]> + Clone + Send;
+
+    /// Storage for the element that is set aside: `()` without `suspend`.
+    #[doc(hidden)]
+    type Aside: Aside;
 
     /// Returns the rows.
     #[doc(hidden)]
@@ -141,6 +146,57 @@ pub trait Plan<E: ?Sized>: PlanState {
         element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>;
+
+    /// Suspends the active element. It is kept until [`Plan::leave`].
+    ///
+    /// # Errors
+    /// The fault of an actor, which must be interrupted.
+    #[doc(hidden)]
+    fn suspend_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        _: &mut Cx<'_, R>,
+    ) -> Result<(), Fault> {
+        Err(Fault::INTERNAL)
+    }
+
+    /// Continues an element that was suspended `away` ago.
+    #[doc(hidden)]
+    fn resume_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        _away: Duration,
+        _: &mut Cx<'_, R>,
+    ) -> Started {
+        Started::Failed(Fault::INTERNAL)
+    }
+
+    /// Passes the live inputs of a sub-plan that is set aside.
+    ///
+    /// # Errors
+    /// The fault of an input.
+    #[doc(hidden)]
+    fn refresh_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        _: &mut Cx<'_, R>,
+    ) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    /// Continues a supervisor that was not polled for `away`, unless its template starts again.
+    ///
+    /// # Errors
+    /// The fault of the component.
+    #[doc(hidden)]
+    fn resume_supervisor<R: Run<Env = E>>(
+        &mut self,
+        _: SupervisorId,
+        _away: Duration,
+        _: &mut Cx<'_, R>,
+    ) -> Result<OnReturn, Fault> {
+        Ok(OnReturn::Restarts)
+    }
 
     /// Drops an element's instance and its supervisors.
     #[doc(hidden)]

@@ -1,5 +1,7 @@
 //! A sub-plan as an element: its machine, its start and its step.
 
+use afp_types::Duration;
+
 use crate::fault::{BadValue, Fault};
 use crate::machine::Machine;
 use crate::rt::plan::{Committer, Cx, Flow, Polled, Started};
@@ -38,6 +40,17 @@ impl<R: Run> Cx<'_, R> {
     ) -> Flow {
         self.trace(&Record::Started { component: self.place.component });
         self.inside(child, |cx| machine.start(cx))
+    }
+
+    /// Continues a sub-plan that was suspended `away` ago.
+    pub fn resume_sub_plan<P: Plan<R::Env>>(
+        &mut self,
+        child: Child,
+        machine: &mut Machine<P>,
+        away: Duration,
+    ) -> Flow {
+        self.trace(&Record::Returned { component: self.place.component, away });
+        self.inside(child, |cx| machine.resume(away, cx))
     }
 }
 

@@ -80,6 +80,10 @@ impl<N: Names + ?Sized> Line<'_, N> {
     }
 }
 
+fn before(started: bool) -> &'static str {
+    if started { "" } else { " before its start" }
+}
+
 impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ", self.at)?;
@@ -135,6 +139,16 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
             }
             Record::Resumed { element, supervisor } => {
                 write!(f, "{} resumed by {}", self.path(element), self.path(supervisor))
+            }
+            Record::Suspended { element, supervisor, started } => {
+                let path = self.path(element);
+                write!(f, "{path} suspended by {}{}", self.path(supervisor), before(started))
+            }
+            Record::Returned { component, away } => {
+                write!(f, "{} returned after {away}", self.path(component))
+            }
+            Record::Abandoned { element, started } => {
+                write!(f, "{} abandoned{}", self.path(element), before(started))
             }
             Record::Faulted { component, fault, .. } => {
                 write!(f, "{} fault {}: {fault}", self.path(component), fault.code())?;

@@ -13,8 +13,9 @@ use crate::fault::{Detail, Fault};
 /// 3. event
 /// 4. interrupts, innermost first
 /// 5. commits, inner first
-/// 6. starts of supervisors
-/// 7. diverted or started
+/// 6. suspended or abandoned
+/// 7. starts and returns of supervisors
+/// 8. diverted, started or returned
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RecordOf<V> {
     /// A step was requested for an earlier time than the last step; it ran at the last step's time.
@@ -120,6 +121,29 @@ pub enum RecordOf<V> {
         /// The supervisor with the event.
         supervisor: ComponentId,
     },
+    /// An element was set aside for a handler.
+    Suspended {
+        /// The element.
+        element: ComponentId,
+        /// The supervisor with the event.
+        supervisor: ComponentId,
+        /// Whether the element had started.
+        started: bool,
+    },
+    /// A component that was suspended continues.
+    Returned {
+        /// The actor, sub-plan or supervisor.
+        component: ComponentId,
+        /// The time since its suspension.
+        away: Duration,
+    },
+    /// An element that was set aside was given up, and interrupted if it had started.
+    Abandoned {
+        /// The element.
+        element: ComponentId,
+        /// Whether it had started.
+        started: bool,
+    },
     /// A component failed.
     Faulted {
         /// The component.
@@ -171,6 +195,11 @@ impl<V> RecordOf<V> {
                 RecordOf::Diverted { element, supervisor, event }
             }
             RecordOf::Resumed { element, supervisor } => RecordOf::Resumed { element, supervisor },
+            RecordOf::Suspended { element, supervisor, started } => {
+                RecordOf::Suspended { element, supervisor, started }
+            }
+            RecordOf::Returned { component, away } => RecordOf::Returned { component, away },
+            RecordOf::Abandoned { element, started } => RecordOf::Abandoned { element, started },
             RecordOf::Faulted { component, fault, detail } => {
                 RecordOf::Faulted { component, fault, detail }
             }

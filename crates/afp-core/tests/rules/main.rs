@@ -15,5 +15,7 @@ mod outside;
 mod panics;
 mod releases;
 mod resume;
+mod returns;
 mod sub_plans;
+mod suspend;
 mod trace_order;

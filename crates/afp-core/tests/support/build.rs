@@ -52,6 +52,8 @@ pub struct ElementSpec {
     pub plan: Option<Arc<Spec>>,
     pub ins: Vec<(&'static str, &'static str)>,
     pub outs: Vec<(&'static str, &'static str)>,
+    /// Targets of a global supervisor's events while the element is active.
+    pub reactions: Vec<(&'static str, &'static str, &'static str)>,
 }
 
 #[derive(Clone)]
@@ -64,6 +66,8 @@ pub struct SupervisorSpec {
     on_miss: Option<&'static str>,
     pub live: Option<&'static str>,
     pub writes: Vec<Write>,
+    /// It continues when its element returns.
+    pub continues: bool,
 }
 
 /// A plan under construction; the first element added runs first.
@@ -92,6 +96,7 @@ fn element(name: &'static str, kind: ElementKind) -> ElementSpec {
         plan: None,
         ins: Vec::new(),
         outs: Vec::new(),
+        reactions: Vec::new(),
     }
 }
 
@@ -118,6 +123,7 @@ pub fn guard(name: &'static str, period: u64) -> SupervisorSpec {
         on_miss: None,
         live: None,
         writes: Vec::new(),
+        continues: false,
     }
 }
 
@@ -140,6 +146,12 @@ impl ElementSpec {
 
     pub fn guarded(mut self, guard: SupervisorSpec) -> Self {
         self.guards.push(guard);
+        self
+    }
+
+    /// The target of a global supervisor's event while the element is active.
+    pub fn reacts(mut self, guard: &'static str, event: &'static str, to: &'static str) -> Self {
+        self.reactions.push((guard, event, to));
         self
     }
 
@@ -190,6 +202,11 @@ impl SupervisorSpec {
 
     pub fn on_miss(mut self, target: &'static str) -> Self {
         self.on_miss = Some(target);
+        self
+    }
+
+    pub fn continues(mut self) -> Self {
+        self.continues = true;
         self
     }
 
@@ -257,6 +274,9 @@ impl Builder {
                 child.entries += plan.entries_below();
             }
         }
+        for index in 0..spec.elements.len() {
+            spec.add_reactions(index);
+        }
         Arc::new(spec)
     }
 }
@@ -301,12 +321,50 @@ impl Spec {
             "fail" => Target::Fail(ReasonId(0)),
             "resume" => Target::Resume,
             "ignore" => Target::Ignore,
-            name => {
-                let index = self.elements.iter().position(|element| element.name == name);
-                let index = index.unwrap_or_else(|| panic!("no element {name}"));
-                Target::Element(ElementId(index as u16))
-            }
+            "return" => Target::Return,
+            name => match name.strip_prefix("suspend ") {
+                Some(name) => Target::Suspend(self.element(name)),
+                None => Target::Element(self.element(name)),
+            },
         }
+    }
+
+    fn element(&self, name: &str) -> ElementId {
+        let index = self.elements.iter().position(|element| element.name == name);
+        ElementId(index.unwrap_or_else(|| panic!("no element {name}")) as u16)
+    }
+
+    /// Rows of the global supervisors whose events have other targets at an element.
+    fn add_reactions(&mut self, index: usize) {
+        let reactions = self.elements[index].reactions.clone();
+        for row in self.element_rows[index].sweep.indices() {
+            let guard = self.supervisors[usize::from(self.sweeps[row])].clone();
+            let here: Vec<_> = reactions.iter().filter(|(of, ..)| *of == guard.name).collect();
+            if here.is_empty() || self.sweeps[row] >= self.globals {
+                continue;
+            }
+            let target = |(event, to): &(&'static str, &'static str)| {
+                (*event, here.iter().find(|it| it.1 == *event).map_or(*to, |it| it.2))
+            };
+            let events: Vec<_> = guard.events.iter().map(target).collect();
+            let events = self.add_edges(&events);
+            let own = self.supervisor_rows[usize::from(self.sweeps[row])];
+            self.sweeps[row] = self.supervisor_rows.len() as u16;
+            self.supervisor_rows.push(SupervisorRow { events, ..own });
+        }
+    }
+
+    fn is_handler(&self, index: usize) -> bool {
+        let named = |to: &str| to.strip_prefix("suspend ") == Some(self.elements[index].name);
+        let guards = self.elements.iter().flat_map(|element| &element.guards);
+        let guards = guards.chain(&self.supervisors[..usize::from(self.globals)]);
+        let misses = guards.clone().filter_map(|guard| guard.on_miss);
+        let events = guards.flat_map(|guard| guard.events.iter().map(|(_, to)| *to));
+        let elements = self.elements.iter().flat_map(|element| {
+            let states = element.states.iter().map(|(_, to)| *to).chain(element.on_error);
+            states.chain(element.reactions.iter().map(|(.., to)| *to))
+        });
+        events.chain(misses).chain(elements).any(named)
     }
 
     fn optional(&self, name: Option<&str>) -> Option<Target> {
@@ -360,17 +418,19 @@ impl Spec {
             period: Duration::from_millis(element.period),
             states,
             on_error: self.optional(element.on_error),
-            resumes: self.resumes(index, &mut Vec::new()),
-            returns: false,
-            handler: false,
+            resumes: self.computes(index, &mut Vec::new(), |to| {
+                matches!(to, Target::Resume | Target::Suspend(_))
+            }),
+            returns: self.computes(index, &mut Vec::new(), |to| to == Target::Return),
+            handler: self.is_handler(index),
             locals: Range { first: first as u16, len: own.len() as u16 },
             sweep: sweep_row,
             child,
         });
     }
 
-    /// Whether an element is a computation that can reach `resume` through computations only.
-    fn resumes(&self, index: usize, seen: &mut Vec<usize>) -> bool {
+    /// Whether an element is a computation that can reach a target through computations only.
+    fn computes(&self, index: usize, seen: &mut Vec<usize>, wanted: fn(Target) -> bool) -> bool {
         let element = &self.elements[index];
         if element.kind != ElementKind::Computation || seen.contains(&index) {
             return false;
@@ -378,9 +438,8 @@ impl Spec {
         seen.push(index);
         let targets = element.states.iter().map(|(_, to)| *to).chain(element.on_error);
         targets.into_iter().any(|to| match self.target(to) {
-            Target::Resume => true,
-            Target::Element(next) => self.resumes(next.index(), seen),
-            _ => false,
+            Target::Element(next) => self.computes(next.index(), seen, wanted),
+            to => wanted(to),
         })
     }
 

@@ -6,7 +6,7 @@ use afp_core::trace::{
     TraceEntryId,
 };
 
-use super::build::Spec;
+use super::build::{ElementSpec, Spec};
 
 #[derive(Default)]
 pub struct SpecNames {
@@ -19,6 +19,8 @@ struct Component {
     kind: ComponentKind,
     outcomes: Vec<(String, String)>,
     special: (&'static str, &'static str),
+    /// Supervisor, event and target.
+    reactions: Vec<(ComponentId, u16, &'static str)>,
 }
 
 impl SpecNames {
@@ -29,12 +31,14 @@ impl SpecNames {
             kind: ComponentKind::Plan,
             outcomes: Vec::new(),
             special: ("", ""),
+            reactions: Vec::new(),
         });
         names.add(spec, "");
         names
     }
 
     fn add(&mut self, spec: &Spec, prefix: &str) {
+        let supervisors = self.components.len() + spec.elements.len();
         for entry in &spec.entries {
             self.entries.push((format!("{prefix}{}", entry.name), entry.kind));
         }
@@ -49,6 +53,7 @@ impl SpecNames {
                 kind,
                 outcomes: owned(&element.states),
                 special: ("Error", spec.error_target(index)),
+                reactions: reactions(spec, element, supervisors),
             });
         }
         for (index, guard) in spec.supervisors.iter().enumerate() {
@@ -62,6 +67,7 @@ impl SpecNames {
                 kind: ComponentKind::Supervisor,
                 outcomes: owned(&guard.events),
                 special: ("DeadlineMissed", spec.miss_target(index)),
+                reactions: Vec::new(),
             });
         }
         for element in &spec.elements {
@@ -78,6 +84,21 @@ impl SpecNames {
 
 fn owned(outcomes: &[(&str, &str)]) -> Vec<(String, String)> {
     outcomes.iter().map(|(name, target)| ((*name).to_owned(), (*target).to_owned())).collect()
+}
+
+/// The reactions of an element; `first` is the id of the plan's first supervisor.
+fn reactions(
+    spec: &Spec,
+    element: &ElementSpec,
+    first: usize,
+) -> Vec<(ComponentId, u16, &'static str)> {
+    let reaction = |(guard, event, to): &(&str, &str, &'static str)| {
+        let guards = &spec.supervisors[..usize::from(spec.globals)];
+        let index = guards.iter().position(|it| it.name == *guard).expect("a global supervisor");
+        let event = guards[index].events.iter().position(|it| it.0 == *event).expect("an event");
+        (ComponentId((first + index) as u32), event as u16, *to)
+    };
+    element.reactions.iter().map(reaction).collect()
 }
 
 impl Names for SpecNames {
@@ -104,8 +125,9 @@ impl Names for SpecNames {
         }
     }
 
-    fn reaction(&self, _: ComponentId, _: u16) -> Option<Reaction<'_>> {
-        None
+    fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
+        let (supervisor, event, to) = *self.get(element).reactions.get(usize::from(n))?;
+        Some(Reaction::new(supervisor, Some(event), to))
     }
 
     fn input(&self, _: ComponentId, _: u16) -> &str {

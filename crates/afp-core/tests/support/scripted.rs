@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Committer, Cx, ElementId, ElementKind, Events, Fired, Machine, Plan, PlanState,
-    PlanTable, Polled, Run, Slot, Started, SupervisorId, Tables,
+    BadValue, Committer, Cx, ElementId, ElementKind, Events, Fired, Machine, OnReturn, Plan,
+    PlanState, PlanTable, Polled, Run, SetAside, Slot, Started, SupervisorId, Tables,
 };
 use afp_core::trace::{EntryKind, Sink};
-use afp_core::{Fault, Value, ValueRef, WriteError};
+use afp_core::{Duration, Fault, Value, ValueRef, WriteError};
 
 use super::build::{ElementSpec, Spec};
 use super::world::{Phase, World};
@@ -26,8 +26,9 @@ pub struct Scripted {
     entries: Vec<Value>,
     staged: Vec<Option<Value>>,
     children: Vec<Option<Machine<Scripted>>>,
-    /// The element that was started and not left.
-    running: Option<ElementId>,
+    /// The elements that were started and not left: a handler or not.
+    running: [Option<ElementId>; 2],
+    suspended: Vec<bool>,
     watching: Vec<bool>,
 }
 
@@ -40,7 +41,8 @@ impl Scripted {
             entries: spec.entries.iter().map(|_| Value::Unset).collect(),
             staged: spec.entries.iter().map(|_| None).collect(),
             children: spec.elements.iter().map(child).collect(),
-            running: None,
+            running: [None; 2],
+            suspended: vec![false; spec.elements.len()],
             watching: vec![false; spec.supervisors.len()],
             spec,
         }
@@ -57,6 +59,10 @@ impl Scripted {
 
     pub fn spec(&self) -> &Arc<Spec> {
         &self.spec
+    }
+
+    fn place(&mut self, element: ElementId) -> &mut Option<ElementId> {
+        &mut self.running[usize::from(self.spec.element_rows[element.index()].handler)]
     }
 
     fn stage_writes(&mut self, writes: &[(&str, &str, Value)], outcome: &str) {
@@ -101,6 +107,7 @@ impl Scripted {
 impl PlanState for Scripted {
     type Tables = SharedTables;
     type Slots = Vec<Slot>;
+    type Aside = Option<SetAside>;
 
     fn tables(&self) -> SharedTables {
         SharedTables(self.spec.clone())
@@ -117,6 +124,7 @@ impl PlanState for Scripted {
             staged: self.staged.clone(),
             children: self.children.iter().map(copy).collect::<Option<_>>()?,
             running: self.running,
+            suspended: self.suspended.clone(),
             watching: self.watching.clone(),
         })
     }
@@ -192,11 +200,80 @@ impl Plan<World> for Scripted {
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         let name = self.spec.supervisors[supervisor.index()].name;
-        let watching = &mut self.watching[supervisor.index()];
-        assert!(!*watching, "{name} is started while it watches");
         cx.env.call(name, Phase::Start, cx.now)?;
-        *watching = true;
+        self.watching[supervisor.index()] = true;
         Ok(())
+    }
+
+    fn resume_supervisor<R: Run<Env = World>>(
+        &mut self,
+        supervisor: SupervisorId,
+        away: Duration,
+        cx: &mut Cx<'_, R>,
+    ) -> Result<OnReturn, Fault> {
+        let guard = &self.spec.supervisors[supervisor.index()];
+        assert!(self.watching[supervisor.index()], "{} resumes but does not watch", guard.name);
+        if !guard.continues {
+            return Ok(OnReturn::Restarts);
+        }
+        cx.env.resumes(guard.name, away, cx.now)?;
+        Ok(OnReturn::Continues)
+    }
+
+    fn suspend_element<R: Run<Env = World>>(
+        &mut self,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Result<(), Fault> {
+        let spec = self.spec.clone();
+        let row = &spec.elements[element.index()];
+        assert_eq!(*self.place(element), Some(element), "{} is suspended, not running", row.name);
+        let suspended = std::mem::replace(&mut self.suspended[element.index()], true);
+        assert!(!suspended, "{} is suspended twice", row.name);
+        if row.kind == ElementKind::SubPlan {
+            let child = spec.element_rows[element.index()].child;
+            return self
+                .with_child(element, |_, machine| cx.inside(child, |cx| machine.suspend(cx)));
+        }
+        cx.env.call(row.name, Phase::Suspend, cx.now)
+    }
+
+    fn refresh_element<R: Run<Env = World>>(
+        &mut self,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Result<(), Fault> {
+        cx.env.call(self.spec.elements[element.index()].name, Phase::Refresh, cx.now)
+    }
+
+    fn resume_element<R: Run<Env = World>>(
+        &mut self,
+        element: ElementId,
+        away: Duration,
+        cx: &mut Cx<'_, R>,
+    ) -> Started {
+        let spec = self.spec.clone();
+        let row = &spec.elements[element.index()];
+        let suspended = std::mem::replace(&mut self.suspended[element.index()], false);
+        assert!(suspended, "{} resumes but is not suspended", row.name);
+        if row.kind == ElementKind::SubPlan {
+            let child = spec.element_rows[element.index()].child;
+            return self.with_child(element, |plan, machine| {
+                let flow = cx.resume_sub_plan(child, machine, away);
+                Started::sub_plan(
+                    flow,
+                    || plan.stage_results(row, machine.plan()).map_err(BadValue::from),
+                    cx,
+                )
+            });
+        }
+        match cx.env.resumes(row.name, away, cx.now) {
+            Ok(()) => Started::Running,
+            Err(fault) => {
+                self.suspended[element.index()] = true;
+                Started::Failed(fault)
+            }
+        }
     }
 
     fn poll_supervisor<R: Run<Env = World>>(
@@ -228,14 +305,15 @@ impl Plan<World> for Scripted {
         let spec = self.spec.clone();
         let row = &spec.elements[element.index()];
         let computes = row.kind == ElementKind::Computation;
-        assert!(computes || self.running.is_none(), "two elements run at once");
+        let runs = |at: Option<ElementId>| at.is_some_and(|at| !self.suspended[at.index()]);
+        assert!(computes || !self.running.into_iter().any(runs), "two elements run at once");
         for entry in &row.reads {
             let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].as_deref());
             cx.env.saw(cx.now, row.name, &value);
         }
         if row.kind == ElementKind::SubPlan {
             let child = spec.element_rows[element.index()].child;
-            self.running = Some(element);
+            *self.place(element) = Some(element);
             return self.with_child(element, |plan, machine| {
                 for (inner, outer) in &row.ins {
                     machine.plan_mut().set(inner, plan.get(outer));
@@ -252,7 +330,7 @@ impl Plan<World> for Scripted {
             return Started::Failed(fault);
         }
         if row.kind == ElementKind::Actor {
-            self.running = Some(element);
+            *self.place(element) = Some(element);
             return Started::Running;
         }
         let all = Events::from_bits(u64::MAX);
@@ -271,7 +349,8 @@ impl Plan<World> for Scripted {
     ) -> Polled {
         let spec = self.spec.clone();
         let row = &spec.elements[element.index()];
-        assert_eq!(self.running, Some(element), "{} is polled but does not run", row.name);
+        assert_eq!(*self.place(element), Some(element), "{} is polled, not running", row.name);
+        assert!(!self.suspended[element.index()], "{} is polled while suspended", row.name);
         if row.kind == ElementKind::SubPlan {
             let child = spec.element_rows[element.index()].child;
             return self.with_child(element, |plan, machine| {
@@ -304,7 +383,7 @@ impl Plan<World> for Scripted {
     ) -> Result<(), Fault> {
         let spec = self.spec.clone();
         let row = &spec.elements[element.index()];
-        assert_eq!(self.running, Some(element), "{} is interrupted but does not run", row.name);
+        assert_eq!(*self.place(element), Some(element), "{} is interrupted, not running", row.name);
         if row.kind == ElementKind::SubPlan {
             let child = spec.element_rows[element.index()].child;
             return self
@@ -314,13 +393,17 @@ impl Plan<World> for Scripted {
     }
 
     fn leave(&mut self, element: ElementId) {
-        self.running = None;
+        if *self.place(element) == Some(element) {
+            *self.place(element) = None;
+        }
+        self.suspended[element.index()] = false;
         let locals = self.spec.element_rows[element.index()].locals;
         self.watching[locals.indices()].fill(false);
     }
 
     fn end(&mut self) {
-        self.running = None;
+        self.running = [None; 2];
+        self.suspended.fill(false);
         self.watching.fill(false);
     }
 }

@@ -17,6 +17,10 @@ pub enum Phase {
     Start,
     Poll,
     Interrupt,
+    Suspend,
+    Resume,
+    /// A sub-plan's live inputs at its return.
+    Refresh,
     /// An output that cannot be converted.
     Output,
 }
@@ -113,6 +117,9 @@ impl World {
             Phase::Start => "start",
             Phase::Poll => "poll",
             Phase::Interrupt => "interrupt",
+            Phase::Suspend => "suspend",
+            Phase::Resume => "resume",
+            Phase::Refresh => "refresh",
             Phase::Output => return Ok(()),
         };
         self.note(now, what, who);
@@ -130,6 +137,18 @@ impl World {
         let clock = &self.clock.0;
         clock.set(clock.get().max(now) + cost);
         result
+    }
+
+    /// A component continues after `away`.
+    pub fn resumes(
+        &mut self,
+        who: &'static str,
+        away: Duration,
+        now: Instant,
+    ) -> Result<(), Fault> {
+        let millis = away.as_nanos() / 1_000_000;
+        self.note(now, &format!("back after {millis}"), who);
+        self.call(who, Phase::Resume, now)
     }
 
     /// The result of passing outputs; records nothing.

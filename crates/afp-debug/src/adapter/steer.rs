@@ -280,6 +280,9 @@ pub(super) fn is_transition(what: &Happened, program: &Program, plan: Option<Com
             | EventKind::Finished(_)
             | EventKind::Interrupted
             | EventKind::Diverted { .. }
+            | EventKind::Suspended { .. }
+            | EventKind::Returned { .. }
+            | EventKind::Abandoned { .. }
     );
     kind && element && plan.is_none_or(|plan| unit.plan == plan)
 }

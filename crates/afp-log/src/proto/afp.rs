@@ -64,6 +64,12 @@ pub struct PlanEvent {
     /// Whether that element answered: `target` is one of its `on`, not the supervisor's.
     #[prost(bool, tag = "27")]
     pub on: bool,
+    /// Whether the element that was suspended or abandoned had started.
+    #[prost(bool, tag = "28")]
+    pub started: bool,
+    /// The time since the suspension of a component that returned.
+    #[prost(uint64, tag = "29")]
+    pub away_ns: u64,
 }
 /// Nested message and enum types in `PlanEvent`.
 pub mod plan_event {
@@ -114,6 +120,12 @@ pub mod plan_event {
         Requested = 17,
         /// An element goes on after an event of `supervisor` that did not interrupt it.
         Resumed = 18,
+        /// An element was set aside for a handler, by an event of `supervisor`: `started`.
+        Suspended = 19,
+        /// A component that was suspended continues: `away_ns`.
+        Returned = 20,
+        /// An element that was set aside was given up: `started`.
+        Abandoned = 21,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -141,6 +153,9 @@ pub mod plan_event {
                 Self::Injected => "INJECTED",
                 Self::Requested => "REQUESTED",
                 Self::Resumed => "RESUMED",
+                Self::Suspended => "SUSPENDED",
+                Self::Returned => "RETURNED",
+                Self::Abandoned => "ABANDONED",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -165,6 +180,9 @@ pub mod plan_event {
                 "INJECTED" => Some(Self::Injected),
                 "REQUESTED" => Some(Self::Requested),
                 "RESUMED" => Some(Self::Resumed),
+                "SUSPENDED" => Some(Self::Suspended),
+                "RETURNED" => Some(Self::Returned),
+                "ABANDONED" => Some(Self::Abandoned),
                 _ => None,
             }
         }

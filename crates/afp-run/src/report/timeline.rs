@@ -73,6 +73,17 @@ pub(super) fn line(event: &RunEvent, template: &str, logs: bool) -> Option<Strin
         Kind::Resumed { supervisor } => {
             format!("{QUIET}↩ {component} goes on after {}{QUIET:#}", supervisor.path)
         }
+        Kind::Suspended { supervisor, started } => {
+            let (by, early) = (&supervisor.path, if *started { "" } else { " before its start" });
+            format!("{EVENT}⏸ {component} is set aside{early}{EVENT:#}  {QUIET}by {by}{QUIET:#}")
+        }
+        Kind::Returned { away } => {
+            let away = away.as_secs_f64();
+            format!("{ACTIVE}▶ {component}{ACTIVE:#}  {QUIET}again after {away:.3} s{QUIET:#}")
+        }
+        Kind::Abandoned { .. } => {
+            format!("{QUIET}· {component} does not return{QUIET:#}")
+        }
         Kind::Faulted(fault) => format!("{BAD}✗ {component} failed: {}{BAD:#}", fault.text),
         Kind::Ended { ending, fault } => ended(&event.component, *ending, fault),
         Kind::Lost(count) => format!("{BAD}! {count} records lost{BAD:#}"),

@@ -4,6 +4,7 @@ use super::{
     EndingKind, EventKind, FaultText, Miss, NamedComponent, NamedOutcome, Requested, RunEvent,
 };
 use crate::datum::Datum;
+use afp_types::Duration;
 
 /// The content of an event, without its component. Fields that the kind lacks are empty.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,7 +15,7 @@ pub struct Facts<'a> {
     pub element: Option<&'a NamedComponent>,
     /// Whether the target comes from an `on` of the element and not from the supervisor.
     pub on: bool,
-    /// The supervisor that diverted a start, or whose event resumed an element.
+    /// The supervisor that diverted a start, or whose event resumed or suspended an element.
     pub supervisor: Option<&'a NamedComponent>,
     /// The entry that was written.
     pub entry: &'a str,
@@ -26,6 +27,10 @@ pub struct Facts<'a> {
     pub value: Option<&'a Datum>,
     /// The SI unit of the values.
     pub unit: &'a str,
+    /// Whether an element that was suspended or abandoned had started.
+    pub started: Option<bool>,
+    /// The time since the suspension of a component that returned.
+    pub away: Option<Duration>,
     /// The fault.
     pub fault: Option<&'a FaultText>,
     /// The missed deadline.
@@ -67,6 +72,11 @@ impl RunEvent {
                 Facts { outcome: Some(event), supervisor: Some(supervisor), ..none }
             }
             EventKind::Resumed { supervisor } => Facts { supervisor: Some(supervisor), ..none },
+            EventKind::Suspended { supervisor, started } => {
+                Facts { supervisor: Some(supervisor), started: Some(*started), ..none }
+            }
+            EventKind::Returned { away } => Facts { away: Some(*away), ..none },
+            EventKind::Abandoned { started } => Facts { started: Some(*started), ..none },
             EventKind::Polled(Err(fault)) | EventKind::Faulted(fault) => {
                 Facts { fault: Some(fault), ..none }
             }
@@ -97,6 +107,9 @@ impl EventKind {
             EventKind::Started => "started",
             EventKind::Diverted { .. } => "diverted",
             EventKind::Resumed { .. } => "resumed",
+            EventKind::Suspended { .. } => "suspended",
+            EventKind::Returned { .. } => "returned",
+            EventKind::Abandoned { .. } => "abandoned",
             EventKind::Faulted(_) => "faulted",
             EventKind::Ended { .. } => "ended",
             EventKind::Lost(_) => "lost",

@@ -69,6 +69,12 @@ impl<N: Names + ?Sized> Namer<'_, N> {
             Record::Resumed { element, supervisor } => {
                 (element, EventKind::Resumed { supervisor: self.component(supervisor) })
             }
+            Record::Suspended { element, supervisor, started } => {
+                let supervisor = self.component(supervisor);
+                (element, EventKind::Suspended { supervisor, started })
+            }
+            Record::Returned { component, away } => (component, EventKind::Returned { away }),
+            Record::Abandoned { element, started } => (element, EventKind::Abandoned { started }),
             Record::Faulted { component, fault, detail } => {
                 let text = fault.explained(detail, self.names).to_string();
                 let code = fault.code().to_owned();

@@ -43,6 +43,7 @@ impl Measure<Simulation> for WallDistance {
                     self.following = Some(Following { actor: component, since: named.at, wanted });
                 }
             }
+            Record::Suspended { started: true, .. } => self.following = None,
             Record::Interrupted { element: left }
             | Record::Finished { element: left, .. }
             | Record::Faulted { component: left, .. }

@@ -8,11 +8,11 @@ mod testing;
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Committer, Cx, ElementId, Events, Fired, NamedPlan, Plan, Polled, Run, Scale, Slot,
-    Started, SupervisorId, Tables, Unit, initial, int_to_float,
+    BadValue, Committer, Cx, ElementId, Events, Fired, NamedPlan, OnReturn, Plan, Polled, Run,
+    Scale, SetAside, Slot, Started, SupervisorId, Tables, Unit, initial, int_to_float,
 };
 use afp_core::trace::{Outcome, Sink};
-use afp_core::{Environment, Fault, PlanState, Value, ValueRef, WriteError};
+use afp_core::{Duration, Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
 use afp_dsl::types::converter::spellings;
@@ -207,6 +207,7 @@ fn fit(ty: Option<&Type>, value: &Value) -> Value {
 impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
     type Tables = LoadedTables;
     type Slots = Box<[Slot]>;
+    type Aside = Option<SetAside>;
 
     fn tables(&self) -> LoadedTables {
         self.tables.clone()
@@ -392,6 +393,45 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
     ) -> Result<(), Fault> {
         let slot = self.elements.get_mut(element.index()).ok_or(Fault::INTERNAL)?;
         slot.interrupt(cx)
+    }
+
+    fn suspend_element<R: Run<Env = E>>(
+        &mut self,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Result<(), Fault> {
+        self.elements.get_mut(element.index()).ok_or(Fault::INTERNAL)?.suspend(cx)
+    }
+
+    fn refresh_element<R: Run<Env = E>>(
+        &mut self,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Result<(), Fault> {
+        let slot = self.elements.get_mut(element.index()).ok_or(Fault::INTERNAL)?;
+        slot.refresh(&mut self.config, cx)
+    }
+
+    fn resume_element<R: Run<Env = E>>(
+        &mut self,
+        element: ElementId,
+        away: Duration,
+        cx: &mut Cx<'_, R>,
+    ) -> Started {
+        let Some(slot) = self.elements.get_mut(element.index()) else {
+            return Started::Failed(Fault::INTERNAL);
+        };
+        slot.resume(away, &mut self.config, cx)
+    }
+
+    fn resume_supervisor<R: Run<Env = E>>(
+        &mut self,
+        supervisor: SupervisorId,
+        away: Duration,
+        cx: &mut Cx<'_, R>,
+    ) -> Result<OnReturn, Fault> {
+        let watch = self.supervisors.get_mut(supervisor.index()).ok_or(Fault::INTERNAL)?;
+        watch.slot.resume(cx.env, cx.now, away)
     }
 
     fn leave(&mut self, element: ElementId) {

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use afp_core::rt::{self, FromArgs, Outcome};
 use afp_core::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Supervisor, SupervisorTemplate,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Resumable, Supervisor,
+    SupervisorTemplate,
 };
 
 use super::config::{NewCell, ObjectCell};
-use super::slots::{ActorSlot, ComputationSlot, Slot, SupervisorSlot};
+use super::slots::{ActorSlot, Always, ComputationSlot, Never, Slot, SupervisorSlot};
 
 type NewActor<E> = Box<dyn Fn() -> Box<dyn ActorSlot<E>> + Send + Sync>;
 type NewSupervisor<E> = Box<dyn Fn() -> Box<dyn SupervisorSlot<E>> + Send + Sync>;
@@ -139,7 +140,18 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::State: Outcome,
     {
-        self.add_actor(toolbox, template, || Box::new(Slot::<T, A>::new()));
+        self.add_actor(toolbox, template, || Box::new(Slot::<T, A, Never>::new()));
+    }
+
+    fn resumable<T, A>(&mut self, toolbox: &'static str, template: &'static str)
+    where
+        T: ActorTemplate + 'static,
+        A: Resumable<T, E> + Clone + Send + 'static,
+        for<'a> T::Inputs<'a>: FromArgs<'a>,
+        for<'a> T::Live<'a>: FromArgs<'a>,
+        T::State: Outcome,
+    {
+        self.add_actor(toolbox, template, || Box::new(Slot::<T, A, Always>::new()));
     }
 
     fn supervisor<T, A>(&mut self, toolbox: &'static str, template: &'static str)

@@ -4,8 +4,8 @@ use std::marker::PhantomData;
 
 use afp_core::rt::{Args, BadValue, FromArgs, Outcome, Outputs};
 use afp_core::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Events, Fault, Instant, Poll,
-    Supervisor, SupervisorTemplate, ValueRef,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Duration, Events, Fault, Instant,
+    OnReturn, Poll, Resumable, Supervisor, SupervisorTemplate, ValueRef,
 };
 
 /// Passes inputs, by port, to the trace; `None` without a trace.
@@ -79,6 +79,20 @@ pub trait ActorSlot<E: ?Sized>: Send {
     /// # Errors
     /// As [`Actor::interrupt`].
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
+    /// Suspends the actor. The default is for actors that their toolbox does not call `resumable`.
+    ///
+    /// # Errors
+    /// As [`Resumable::suspend`].
+    fn suspend(&mut self, _env: &mut E, _now: Instant) -> Result<(), Fault> {
+        Err(Fault::INTERNAL)
+    }
+    /// Continues the actor, suspended `away` ago.
+    ///
+    /// # Errors
+    /// As [`Resumable::resume`].
+    fn resume(&mut self, _env: &mut E, _now: Instant, _away: Duration) -> Result<(), Fault> {
+        Err(Fault::INTERNAL)
+    }
     /// Drops the actor.
     fn clear(&mut self);
     /// Copies the slot with its actor; `None` if it cannot be copied.
@@ -112,6 +126,13 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
         env: &mut E,
         now: Instant,
     ) -> Result<Option<u16>, BadValue>;
+    /// Continues the supervisor, which was not polled for `away`, unless it starts again.
+    ///
+    /// # Errors
+    /// As [`Supervisor::resume`].
+    fn resume(&mut self, _env: &mut E, _now: Instant, _away: Duration) -> Result<OnReturn, Fault> {
+        Ok(OnReturn::Restarts)
+    }
     /// Drops the supervisor.
     fn clear(&mut self);
     /// As [`ActorSlot::try_clone`].
@@ -134,13 +155,45 @@ pub trait ComputationSlot: Send {
     }
 }
 
-/// The slot of a component of type `A` and template `T`.
-pub struct Slot<T, A> {
+/// The slot of a component of type `A` and template `T`; `S` is how an actor is suspended.
+pub struct Slot<T, A, S = Never> {
     running: Option<A>,
-    template: PhantomData<fn() -> T>,
+    template: PhantomData<fn() -> (T, S)>,
 }
 
-impl<T, A> Slot<T, A> {
+/// Calls [`Resumable`] of an actor `A`, if it has it.
+pub trait Suspending<T, A, E: ?Sized> {
+    fn suspend(actor: &mut A, env: &mut E, now: Instant) -> Result<(), Fault>;
+    fn resume(actor: &mut A, env: &mut E, now: Instant, away: Duration) -> Result<(), Fault>;
+}
+
+/// The actor is not resumable.
+pub struct Never;
+
+/// The actor is resumable.
+pub struct Always;
+
+impl<T, A, E: ?Sized> Suspending<T, A, E> for Never {
+    fn suspend(_: &mut A, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Err(Fault::INTERNAL)
+    }
+
+    fn resume(_: &mut A, _: &mut E, _: Instant, _: Duration) -> Result<(), Fault> {
+        Err(Fault::INTERNAL)
+    }
+}
+
+impl<T: ActorTemplate, A: Resumable<T, E>, E: ?Sized> Suspending<T, A, E> for Always {
+    fn suspend(actor: &mut A, env: &mut E, now: Instant) -> Result<(), Fault> {
+        actor.suspend(env, now)
+    }
+
+    fn resume(actor: &mut A, env: &mut E, now: Instant, away: Duration) -> Result<(), Fault> {
+        actor.resume(env, now, away)
+    }
+}
+
+impl<T, A, S> Slot<T, A, S> {
     pub fn new() -> Self {
         Slot { running: None, template: PhantomData }
     }
@@ -162,8 +215,9 @@ fn give(outcome: impl Outcome, to: &mut dyn Outputs) -> u16 {
     index
 }
 
-impl<T, A, E: ?Sized> ActorSlot<E> for Slot<T, A>
+impl<T, A, S, E: ?Sized> ActorSlot<E> for Slot<T, A, S>
 where
+    S: Suspending<T, A, E> + 'static,
     T: ActorTemplate + 'static,
     A: Actor<T, E> + Clone + Send + 'static,
     for<'a> T::Inputs<'a>: FromArgs<'a>,
@@ -199,12 +253,20 @@ where
         self.running.as_mut().ok_or(Fault::INTERNAL)?.interrupt(env, now)
     }
 
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        S::suspend(self.running.as_mut().ok_or(Fault::INTERNAL)?, env, now)
+    }
+
+    fn resume(&mut self, env: &mut E, now: Instant, away: Duration) -> Result<(), Fault> {
+        S::resume(self.running.as_mut().ok_or(Fault::INTERNAL)?, env, now, away)
+    }
+
     fn clear(&mut self) {
         self.running = None;
     }
 
     fn try_clone(&self) -> Option<Box<dyn ActorSlot<E>>> {
-        Some(Box::new(Slot::<T, A> { running: self.running.clone(), template: PhantomData }))
+        Some(Box::new(Slot::<T, A, S> { running: self.running.clone(), template: PhantomData }))
     }
 }
 
@@ -239,6 +301,10 @@ where
         let supervisor = self.running.as_mut().ok_or(Fault::INTERNAL)?;
         let event = supervisor.poll(inputs(args, None)?, wanted, env, now)?;
         Ok(event.map(|event| give(event, to)))
+    }
+
+    fn resume(&mut self, env: &mut E, now: Instant, away: Duration) -> Result<OnReturn, Fault> {
+        self.running.as_mut().ok_or(Fault::INTERNAL)?.resume(env, now, away)
     }
 
     fn clear(&mut self) {

@@ -6,7 +6,7 @@ use afp_core::rt::{
     BadValue, Child, Cx, ElementId, Flow, Machine, Plan, PlanState, Polled, Run, Started, input,
 };
 use afp_core::trace::Outcome;
-use afp_core::{Environment, Fault};
+use afp_core::{Duration, Environment, Fault};
 use afp_dsl::graph;
 
 use super::LoadedPlan;
@@ -122,20 +122,58 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
             }
             Running::Computation(_) => Polled::Failed(Fault::INTERNAL),
             Running::SubPlan { child, machine } => {
-                match stage_live(&self.inputs, config, machine.plan_mut()) {
-                    Ok(false) => {}
-                    Ok(true) => cx.pass_live(*child, machine, |plan, to| {
-                        plan.commit(to);
-                        true
-                    }),
-                    Err(why) => {
-                        machine.plan_mut().discard();
-                        return Polled::Failed(cx.note(why));
-                    }
+                if let Err(fault) = pass_live(*child, machine, &self.inputs, config, cx) {
+                    return Polled::Failed(fault);
                 }
                 let flow: Flow = cx.inside(*child, |cx| machine.step(cx));
                 let plan = machine.plan();
                 Polled::sub_plan(flow, || stage_results(plan, &self.outputs, config), cx)
+            }
+        }
+    }
+
+    /// Suspends it, innermost first.
+    pub fn suspend<R: Run<Env = E>>(&mut self, cx: &mut Cx<'_, R>) -> Result<(), Fault> {
+        match &mut self.running {
+            Running::Actor(_) if self.idle.now => Ok(()),
+            Running::Actor(actor) => actor.suspend(cx.env, cx.now),
+            Running::Computation(_) => Err(Fault::INTERNAL),
+            Running::SubPlan { child, machine } => cx.inside(*child, |cx| machine.suspend(cx)),
+        }
+    }
+
+    /// Passes the live inputs of a sub-plan that is set aside.
+    pub fn refresh<R: Run<Env = E>>(
+        &mut self,
+        config: &mut Config,
+        cx: &mut Cx<'_, R>,
+    ) -> Result<(), Fault> {
+        match &mut self.running {
+            Running::Actor(_) | Running::Computation(_) => Ok(()),
+            Running::SubPlan { child, machine } => {
+                pass_live(*child, machine, &self.inputs, config, cx)
+            }
+        }
+    }
+
+    /// Continues it after a suspension.
+    pub fn resume<R: Run<Env = E>>(
+        &mut self,
+        away: Duration,
+        config: &mut Config,
+        cx: &mut Cx<'_, R>,
+    ) -> Started {
+        match &mut self.running {
+            Running::Actor(_) if self.idle.now => Started::Running,
+            Running::Actor(actor) => match actor.resume(cx.env, cx.now, away) {
+                Ok(()) => Started::Running,
+                Err(fault) => Started::Failed(fault),
+            },
+            Running::Computation(_) => Started::Failed(Fault::INTERNAL),
+            Running::SubPlan { child, machine } => {
+                let flow = cx.resume_sub_plan(*child, machine, away);
+                let plan = machine.plan();
+                Started::sub_plan(flow, || stage_results(plan, &self.outputs, config), cx)
             }
         }
     }
@@ -247,6 +285,28 @@ fn stage_live<E: Environment + ?Sized + 'static>(
         any |= input(port, || plan.pass_live(port.into(), value, object))?;
     }
     Ok(any)
+}
+
+/// Commits the live inputs of a sub-plan that have changed.
+fn pass_live<E: Environment + ?Sized + 'static, R: Run<Env = E>>(
+    child: Child,
+    machine: &mut Machine<LoadedPlan<E>>,
+    inputs: &Inputs,
+    config: &Config,
+    cx: &mut Cx<'_, R>,
+) -> Result<(), Fault> {
+    match stage_live(inputs, config, machine.plan_mut()) {
+        Ok(false) => {}
+        Ok(true) => cx.pass_live(child, machine, |plan, to| {
+            plan.commit(to);
+            true
+        }),
+        Err(why) => {
+            machine.plan_mut().discard();
+            return Err(cx.note(why));
+        }
+    }
+    Ok(())
 }
 
 /// Stages the `out` entries of a sub-plan that are set.
