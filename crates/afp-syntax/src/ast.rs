@@ -1,7 +1,7 @@
 //! The typed view of the tree.
 //!
-//! Every part may be missing, since the text may be half typed; whoever reads the view skips holes,
-//! for which the parser has reported an error already.
+//! Every part is optional, because the text may be incomplete. Readers skip missing parts: the
+//! parser has already reported them.
 
 mod bind;
 mod comments;
@@ -36,7 +36,7 @@ pub use toolbox::{
     Comparison, Exclusive, InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox,
 };
 
-/// A name and its place.
+/// A name and its span.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
     pub text: String,
@@ -63,12 +63,12 @@ macro_rules! views {
                 $name { node, file }
             }
 
-            /// Its place, without comments around it.
+            /// Its span, without surrounding comments.
             pub fn span(&self) -> crate::source::Span {
                 crate::node_span(&self.node, self.file)
             }
 
-            /// Its text as written, in one line and without comments.
+            /// Its source text in one line, without comments.
             pub fn in_one_line(&self) -> String {
                 crate::ast::one_line::in_one_line(&self.node)
             }
@@ -77,7 +77,7 @@ macro_rules! views {
 }
 pub(crate) use views;
 
-/// The name of what has one, and the help above it.
+/// A node with a name and the help above it.
 macro_rules! named {
     ($($name:ident)*) => {$(
         impl $name {
@@ -108,7 +108,7 @@ views! {
 
 named! { Enum Object }
 
-/// What stands at the top of a file.
+/// An item of a file.
 #[derive(Clone, Debug)]
 pub enum Item {
     /// `use ...`
@@ -133,7 +133,7 @@ impl File {
         &self.node
     }
 
-    /// The items in order; those that stand in the braces of a plan, where they have no place, behind it.
+    /// The items in order, followed by items that are wrongly in the braces of a plan.
     pub fn items(&self) -> Vec<Item> {
         let file = self.file;
         let item = |node: Node| {
@@ -164,9 +164,9 @@ impl File {
     }
 }
 
-/// What belongs into a file and stands in the braces of a plan.
+/// An item of a file that is in the braces of a plan.
 fn inside_of_plan(plan: &Node) -> Vec<Node> {
-    // The tree's own nodes are asked first: a plan may have an error on each line.
+    // Only the tree's own nodes are compared first, because a plan may have an error on each line.
     let is_error = |node: &GreenNodeData| Afp::kind_from_raw(node.kind()) == Kind::Error;
     let has_nodes = |node: &GreenNodeData| node.children().any(|it| it.as_node().is_some());
     let green = plan.green();
@@ -179,7 +179,7 @@ fn inside_of_plan(plan: &Node) -> Vec<Node> {
 }
 
 impl Use {
-    /// Whether it stands where items of a file belong.
+    /// Whether it is in a place for items of a file.
     pub fn is_in_place(&self) -> bool {
         self.node.parent().is_some_and(|parent| parent.kind() == Kind::File)
     }
@@ -188,13 +188,13 @@ impl Use {
         token(&self.node, Kind::Name, self.file)
     }
 
-    /// The short name behind `as`.
+    /// The short name after `as`.
     pub fn alias(&self) -> Option<Name> {
         let alias = child(&self.node, Kind::Alias)?;
         token(&alias, Kind::Name, self.file)
     }
 
-    /// The file's name, quotes included.
+    /// The name of the file, including the quotes.
     pub fn path(&self) -> Option<Name> {
         token(&self.node, Kind::Text, self.file)
     }
@@ -215,7 +215,7 @@ impl Enum {
 }
 
 impl Ref {
-    /// The name before the point; `None` without a point.
+    /// The name before the dot; `None` without a dot.
     pub fn home(&self) -> Option<Name> {
         let last = self.name_span()?;
         find_token(&self.node, self.file, |kind, text, span| {
@@ -224,12 +224,12 @@ impl Ref {
         })
     }
 
-    /// The place of [`Ref::name`].
+    /// The span of [`Ref::name`].
     pub fn name_span(&self) -> Option<Span> {
         last_token(&self.node, Kind::Name, self.file, |_, span| span)
     }
 
-    /// The name, behind the point if there is one.
+    /// The name, after the dot if there is one.
     pub fn name(&self) -> Option<Name> {
         let name = |text: &str, span| Name { text: text.to_owned(), span };
         last_token(&self.node, Kind::Name, self.file, name)
@@ -239,12 +239,12 @@ impl Ref {
 /// A factor of a type.
 #[derive(Clone, Debug)]
 pub struct Factor {
-    /// The name; `None` stands for the number in [`Factor::number`].
+    /// The name; `None` if the factor is [`Factor::number`].
     pub reference: Option<Ref>,
     /// The number, which should be `1`.
     pub number: Option<Name>,
     pub divides: bool,
-    /// The exponent as written, `1` without one; `None` when it does not fit 8 bits.
+    /// The exponent, `1` by default; `None` if it does not fit 8 bits.
     pub exponent: Option<i8>,
     pub span: Span,
 }
@@ -292,8 +292,8 @@ fn children(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
     node.children().by_kind(move |each| each == kind)
 }
 
-/// The children of a node that starts at a byte, each with the byte at which it starts. They are the tree's own,
-/// because each step of a cursor costs an allocation.
+/// The children of a node that starts at a byte, each with its own first byte. They are nodes of
+/// the tree, because each step of a cursor costs an allocation.
 fn parts(
     node: &GreenNodeData,
     mut start: u32,
@@ -315,7 +315,7 @@ fn name(token: &GreenTokenData, start: u32, file: u16) -> Name {
     Name { text: token.text().to_owned(), span: Span { file, start, end } }
 }
 
-/// Shows the tokens among the children of a node, until one gives something.
+/// Calls a function for the tokens among the children of a node until it returns something.
 fn find_token<R>(
     node: &Node,
     file: u16,
@@ -329,12 +329,12 @@ fn find_token<R>(
     })
 }
 
-/// The place of the first token of a kind.
+/// The span of the first token of a kind.
 fn span_of(node: &Node, kind: Kind, file: u16) -> Option<Span> {
     find_token(node, file, |each, _, span| (each == kind).then_some(span))
 }
 
-/// The place of the first node of a kind among the children of a node.
+/// The span of the first node of a kind among the children of a node.
 fn child_span(node: &Node, kind: Kind, file: u16) -> Option<Span> {
     let green = node.green();
     parts(&green, node.text_range().start().into()).find_map(|(element, start)| {
@@ -343,7 +343,7 @@ fn child_span(node: &Node, kind: Kind, file: u16) -> Option<Span> {
     })
 }
 
-/// What the last token of a kind gives.
+/// The result of a function for the last token of a kind.
 fn last_token<R>(
     node: &Node,
     kind: Kind,
@@ -378,18 +378,18 @@ fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
     of_kind.map(|(token, start)| name(token, start, file)).collect()
 }
 
-/// The place of `live` in a node.
+/// The span of `live` in a node.
 fn live(node: &Node, file: u16) -> Option<Span> {
     let words = tokens(node, Kind::Keyword, file);
     words.iter().skip(1).find(|word| word.text == "live").map(|word| word.span)
 }
 
-/// The ends of the range in a node, as far as they are written.
+/// The ends of the range in a node; an end may be missing.
 fn range_ends(node: &Node, file: u16) -> Vec<Formula> {
     child(node, Kind::Range).map(|range| Formula::children_of(&range, file)).unwrap_or_default()
 }
 
-/// Least and greatest value in a node, and the place of both.
+/// The least and the greatest value in a node, and the span of both.
 fn range(node: &Node, file: u16) -> Option<(Formula, Formula, Span)> {
     let mut ends = range_ends(node, file).into_iter();
     let (from, to) = (ends.next()?, ends.next()?);
@@ -404,7 +404,7 @@ impl Parse {
     }
 }
 
-/// Whether a text has a scenario, of whatever else it has, or may have one that an error hides.
+/// Whether a text has a scenario, or may have one that an error hides.
 pub fn may_have_scenario(text: &str) -> bool {
     let mut diags = Diagnostics::default();
     let items = parse(text, 0, &mut diags).file().items();
@@ -416,13 +416,13 @@ fn keyword(node: &Node) -> String {
     keyword_as(node, str::to_owned)
 }
 
-/// The first word of the grammar in a node, and its place.
+/// The first word of the grammar in a node, and its span.
 fn keyword_token(node: &Node, file: u16) -> Option<Name> {
     let written = token(node, Kind::Keyword, file)?;
     Some(Name { text: keyword(node), span: written.span })
 }
 
-/// What the first word of the grammar in a node stands for.
+/// The role of the first word of the grammar in a node.
 fn keyword_as<R>(node: &Node, read: impl Fn(&str) -> R) -> R {
     let own = node.kind();
     let read = |text: &str| read(keywords::of_item(own, text));

@@ -100,7 +100,7 @@ impl Item {
         }
     }
 
-    /// Its path after `from` is renamed to `to`; it may lie in `from`.
+    /// Its path after `from` is renamed to `to`; it may be inside `from`.
     pub fn moved(&self, from: &Item, to: &Item) -> Item {
         match (self, from, to) {
             _ if !self.lies_in(from) => self.clone(),

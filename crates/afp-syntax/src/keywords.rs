@@ -1,4 +1,4 @@
-//! The words of the grammar with their roles, and which of them was meant by another word.
+//! The words of the grammar with their roles, and guesses for misspelt words.
 
 use crate::diagnostics::words;
 use crate::habits;
@@ -23,9 +23,9 @@ pub(crate) const PART: Roles = 1 << 6;
 pub(crate) const DEVICE: Roles = 1 << 7;
 /// Begins a line of a scenario.
 pub(crate) const LINE: Roles = 1 << 8;
-/// Begins what has a body.
+/// Begins the head of a body.
 pub(crate) const HEAD: Roles = 1 << 9;
-/// Begins what bodies hold.
+/// Begins a part of a body.
 pub(crate) const BODY: Roles = 1 << 10;
 /// May follow a number on its line and is not a misspelt unit.
 pub(crate) const BEHIND_NUMBER: Roles = 1 << 11;
@@ -36,8 +36,7 @@ pub(crate) const NAMED: Roles = ENTRY | ELEMENT | SUPERVISE;
 /// Begins an item of a plan.
 pub(crate) const PLAN: Roles = NAMED | START;
 
-/// The words of the grammar that begin something or separate numbers from what follows, with their roles. Help texts
-/// list words in this order.
+/// The words of the grammar with roles, in the order of help texts.
 const WORDS: &[(&str, Roles)] = &[
     ("use", TOP | BEHIND_NUMBER),
     ("plan", TOP | HEAD | BEHIND_NUMBER | DECLARES),
@@ -97,7 +96,7 @@ const WORDS: &[(&str, Roles)] = &[
     ("within", BEHIND_NUMBER),
 ];
 
-/// How a plan ends: the words behind `end by`.
+/// The endings of a plan: the words after `end by`.
 pub const ENDS: [&str; 3] = ["OK", "Interrupted", "Error"];
 
 /// Whether a word has one of these roles.
@@ -111,7 +110,7 @@ pub(crate) fn with(roles: Roles) -> Vec<&'static str> {
     words.map(|(word, _)| *word).collect()
 }
 
-/// The word of a list that was meant: by one that says the same elsewhere, by a slip, or by its first letters.
+/// The intended word of a list: by a synonym, by a slip, or by its first letters.
 pub(crate) fn meant<'a>(word: &str, list: &[&'a str]) -> Option<&'a str> {
     let is_usual = |ours: &str| {
         let mut usual = habits::WORDS.iter().filter(|(known, _)| *known == ours);
@@ -128,7 +127,7 @@ fn begun<'a>(letters: &str, list: &[&'a str]) -> Option<&'a str> {
     only.filter(|_| letters.len() > 2)
 }
 
-/// The word that an item begins with: of a kind of which there are several, the one that was meant by what is written.
+/// The word that begins an item. If there are several, the intended one.
 pub(crate) fn of_item(kind: Kind, written: &str) -> &str {
     let list: &[&str] = match kind {
         Kind::Entry => &with(ENTRY),

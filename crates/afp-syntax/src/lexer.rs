@@ -1,7 +1,7 @@
-//! Cuts a text into tokens.
+//! Splits a text into tokens.
 //!
-//! Every byte lands in exactly one token, whatever the text is. A unit is a token of its own, taken
-//! only behind a number on the same line, so that `20 cm/s` is a speed and `20 cm / s` divides.
+//! Every byte of any text belongs to exactly one token. A unit is a token only after a number on
+//! the same line, so that `20 cm/s` is a speed and `20 cm / s` divides.
 
 mod foreign;
 mod unit;
@@ -19,14 +19,14 @@ use crate::source::Span;
 pub(super) struct Token<'t> {
     pub kind: Kind,
     pub text: &'t str,
-    /// Where it starts in the file, in bytes.
+    /// Its first byte in the file.
     pub start: u32,
-    /// How many line breaks are in it; from two on no matter how many.
+    /// The number of line breaks in it, at most two.
     pub breaks: u8,
 }
 
 impl Token<'_> {
-    /// Whether what is behind it stands on another line than what is before it.
+    /// Whether the token after it is on another line than the token before it.
     pub(super) fn ends_line(&self) -> bool {
         self.breaks > 0
     }
@@ -36,15 +36,15 @@ impl Token<'_> {
         Span { file, start: self.start, end }
     }
 
-    /// Its text in quotes, cut where it is long.
+    /// Its text in quotes, shortened if it is long.
     pub(super) fn shown(&self) -> Message {
         message!("'{}'", self.text.chars().take(30).collect::<String>())
     }
 }
 
-/// Cuts `text` into tokens, trivia included.
+/// Splits `text` into tokens, trivia included.
 pub(super) fn lex<'t>(text: &'t str, file: u16, diags: &mut Diagnostics) -> Vec<Token<'t>> {
-    // Texts have about that many; growing would copy all of them again and again.
+    // Texts have about that many tokens; without it the vector would be copied repeatedly.
     let tokens = Vec::with_capacity(text.len() / 3);
     let mut lexer =
         Lexer { text, at: 0, file, tokens, diags, line: Line::default(), unclosed_comment: false };
@@ -62,19 +62,20 @@ struct Lexer<'t, 'd> {
     tokens: Vec<Token<'t>>,
     diags: &'d mut Diagnostics,
     line: Line,
-    /// Whether a comment is not closed, however it is read.
+    /// Whether it is an unclosed comment.
     unclosed_comment: bool,
 }
 
-/// What is known of the current line. A file may be one line, which is then searched once and not for each token.
+/// Facts about the current line. A file may be one line, which is then searched once and not for
+/// each token.
 #[derive(Clone, Copy, Default)]
 struct Line {
     start: usize,
-    /// Its end, without the line break; behind `start` as soon as it is known.
+    /// Its end, without the line break; the first byte after `start` until it is known.
     end: usize,
-    /// Up to here no foreign quote ends a text.
+    /// No quote of another language ends a text before this byte.
     unquoted: usize,
-    /// Where the next sign of a plan's text is, or the end of the line; not known before it is looked for.
+    /// The next sign of a plan's text, or the end of the line; `None` until it is searched.
     sign: Option<usize>,
 }
 
@@ -93,7 +94,7 @@ impl<'t> Lexer<'t, '_> {
         }
     }
 
-    /// A token that begins with a sign of ASCII.
+    /// A token that begins with an ASCII sign.
     fn sign(&mut self, rest: &str) {
         match rest.as_bytes() {
             [b'"', ..] => self.quoted(),
@@ -110,11 +111,11 @@ impl<'t> Lexer<'t, '_> {
         }
     }
 
-    /// A token that begins with a character that is not ASCII.
+    /// A token that begins with a non-ASCII character.
     fn foreign_character(&mut self, rest: &str) {
         let Some(first) = rest.chars().next() else { return };
         match first {
-            // The mark at the start of a file says how it is encoded.
+            // The mark at the start of a file names its encoding.
             '\u{feff}' if self.at == 0 => {
                 self.push(Kind::Whitespace, first.len_utf8());
             }
@@ -132,7 +133,7 @@ impl<'t> Lexer<'t, '_> {
         let span = self.span(self.at, self.at + length);
         let breaks = match kind {
             Kind::Whitespace | Kind::BlockComment => breaks(text),
-            // Every other token ends on its line.
+            // Every other token ends on its own line.
             _ => 0,
         };
         self.tokens.push(Token { kind, text, start: span.start, breaks });
@@ -140,7 +141,7 @@ impl<'t> Lexer<'t, '_> {
         span
     }
 
-    /// The line of the current place.
+    /// The current line.
     fn line(&mut self) -> Line {
         if self.at >= self.line.end {
             let start = self.text[..self.at].rfind('\n').map_or(0, |end| end + 1);
@@ -150,7 +151,7 @@ impl<'t> Lexer<'t, '_> {
         self.line
     }
 
-    /// The text from here up to the line break.
+    /// The text from here to the line break.
     fn rest_of_line(&mut self) -> &'t str {
         let end = self.line().end;
         self.text.get(self.at..end).unwrap_or_default()
@@ -174,7 +175,7 @@ impl<'t> Lexer<'t, '_> {
         let length = length.unwrap_or(rest.len());
         let text = &rest[..length];
         let inner = text[2..].strip_suffix("*/").unwrap_or(&text[2..]);
-        // A line comment swallows what follows on its line, so that goes to a line of its own.
+        // A line comment contains the rest of its line, so the replacement has a line of its own.
         let follows = rest[length..].trim_start_matches([' ', '\t', '\r']);
         let last = if follows.is_empty() || follows.starts_with('\n') { "" } else { "\n" };
         let lines: Vec<_> =
@@ -187,7 +188,7 @@ impl<'t> Lexer<'t, '_> {
         );
     }
 
-    /// A text whose end is on the next line, where only words are before it: its length, and the text on one line.
+    /// A text that ends on the next line, after words only: its length, and the text on one line.
     fn text_of_lines(&self, line: &str) -> Option<(usize, String)> {
         let behind = self.text.get(self.at + line.len()..)?.trim_start_matches(['\r', '\n']);
         let end = behind[..line_length(behind)].find('"')?;
@@ -197,12 +198,12 @@ impl<'t> Lexer<'t, '_> {
         is_text.then(|| (length, format!("{} {words}\"", line.trim_end())))
     }
 
-    /// The length of a comment in which others may be; nothing if one of them is not closed.
+    /// The length of a comment that may contain comments; `None` if one of them is unclosed.
     fn nested_comment(&mut self, rest: &str) -> Option<usize> {
         let (mut depth, mut at) = (1_usize, 2);
         while depth > 0 && !self.unclosed_comment {
             let Some(next) = rest[at..].find(['/', '*']) else {
-                // So is every other one behind it.
+                // All later comments are unclosed, too.
                 self.unclosed_comment = true;
                 break;
             };
@@ -258,7 +259,7 @@ impl<'t> Lexer<'t, '_> {
                 _ => {}
             }
         }
-        // The brace that begins a body is none of the text.
+        // The opening brace of a body does not belong to the text.
         let before_brace = line.trim_end().strip_suffix('{').map(str::trim_end);
         let line = before_brace.map_or(line, |line| match line.rsplit_once(" for ") {
             Some((text, _)) => text,
@@ -301,7 +302,7 @@ impl<'t> Lexer<'t, '_> {
     }
 }
 
-/// Operators and brackets; the longest one that fits.
+/// Operators and brackets; the longest match wins.
 fn sign(text: &str) -> Option<(Kind, usize)> {
     let long = match text.as_bytes() {
         [b'=', b'>', ..] => Some(Kind::FatArrow),
@@ -349,22 +350,22 @@ fn is_word(each: char) -> bool {
     each == '_' || each.is_alphabetic() && trick(each).is_none()
 }
 
-/// What a byte is where a token begins.
+/// The role of a byte at the beginning of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Class {
-    /// White space of ASCII.
+    /// ASCII white space.
     Blank,
-    /// What names begin with, of ASCII.
+    /// The ASCII beginning of a name.
     Letter,
     Digit,
-    /// All else of ASCII.
+    /// Any other ASCII character.
     Sign,
-    /// The first byte of a character that is not ASCII.
+    /// The first byte of a non-ASCII character.
     Foreign,
 }
 
 impl Class {
-    /// Of every byte: a text is looked at byte by byte, and one look-up is faster than the questions.
+    /// The class of every byte. One look-up per byte is faster than comparisons.
     const ALL: [Class; 256] = {
         let mut all = [Class::Sign; 256];
         let mut byte = 0;
@@ -391,14 +392,14 @@ fn blank_length(text: &str) -> usize {
     run_of(text, |byte| Class::of(byte) == Class::Blank, is_blank)
 }
 
-/// The length in bytes of the characters at the start that fit.
+/// The length in bytes of the matching characters at the start.
 fn run(text: &str, fits: impl Fn(char) -> bool) -> usize {
     run_of(text, |byte| byte.is_ascii() && fits(char::from(byte)), &fits)
 }
 
-/// The same where `plain` says of bytes of ASCII which fit.
+/// Like [`run`], but `plain` decides for ASCII bytes.
 fn run_of(text: &str, plain: impl Fn(u8) -> bool, fits: impl Fn(char) -> bool) -> usize {
-    // Nearly all text is ASCII, which needs no decoding.
+    // Nearly all text is ASCII and needs no decoding.
     let plain = text.bytes().take_while(|byte| plain(*byte)).count();
     match text.as_bytes().get(plain) {
         Some(byte) if !byte.is_ascii() => {
@@ -409,7 +410,7 @@ fn run_of(text: &str, plain: impl Fn(u8) -> bool, fits: impl Fn(char) -> bool) -
     }
 }
 
-/// The line breaks in a text, at most two.
+/// The number of line breaks in a text, at most two.
 fn breaks(text: &str) -> u8 {
     text.bytes().fold(0, |count, byte| 2.min(count + u8::from(byte == b'\n')))
 }

@@ -1,8 +1,8 @@
 //! Builds the tree from tokens, by recursive descent.
 //!
-//! The machinery is here, the grammar in the submodules, one for each part of a file. A rule that
-//! meets what it does not expect reports it once, skips to where an item of some level can begin
-//! again, and goes on.
+//! This file has the machinery; each submodule has the grammar of one part of a file. A rule
+//! reports unexpected text once, skips to the beginning of the next item of some level, and
+//! continues.
 
 mod bind;
 mod braces;
@@ -34,7 +34,7 @@ use crate::source::Span;
 use known::{Names, uses};
 use marks::Marks;
 
-/// Greatest depth of brackets and signs in formulas and skipped text.
+/// Maximum depth of brackets and signs in formulas and skipped text.
 const MAX_DEPTH: usize = 64;
 
 /// Parses a whole file.
@@ -54,58 +54,58 @@ pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
 
 struct Parser<'t, 'd> {
     tokens: &'t [Token<'t>],
-    /// Places of the tokens that are read.
+    /// The indices of the tokens that are read.
     solid: Vec<u32>,
-    /// The next of `solid`.
+    /// The index of the next token in `solid`.
     at: usize,
-    /// The next of `tokens` that is not yet in the tree.
+    /// The index of the next token in `tokens` that is not yet in the tree.
     built: usize,
     file: u16,
-    /// Depth of brackets and signs around the current place.
+    /// The depth of brackets and signs here.
     depth: usize,
-    /// Whether the item before this one stands outside of a plan and is reported.
+    /// Whether the preceding item is outside of a plan and reported.
     misplaced: bool,
-    /// Whether every brace has its other one, so that none is missed.
+    /// Whether all braces match, so that none is missing.
     balanced: bool,
-    /// Whether that is so without a brace that was mended.
+    /// Whether all braces match without repairs.
     balanced_as_written: bool,
-    /// Whether the file is a toolbox, as far as it is read.
+    /// Whether the file is a toolbox, as far as it has been read.
     is_toolbox: bool,
-    /// Whether lines of a scenario are read.
+    /// Whether a scenario is being read.
     in_scenario: bool,
-    /// Whether a comma here stands between two formulas, so that it is none of a number.
+    /// Whether a comma here separates two formulas, so that it is not a decimal comma.
     commas_separate: bool,
-    /// Whether the bounds of a range are read.
+    /// Whether the bounds of a range are being read.
     in_range: bool,
-    /// The names of the plan that is read, and those of plans that are still to be read.
+    /// The names of the current plan, and of the plans after it.
     known: Names<'t>,
     plans: BTreeMap<usize, Names<'t>>,
     /// The names with '-' in them.
     hyphens: BTreeSet<String>,
-    /// The last element, template and state or event that was read, for texts that help.
+    /// The last element, template and state or event, for help texts.
     element: &'t str,
     template: &'t str,
     event: &'t str,
-    /// The last entry that is an int.
+    /// The last entry of the type `int`.
     int: &'t str,
-    /// Whether the file uses `std`, and whether `carbot`.
+    /// Whether the file uses `std`, and whether it uses `carbot`.
     has_std: bool,
     has_carbot: bool,
-    /// Where the lexer has found signs of other languages, and the places of those which belong to a habit.
+    /// The places of signs of other languages, and of those among them that belong to a habit.
     foreign: BTreeSet<u32>,
     superseded: Vec<(u32, u32)>,
     marks: Marks,
-    /// The token, among those that are read, that is read as another word than it is.
+    /// The index in `solid` of a token that is read as another word.
     slip: Option<(usize, &'static str)>,
-    /// The first and the last of the names, with commas between them, that were looked at last.
+    /// The first and the last of the comma-separated names that were last searched.
     names: Cell<(usize, usize)>,
-    /// Lines of which something is said that comes before the grammar, by where they end, each with the place of that.
+    /// The ends of lines with an error that precedes the grammar, each with its place.
     reported: BTreeMap<u32, u32>,
-    /// Where the lines end on which something is wrong that is not said.
+    /// The ends of lines with an error that is not reported.
     hidden: BTreeSet<u32>,
-    /// Where the line behind the last error begins: what is wrong before it comes of that.
+    /// The beginning of the line after the last error: errors before it are its consequences.
     quiet: u32,
-    /// The same for a wrong arrow, behind which only others are said.
+    /// Like the last field, for a wrong arrow, which hides only other messages.
     behind_arrow: u32,
     builder: GreenNodeBuilder<'static>,
     diags: &'d mut Diagnostics,
@@ -154,9 +154,9 @@ impl<'t, 'd> Parser<'t, 'd> {
         }
     }
 
-    // Looking.
+    // Look-ahead.
 
-    /// The index of the token so many ahead; behind the last one the end of all.
+    /// The index of a token ahead; at the end, the last token.
     fn token_index(&self, ahead: usize) -> usize {
         self.solid.get(self.at + ahead).map_or(self.tokens.len(), |index| *index as usize)
     }
@@ -196,8 +196,8 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.before().map_or("", |token| token.text)
     }
 
-    /// Whether the next token is this word and a word of the grammar: before `:`, `=`, `=>` and
-    /// `->` every word is a name.
+    /// Whether the next token is this word as a keyword. Before `:`, `=`, `=>` and `->` every word
+    /// is a name.
     fn at_word(&self, word: &str) -> bool {
         self.word(0) == word && !self.names_something(0)
     }
@@ -206,24 +206,24 @@ impl<'t, 'd> Parser<'t, 'd> {
         matches!(self.nth(ahead + 1), Kind::Colon | Kind::Equal | Kind::FatArrow | Kind::Arrow)
     }
 
-    /// Whether the next token stands on the line of the one before it.
+    /// Whether the next token is on the same line as the token before it.
     fn on_same_line(&self) -> bool {
         self.at == 0 || !self.begins_line(0)
     }
 
-    /// Whether a token ahead stands on another line than the one before it.
+    /// Whether a token ahead is on another line than the token before it.
     fn begins_line(&self, ahead: usize) -> bool {
         let before = (self.at + ahead).checked_sub(1).and_then(|before| self.solid.get(before));
         let from = before.map_or(0, |before| *before as usize + 1);
         self.tokens[from..self.token_index(ahead)].iter().any(Token::ends_line)
     }
 
-    /// How many tokens stand before a brace of a kind on this line.
+    /// The number of tokens before a brace of a kind on this line.
     fn ahead_on_line(&self, kind: Kind) -> Option<usize> {
         self.on_line_from(0, kind)
     }
 
-    /// How many tokens stand before a brace of a kind, if no line begins from the token so many ahead on.
+    /// The number of tokens before a brace of a kind, if no line begins from the given token on.
     fn on_line_from(&self, ahead: usize, kind: Kind) -> Option<usize> {
         let from = self.at + ahead;
         let found = self.marks.brace(kind, from)?;
@@ -233,18 +233,19 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.marks.newline(end).is_none_or(|newline| newline >= start).then_some(found - self.at)
     }
 
-    /// Whether no white space stands before the next token.
+    /// Whether the next token has no white space before it.
     fn is_adjacent(&self) -> bool {
         self.at < self.solid.len() && self.token_index(0) == self.built
     }
 
-    // Places.
+    // Spans.
 
     fn span_of(&self, token: Token<'_>) -> Span {
         token.span(self.file)
     }
 
-    /// The next token; at the end of a line or of the file the place behind the last one.
+    /// The span of the next token; at the end of a line or file the empty span after the last
+    /// token.
     fn here(&self) -> Span {
         match self.token(0) {
             Some(token) if self.on_same_line() => self.span_of(token),
@@ -252,25 +253,25 @@ impl<'t, 'd> Parser<'t, 'd> {
         }
     }
 
-    /// The next token, wherever it stands.
+    /// The span of the next token, on any line.
     fn next_span(&self) -> Span {
         self.token(0).map_or_else(|| self.behind(), |token| self.span_of(token))
     }
 
-    /// The empty place behind the last token.
+    /// The empty span after the last token.
     fn behind(&self) -> Span {
         self.before()
             .map_or(Span { file: self.file, start: 0, end: 0 }, |token| self.span_of(token).after())
     }
 
-    /// The place from one token that is read to the one before another.
+    /// The span from one token to the token before another.
     fn place_between(&self, first: usize, end: usize) -> Span {
         let span = |at: usize| self.solid.get(at).map(|at| self.span_of(self.tokens[*at as usize]));
         let first = span(first).unwrap_or_else(|| self.behind());
         end.checked_sub(1).and_then(span).map_or(first, |last| first.to(last))
     }
 
-    /// The text of the same tokens, with what stands between them.
+    /// The text of these tokens, with the text between them.
     fn text_between(&self, first: usize, end: usize) -> String {
         let last =
             end.checked_sub(1).filter(|last| *last >= first).and_then(|at| self.solid.get(at));
@@ -279,7 +280,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         tokens.iter().map(|token| token.text).collect()
     }
 
-    /// The text from one token ahead to the one before another.
+    /// The text from one token ahead to the token before another.
     fn text_of(&self, first: usize, end: usize) -> String {
         self.text_between(self.at + first, self.at + end)
     }
@@ -292,17 +293,17 @@ impl<'t, 'd> Parser<'t, 'd> {
         found(self.token(ahead))
     }
 
-    // Building.
+    // Building the tree.
 
     fn emit(&mut self, kind: Kind, text: &str) {
-        // A brace that is missing has no text.
+        // A missing brace has no text.
         if text.is_empty() {
             return;
         }
         self.builder.token(Afp::kind_to_raw(kind), text);
     }
 
-    /// Puts everything up to the next token into the tree.
+    /// Adds everything before the next token to the tree.
     fn trivia(&mut self) {
         let to = self.token_index(0);
         self.trivia_to(to, false);
@@ -331,7 +332,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.at += 1;
     }
 
-    /// Takes tokens with nothing between them as one.
+    /// Reads adjacent tokens as one.
     fn bump_together(&mut self, tokens: usize, kind: Kind) {
         self.trivia();
         let taken = self.tokens.get(self.built..self.built + tokens).unwrap_or_default();
@@ -384,8 +385,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.builder.finish_node();
     }
 
-    /// Runs a rule that is repeated; when it takes nothing, takes a token, so that every
-    /// repetition ends.
+    /// Runs a rule that repeats. If it reads nothing, skips a token, so that every repetition ends.
     fn repeat(&mut self, rule: impl FnOnce(&mut Self)) {
         let before = self.at;
         rule(self);
@@ -396,7 +396,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         }
     }
 
-    /// Opens an item: help text and the comments directly above it belong to it.
+    /// Opens an item. Help text and comments directly above it belong to it.
     fn open_item(&mut self, kind: Kind) {
         let to = self.token_index(0);
         let own = own_trivia(&self.tokens[self.built..to]);
@@ -405,7 +405,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.trivia_to(to, true);
     }
 
-    /// Closes an item: a comma and a comment on its last line belong to it.
+    /// Closes an item. A comma and a comment on its last line belong to it.
     fn close_item(&mut self) {
         self.eat(Kind::Comma);
         let to = self.token_index(0);
@@ -423,8 +423,8 @@ impl<'t, 'd> Parser<'t, 'd> {
     }
 }
 
-/// How many of the trivia before an item stand apart from it: everything up to the last blank line,
-/// unless help text stands above that.
+/// The number of trivia before an item that do not belong to it: everything up to the last blank
+/// line, unless help text precedes that.
 fn own_trivia(trivia: &[Token<'_>]) -> usize {
     let is_blank_line = |token: &Token<'_>| token.kind == Kind::Whitespace && token.breaks > 1;
     let after_blank = trivia.iter().rposition(is_blank_line).map_or(0, |index| index + 1);
@@ -433,7 +433,7 @@ fn own_trivia(trivia: &[Token<'_>]) -> usize {
     if help < after_blank { before_help } else { after_blank }
 }
 
-/// What is said of a token that is found in the place of something else.
+/// The message about an unexpected token.
 fn found(token: Option<Token<'_>>) -> Message {
     token.map_or_else(|| "the end of the file".into(), |token| token.shown())
 }

@@ -1,4 +1,4 @@
-//! Texts and places in them.
+//! Sources and spans in them.
 
 mod lines;
 
@@ -34,13 +34,13 @@ impl Span {
         Span { end: self.start, ..self }
     }
 
-    /// Whether `other` lies in `self`, borders included.
+    /// Whether `other` is inside `self`, including the borders.
     pub fn contains(self, other: Span) -> bool {
         self.file == other.file && self.start <= other.start && other.end <= self.end
     }
 }
 
-/// A text and its name for diagnostics.
+/// A source and its name for diagnostics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     /// The file's path as written by the user.

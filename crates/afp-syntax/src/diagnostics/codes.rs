@@ -1,13 +1,13 @@
 //! The table of all codes.
 //!
-//! What `afpc explain` prints and what `docs/errors/` shows is the same text, embedded here. A code
-//! without a page does not compile; a code without a case fails the suite.
+//! `afpc explain` and `docs/errors/` show the same text, which is embedded here. A code without a
+//! page does not compile; a code without a case fails the suite.
 
 use crate::diagnostics::Severity;
 
 macro_rules! codes {
     ($($code:ident $severity:ident $title:literal)*) => {
-        /// Which rule a diagnostic is about.
+        /// The rule of a diagnostic.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code {
             $(#[doc = $title] $code,)*
@@ -17,7 +17,7 @@ macro_rules! codes {
             /// Every code in order.
             pub const ALL: &'static [Code] = &[$(Code::$code),*];
 
-            /// The code as it is printed, such as `E0203`.
+            /// The name of the code, such as `E0203`.
             pub fn as_str(self) -> &'static str {
                 match self {
                     $(Code::$code => stringify!($code),)*
@@ -31,14 +31,14 @@ macro_rules! codes {
                 }
             }
 
-            /// How bad a violation is.
+            /// The severity of a violation.
             pub fn severity(self) -> Severity {
                 match self {
                     $(Code::$code => Severity::$severity,)*
                 }
             }
 
-            /// The page of `docs/errors/`, in Markdown: what it means, an example, how to mend it.
+            /// The page of `docs/errors/` in Markdown: meaning, example and fix.
             pub fn explanation(self) -> &'static str {
                 match self {
                     $(Code::$code => {
@@ -169,7 +169,7 @@ codes! {
 }
 
 impl Code {
-    /// The code of that name (`E0203`), `None` when there is none.
+    /// The code of that name (`E0203`), or `None`.
     pub fn parse(text: &str) -> Option<Code> {
         Code::ALL.iter().copied().find(|code| code.as_str().eq_ignore_ascii_case(text))
     }

@@ -1,6 +1,6 @@
 //! Signs of other languages and of word processors.
 //!
-//! Each is read as what was meant, so that nothing else is said about its line.
+//! The lexer reads each sign as its equivalent in AFP, so that its line has no further errors.
 
 use super::{Lexer, Line, is_blank, is_word, line_length, sign};
 use crate::diagnostics::{Code, Diagnostic, Message};
@@ -9,7 +9,7 @@ use crate::kind::Kind;
 use crate::message;
 use afp_excerpt::hidden::trick;
 
-/// Signs that look like ours, longer ones first: each with what it is and what to write instead.
+/// Signs that look like ours, longest first: each with its name and its replacement.
 const SIGNS: &[(&str, Kind, &str)] = &[
     ("–>", Kind::Arrow, "->"),
     ("—>", Kind::Arrow, "->"),
@@ -31,17 +31,17 @@ const SIGNS: &[(&str, Kind, &str)] = &[
     ("÷", Kind::Slash, "/"),
 ];
 
-/// Quotes that texts begin with elsewhere, and those that end them.
+/// Opening quotes of other languages, and their closing quotes.
 const QUOTES: (&str, &str) = ("'`“”„‟‘’‚«»", "'`“”‟‘’»«");
 
-/// Signs that a line begins with that is a comment elsewhere.
+/// Signs that begin a comment line in other languages.
 const COMMENTS: [&str; 3] = ["--", ";", "%"];
 
-/// What lines begin with that part two versions of a text.
+/// The beginnings of lines that separate two versions of a text.
 const VERSION_MARKS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
 impl<'t> Lexer<'t, '_> {
-    /// Takes characters that have no meaning, as what they may have been meant for.
+    /// Reads characters without a meaning as their likely equivalent.
     pub(super) fn unknown(&mut self) {
         let rest = &self.text[self.at..];
         let hidden = rest.find(|each| trick(each).is_none()).unwrap_or(rest.len());
@@ -49,7 +49,7 @@ impl<'t> Lexer<'t, '_> {
             self.push(Kind::Unknown, hidden);
             return;
         }
-        // Elsewhere in a text these stand for a minus, a dash and an arrow.
+        // In other places these mean a minus, a dash and an arrow.
         if let Some(dash) = rest.chars().next().filter(|dash| matches!(dash, '–' | '—'))
             && !rest[dash.len_utf8()..].starts_with('>')
         {
@@ -107,7 +107,7 @@ impl<'t> Lexer<'t, '_> {
         }
     }
 
-    /// Where a word begins that is all of this line up to here.
+    /// The start of the only word between the beginning of this line and here.
     fn only_word_of_line(&self, word: &str) -> Option<usize> {
         let before = self.text[..self.at].trim_end_matches([' ', '\t']).strip_suffix(word)?;
         let is_first = before.trim_end_matches([' ', '\t']).ends_with('\n');
@@ -120,7 +120,7 @@ impl<'t> Lexer<'t, '_> {
         matches!(first, Some("expect" | "never"))
     }
 
-    /// Whether a comment of another language begins here: nothing that plans are made of stands behind its sign.
+    /// Whether a comment of another language begins here: no token of plans follows its sign.
     fn begins_comment(&mut self) -> bool {
         let Line { end, sign, .. } = self.line();
         let sign = sign.filter(|sign| *sign >= self.at).unwrap_or_else(|| {
@@ -131,7 +131,7 @@ impl<'t> Lexer<'t, '_> {
         sign == end
     }
 
-    /// The length of a text in foreign quotes, and what stands between them.
+    /// The length of a string in quotes of another language, and its content.
     fn foreign_text(&mut self) -> Option<(usize, &'t str)> {
         let (opening, closing) = QUOTES;
         let line = self.rest_of_line();
@@ -148,12 +148,13 @@ impl<'t> Lexer<'t, '_> {
         Some((first.len_utf8() + end + last.len_utf8(), &behind[..end]))
     }
 
-    /// The sign of a comment of other languages that a line begins with: words follow it, as none do in a formula.
+    /// The comment sign of another language at the beginning of a line, if words follow that cannot
+    /// be a formula.
     pub(super) fn comment_sign(&mut self) -> Option<&'static str> {
         let rest = &self.text[self.at..];
         let sign = COMMENTS.into_iter().find(|sign| rest.starts_with(sign))?;
         let before = self.text[..self.at].trim_end_matches([' ', '\t']);
-        // First, for a line may be long and hold nothing but such signs.
+        // This test is first, because a line may be long and have only such signs.
         if !before.is_empty() && !before.ends_with('\n') {
             return None;
         }
@@ -164,7 +165,7 @@ impl<'t> Lexer<'t, '_> {
         (line.starts_with(' ') && follow && self.begins_comment()).then_some(sign)
     }
 
-    /// Takes the rest of a line that is a comment elsewhere.
+    /// Reads the rest of a line that is a comment in another language.
     pub(super) fn foreign_comment(&mut self, sign: &str) {
         let rest = &self.text[self.at..];
         let length = line_length(rest);
@@ -179,7 +180,8 @@ impl<'t> Lexer<'t, '_> {
         self.diags.push(Diagnostic::new(Code::E0101, span, message).help(help).replace(better));
     }
 
-    /// Whether a line begins as those with which version control, and the studio, part two versions of a text.
+    /// Whether a line is one of the marks with which version control, and the studio, separate two
+    /// versions of a text.
     pub(super) fn is_version_mark(&self) -> bool {
         let rest = &self.text[self.at..];
         let mut tails = VERSION_MARKS.iter().filter_map(|mark| rest.strip_prefix(mark));
@@ -187,7 +189,7 @@ impl<'t> Lexer<'t, '_> {
             && (self.at == 0 || self.text[..self.at].ends_with('\n'))
     }
 
-    /// Takes a line that parts two versions.
+    /// Reads a line that separates two versions.
     pub(super) fn version_mark(&mut self) {
         let length = line_length(&self.text[self.at..]);
         let span = self.push(Kind::Comment, length);
@@ -228,7 +230,7 @@ impl<'t> Lexer<'t, '_> {
         });
     }
 
-    /// Reports characters that something else should be written for.
+    /// Reports characters that have a replacement.
     fn instead(&mut self, kind: Kind, length: usize, help: impl Into<Message>, ours: &str) {
         let error = self.error(kind, length, help).replace(ours);
         self.diags.push(error);
@@ -273,7 +275,7 @@ pub(super) fn spelled(name: &str) -> Message {
     }
 }
 
-/// Whether a character has a meaning, or stands for one that has.
+/// Whether a character has a meaning or a replacement.
 fn is_known(each: char) -> bool {
     is_blank(each)
         || trick(each).is_some()

@@ -1,9 +1,9 @@
-//! The brace that is missing or too much, found by how lines are indented; and brackets that are closed twice.
+//! Finds missing and surplus braces by indentation, and brackets that are closed twice.
 //!
-//! Nothing of the grammar depends on white space. Where the braces of a file do not match, though, the one that is
-//! wrong stands, more often than not, where the indentation stops following them; what comes of it elsewhere is no
-//! mistake of its own. The tokens are mended and read on as if nothing had been wrong. Where the indentation says
-//! nothing, the grammar reports what it misses.
+//! The grammar does not depend on white space. But if the braces of a file do not match, the wrong
+//! one is usually where the indentation deviates; errors elsewhere are consequences. The tokens are
+//! repaired, and the parser reads them as if they were right. Without indentation the parser
+//! reports the missing brace.
 
 use super::found;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
@@ -13,28 +13,28 @@ use crate::lexer::Token;
 use crate::message;
 use crate::source::Span;
 
-/// So many braces of a file are mended.
+/// The maximum number of braces of a file that are repaired.
 const MOST: usize = 16;
 
-/// What is wrong with a brace.
+/// An error of a brace.
 enum Wrong {
-    /// One token is a brace too much.
+    /// A token is a surplus brace.
     Stray(usize),
-    /// One is missing behind a token; the other token opened it.
+    /// A closing brace is missing after a token; the other token is its opening brace.
     Missing(usize, usize),
-    /// One that opens a body is missing behind a token.
+    /// The opening brace of a body is missing after a token.
     Unopened(usize),
-    /// One token closes where it should open.
+    /// A token closes instead of opening.
     Swapped(usize),
 }
 
-/// A line of the text, as far as it has been read.
+/// The part of a line that has been read.
 #[derive(Clone, Copy)]
 struct Line {
     number: usize,
     /// The column of its first token.
     indent: usize,
-    /// Whether it begins what has a body.
+    /// Whether it begins the head of a body.
     is_head: bool,
     /// Whether a brace was opened on it.
     opens: bool,
@@ -43,27 +43,29 @@ struct Line {
     last: usize,
 }
 
-/// A brace that is open.
+/// An open brace.
 #[derive(Clone, Copy)]
 struct Opened {
     /// Its token.
     at: usize,
     line: Line,
-    /// Whether the lines in it are no farther to the right than its own; not known before the first of them.
+    /// Whether the lines inside are not indented further than its own line; `None` before the first
+    /// of them.
     is_flat: Option<bool>,
 }
 
-/// What is known of a file before it is parsed.
+/// Facts about a file before it is parsed.
 pub(super) struct Mended {
-    /// Places on lines of which something is reported already, each with the place of that.
+    /// Places on lines with a reported error, each with the place of that error.
     pub reported: Vec<(u32, u32)>,
-    /// Whether every brace has its other one now.
+    /// Whether all braces match now.
     pub balanced: bool,
-    /// Whether that is so as it is written.
+    /// Whether all braces match in the source.
     pub as_written: bool,
 }
 
-/// Reports braces that are missing or too much. A missing one is added, without any text; one too much is passed over.
+/// Reports missing and surplus braces. A missing brace is added without text; a surplus brace is
+/// skipped.
 pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> Mended {
     let is_reported =
         |each: &&Diagnostic| each.span.file == file && each.severity == Severity::Error;
@@ -96,7 +98,7 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
                 let here = tokens[behind].span(file).after();
                 let error = Diagnostic::new(Code::E0103, here, "missing '}'");
                 let error = match next(tokens, behind) {
-                    // That of something around it.
+                    // This brace belongs to an enclosing block.
                     Some(brace) if brace.text == "}" => error,
                     other => error.found(found(other)),
                 };
@@ -112,7 +114,7 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         };
         let start = error.span.start;
         diags.push(error);
-        // Who finds it is the line behind.
+        // The following line shows it.
         let finder = tokens[behind + 1..].iter().find(|token| !token.kind.is_trivia());
         let lines = finder.map(|token| token.start).into_iter().chain([start]);
         reported.extend(lines.map(|line| (line, start)));
@@ -125,7 +127,7 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
     Mended { reported, balanced, as_written: balanced && !is_mended }
 }
 
-/// Reports braces that are too much; those that stand side by side are one mistake.
+/// Reports surplus braces; adjacent ones are one error.
 fn report_strays(mut strays: Vec<(Span, &str)>, diags: &mut Diagnostics) {
     strays.sort_by_key(|(span, _)| span.start);
     let side_by_side =
@@ -141,7 +143,7 @@ fn report_strays(mut strays: Vec<(Span, &str)>, diags: &mut Diagnostics) {
     }
 }
 
-/// The brackets ')' that close nothing and stand behind another one.
+/// The surplus `)` that follow another one.
 fn doubled(tokens: &[Token<'_>]) -> Vec<usize> {
     let (mut open, mut before, mut found) = (0_usize, Kind::End, Vec::new());
     for (at, token) in tokens.iter().enumerate().filter(|(_, it)| !it.kind.is_passed_over()) {
@@ -157,12 +159,12 @@ fn doubled(tokens: &[Token<'_>]) -> Vec<usize> {
     found
 }
 
-/// The token of the grammar behind another one.
+/// The token of the grammar after another one.
 fn next<'t>(tokens: &[Token<'t>], behind: usize) -> Option<Token<'t>> {
     tokens[behind + 1..].iter().copied().find(|token| !token.kind.is_trivia())
 }
 
-/// A token that stands where a brace belongs: the kind and the sign of that.
+/// A token in the place of a brace: the kind and the sign of that brace.
 fn in_place(wrong: &Wrong, tokens: &[Token<'_>]) -> Option<(usize, Kind, &'static str)> {
     let opens = |at| (at, Kind::OpenBrace, "{");
     match *wrong {
@@ -183,13 +185,13 @@ fn word_for_a_brace(tokens: &[Token<'_>], behind: usize) -> Option<usize> {
     ends_line.then_some(at)
 }
 
-/// How many braces open something, and how many close something.
+/// The numbers of opening and of closing braces.
 fn count(tokens: &[Token<'_>]) -> (usize, usize) {
     let count = |kind: Kind| tokens.iter().filter(|token| token.kind == kind).count();
     (count(Kind::OpenBrace), count(Kind::CloseBrace))
 }
 
-/// The first brace that is wrong, in a file whose braces do not match.
+/// The first wrong brace of a file whose braces do not match.
 fn find(tokens: &[Token<'_>]) -> Option<Wrong> {
     let (opened, closed) = count(tokens);
     if opened == closed {
@@ -237,16 +239,16 @@ fn find(tokens: &[Token<'_>]) -> Option<Wrong> {
 
 struct Reader<'t, 's> {
     tokens: &'s [Token<'t>],
-    /// Whether braces are too much, rather than missing.
+    /// Whether there are surplus braces, not missing ones.
     too_many: bool,
-    /// The braces that are open.
+    /// The open braces.
     open: Vec<Opened>,
     lines: Vec<Line>,
 }
 
 impl Reader<'_, '_> {
-    /// A line begins with a token that does not close anything: bodies that began farther to the right, or as far, are
-    /// over, unless their own lines are not indented.
+    /// Handles a line that begins with a token that closes nothing: it ends bodies that began at
+    /// its column or further right, unless their own lines are not indented.
     fn line(&mut self, at: usize, last: Option<usize>) -> Option<Wrong> {
         let line = *self.lines.last()?;
         let Opened { at: opener, line: from, is_flat } = *self.open.last()?;
@@ -263,7 +265,7 @@ impl Reader<'_, '_> {
         (is_over && !self.too_many).then(|| Wrong::Missing(last.unwrap_or(opener), opener))
     }
 
-    /// Whether a line begins with what stands in the body of a head, not behind it.
+    /// Whether a line begins with the content of the body of a head.
     fn is_inside(&self, head: Line, at: usize) -> bool {
         let mut head = self.tokens[head.first..].iter().filter(|token| !token.kind.is_trivia());
         let (first, third) = (head.next().map_or("", |it| it.text), head.nth(1).map(|it| it.kind));
@@ -285,7 +287,7 @@ impl Reader<'_, '_> {
         let line = self.lines.last_mut()?;
         line.opens = true;
         let mut behind = self.tokens[at + 1..].iter().take_while(|token| !token.ends_line());
-        // What begins on the line of its brace is indented by that.
+        // Content on the line of its brace counts as indented.
         let is_flat = behind.any(|token| !token.kind.is_trivia()).then_some(false);
         self.open.push(Opened { at, line: *line, is_flat });
         None
@@ -330,14 +332,15 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Whether a brace is not alone on its line, or the line before it is a head, which may go on over several lines.
+    /// Whether a brace has other tokens on its line, or the line before is a head, which may span
+    /// several lines.
     fn stands_behind_head(&self, at: usize) -> bool {
         let [.., before, line] = self.lines.as_slice() else { return true };
         let is_end = self.tokens[before.last].kind == Kind::CloseParen;
         line.first != at || before.is_head && !before.opens || is_end
     }
 
-    /// Whether names stand in the body, and nothing else.
+    /// Whether the body has only names.
     fn is_list(&self, at: usize) -> bool {
         let solid: Vec<_> =
             self.tokens[..at].iter().rev().filter(|it| !it.kind.is_trivia()).take(2).collect();
@@ -372,7 +375,8 @@ impl Reader<'_, '_> {
         (is_outer && !self.too_many).then(|| Wrong::Missing(last.unwrap_or(opener), opener))
     }
 
-    /// Whether a brace that closes ends a head without a body, and what follows is farther to the right.
+    /// Whether a closing brace follows a head without a body, and the next line is indented
+    /// further.
     fn begins_body(&self, line: Line, at: usize) -> bool {
         let mut behind = self.tokens[at + 1..].iter();
         let Some(space) = behind.next().filter(|token| token.kind.is_trivia()) else {
@@ -383,7 +387,8 @@ impl Reader<'_, '_> {
         line.is_head && !line.opens && is_text && indent.len() > line.indent
     }
 
-    /// The end of the line that began, as far to the right, what this line closes, without a brace being opened.
+    /// The end of the line at the column of this line, or further right, that this line closes
+    /// without an open brace.
     fn head_without_brace(&self, line: Line) -> Option<usize> {
         let before = self.lines.iter().rev().skip(1);
         let mut inside = before.take_while(|other| other.indent >= line.indent);
@@ -391,7 +396,7 @@ impl Reader<'_, '_> {
         (head.is_head && !head.opens).then_some(head.last)
     }
 
-    /// The token before the first edge of a body on the line of its head, without a brace being opened.
+    /// The token before the first edge of a body on the line of its head, without an opening brace.
     fn body_without_brace(&self, line: Line) -> Option<usize> {
         if !line.is_head || line.opens {
             return None;

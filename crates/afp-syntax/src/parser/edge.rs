@@ -6,7 +6,7 @@ use crate::kind::Kind;
 use crate::message;
 
 impl Parser<'_, '_> {
-    /// `"->" target`: where the only state of the element leads. Returns whether that is all of it.
+    /// `"->" target` for the only state of the element. Returns whether nothing else follows.
     pub(super) fn edge_without_braces(&mut self) -> bool {
         let is_reversed = (self.nth(0), self.nth(1)) == (Kind::Name, Kind::Arrow);
         if is_reversed && self.on_same_line() && self.begins_line(2) {
@@ -37,12 +37,11 @@ impl Parser<'_, '_> {
         !self.at(Kind::OpenBrace)
     }
 
-    /// How many tokens ahead the last of the names stands, from the token so many ahead on, between which there are
-    /// commas.
+    /// The number of tokens to the last of the comma-separated names, from the given token on.
     fn last_name(&self, ahead: usize) -> usize {
         let from = self.at + ahead;
         let (first, end) = self.names.get();
-        // What was found for one of the names holds for those behind it.
+        // The result for one of the names holds for the names after it.
         if (first..=end).contains(&from) && (from - first).is_multiple_of(2) {
             return end - self.at;
         }
@@ -57,7 +56,7 @@ impl Parser<'_, '_> {
         last
     }
 
-    /// Whether names with commas between them stand before an arrow.
+    /// Whether comma-separated names precede an arrow.
     pub(super) fn at_edge(&self) -> bool {
         self.edge_at(0)
     }
@@ -68,7 +67,7 @@ impl Parser<'_, '_> {
         self.nth(last) == Kind::Name && self.arrow_at(last + 1).is_some()
     }
 
-    /// Whether names with commas between them end a body.
+    /// Whether comma-separated names end a body.
     pub(super) fn at_bare_names(&self) -> bool {
         self.nth(self.last_name(0) + 1) == Kind::CloseBrace
     }
@@ -85,7 +84,7 @@ impl Parser<'_, '_> {
         self.end_of_edge();
     }
 
-    /// Names behind a sign in the place of a comma, and the end of their edge.
+    /// Names after a wrong sign for a comma, and the end of their edge.
     pub(super) fn rest_of_edge(&mut self) {
         self.take_name();
         self.end_of_edge();
@@ -117,7 +116,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// Takes the arrow of an edge, or what was written for it. Returns whether there may be a target.
+    /// Reads the arrow of an edge, or its substitute. Returns whether a target may follow.
     fn arrow(&mut self) -> bool {
         match self.arrow_at(0) {
             Some(1) if self.at(Kind::Arrow) => self.bump(),
@@ -129,7 +128,7 @@ impl Parser<'_, '_> {
                 let message = "'->' leads from a state or event to what comes next";
                 self.wrong_arrow(1, message, "->");
             }
-            // The arrow alone is missing.
+            // Only the arrow is missing.
             None if self.at(Kind::Name) && self.on_same_line() && !self.names_something(0) => {
                 let here = self.here().before();
                 self.error(

@@ -1,4 +1,4 @@
-//! Looks for the habits of other languages, of which there is one table, and says what the plan text for them is.
+//! Finds habits of other languages by one table, and reports the plan text for them.
 
 mod conditions;
 mod matcher;
@@ -19,9 +19,9 @@ use matcher::{Matcher, beginning, between, is_written};
 use meant::Reads;
 use words::{choose, comparison, time, type_of, with_first};
 
-/// So many tokens are looked at.
+/// The maximum number of tokens that are compared.
 const MOST_TOKENS: usize = 64;
-/// Templates of `std` that the table uses.
+/// Templates of `std` in the table.
 const OF_STD: &[&str] = &[
     "Assign(",
     "Changed(",
@@ -40,19 +40,19 @@ const OF_STD: &[&str] = &[
 struct Found<'t> {
     habit: &'static Habit,
     captures: Vec<String>,
-    /// The tokens that may be looked at.
+    /// The tokens that a pattern may use.
     line: Vec<Token<'t>>,
-    /// How many of them are the pattern, and from which on reading goes on.
+    /// The number of tokens of the pattern, and the index where parsing continues.
     end: usize,
     next: usize,
 }
 
 impl<'t> Parser<'t, '_> {
-    /// Reports a habit that is there, and reads past it. Returns whether one is there.
+    /// Reports a habit and skips it. Returns whether there is one.
     pub(super) fn habit(&mut self, place: Places) -> bool {
         let Some(found) = self.find_habit(place) else { return false };
         let line = &found.line;
-        // A text for another place says nothing of what is read on.
+        // The error of another place does not decide where parsing continues.
         let end = match found.habit.write {
             Write::Say(_) | Write::Drop(_) => found.next.min(found.end),
             Write::Edit(_) => found.end,
@@ -60,7 +60,7 @@ impl<'t> Parser<'t, '_> {
         let last = end.checked_sub(1).and_then(|last| line.get(last));
         let (Some(first), Some(last)) = (line.first(), last) else { return false };
         let here = self.span_of(*first).to(self.span_of(*last));
-        // A ';' at the end of the line goes with it.
+        // A ';' at the end of the line belongs to it.
         let behind = line.get(end).filter(|token| token.text == ";");
         let whole = behind.map_or(here, |sign| here.to(self.span_of(*sign)));
         let says = self.filled(found.habit.says, &found, place);
@@ -112,7 +112,7 @@ impl<'t> Parser<'t, '_> {
         help
     }
 
-    /// The habit that is written here, unless something is said of this line already.
+    /// The habit at this place, unless its line already has an error.
     fn find_habit(&self, place: Places) -> Option<Found<'t>> {
         let start = self.next_written()?;
         if self.tokens.get(start)?.start < self.quiet || !self.explains() {
@@ -139,14 +139,14 @@ impl<'t> Parser<'t, '_> {
         })
     }
 
-    /// The token with a text behind the last one that was read; it may be a sign of another language.
+    /// The next token with a text; it may be a sign of another language.
     pub(super) fn next_written(&self) -> Option<usize> {
         let before = self.at.checked_sub(1).and_then(|before| self.solid.get(before));
         let from = before.map_or(0, |before| *before as usize + 1);
         Some(from + self.tokens.get(from..)?.iter().position(is_written)?)
     }
 
-    /// The tokens from one on to the end of its line; brackets and braces go on over lines.
+    /// The tokens from an index to the end of its line; brackets and braces may span lines.
     fn written_line(&self, start: usize, place: Places) -> Vec<Token<'t>> {
         let (mut line, mut depth) = (Vec::new(), 0_usize);
         for token in self.tokens.get(start..).unwrap_or_default() {
@@ -167,7 +167,7 @@ impl<'t> Parser<'t, '_> {
         line
     }
 
-    /// Drops what the lexer has said of signs of a habit and of the rest of its line.
+    /// Drops the lexer's errors about signs of a habit and of the rest of its line.
     pub(super) fn supersede(&mut self, here: Span) {
         let end = self.next_line(here.end);
         let cause = self.reported_before(here.start);
@@ -177,7 +177,7 @@ impl<'t> Parser<'t, '_> {
         }
     }
 
-    /// Takes back what is superseded.
+    /// Withdraws superseded errors.
     pub(super) fn drop_superseded(&mut self) {
         let (file, ranges) = (self.file, std::mem::take(&mut self.superseded));
         if ranges.is_empty() {
@@ -191,7 +191,8 @@ impl<'t> Parser<'t, '_> {
         });
     }
 
-    /// `while (true) { actor go: ... }`: reads the items in the braces of a habit. Returns whether there are some.
+    /// `while (true) { actor go: ... }`: reads the items in the braces of a habit. Returns whether
+    /// there are items.
     fn items_in_braces(&mut self, line: &[Token<'t>]) -> bool {
         let Some(brace) = line.iter().position(|token| token.kind == Kind::OpenBrace) else {
             return false;
@@ -217,7 +218,7 @@ impl<'t> Parser<'t, '_> {
         true
     }
 
-    /// A sentence of the table with its holes filled.
+    /// A sentence of the table with its placeholders replaced.
     fn filled(&self, sentence: &str, found: &Found<'_>, place: Places) -> String {
         let mut text = String::new();
         let mut rest = sentence;
@@ -237,7 +238,7 @@ impl<'t> Parser<'t, '_> {
         text + rest
     }
 
-    /// What fills a hole.
+    /// The text of a placeholder.
     fn hole(&self, hole: &str, found: &Found<'_>, place: Places) -> String {
         let parts: Vec<_> = hole.split(':').collect();
         let capture = |at: &str| -> Option<&String> {
@@ -276,7 +277,7 @@ impl<'t> Parser<'t, '_> {
                 let number = capture(at).map_or("3", String::as_str);
                 number.split(' ').next().unwrap_or_default().to_owned()
             }
-            // From a capture on to the end.
+            // From a capture to the end.
             ["written", at] => {
                 let value = found.line.iter().position(|token| token.text == "=");
                 let from = value.filter(|_| at == "2").map_or(0, |value| value + 1);
@@ -303,7 +304,7 @@ impl<'t> Parser<'t, '_> {
         }
     }
 
-    /// The first state of an element that has an edge in the file, for a text that names it.
+    /// The first state of an element that has an edge in the file, for help texts.
     fn state_of(&self, element: &str) -> String {
         let token = |at: usize| self.solid.get(at).map(|at| self.tokens[*at as usize]);
         let text = |at: usize| token(at).map_or("", |token| token.text);
@@ -323,18 +324,18 @@ impl<'t> Parser<'t, '_> {
         "State".to_owned()
     }
 
-    /// The operand behind which something is written.
+    /// The operand before the pattern.
     fn operand_before(&self) -> String {
         let has_unit = self.before().is_some_and(|token| token.kind == Kind::Unit);
         self.text_between(self.at.saturating_sub(1 + usize::from(has_unit)), self.at)
     }
 
-    /// Whether what stands behind an arrow, or behind its target, is a habit; reports it.
+    /// Whether a habit follows an arrow or its target; reports it.
     pub(super) fn habit_of_target(&mut self) -> bool {
         self.on_same_line() && self.habit(TARGET)
     }
 
-    /// The same behind the target.
+    /// Whether a habit follows the target; reports it.
     pub(super) fn habit_behind_target(&mut self) {
         let is_foreign = || self.next_written().is_some_and(|at| at < self.token_index(0));
         if self.on_same_line() || is_foreign() {
@@ -342,7 +343,7 @@ impl<'t> Parser<'t, '_> {
         }
     }
 
-    /// Whether a habit is written where an edge could begin, or another part of a body; reports it.
+    /// Whether a habit is in the place of an edge or of another part of a body; reports it.
     pub(super) fn habit_of_body(&mut self, place: Places) -> bool {
         let is_state = self.word(0).starts_with(|first: char| first.is_ascii_uppercase());
         let is_usual = is_state
@@ -353,7 +354,7 @@ impl<'t> Parser<'t, '_> {
         !is_usual && self.habit(place)
     }
 
-    /// Whether a habit is written behind an operand; reports it.
+    /// Whether a habit follows an operand; reports it.
     pub(super) fn habit_of_operator(&mut self) -> bool {
         let is_foreign = self.next_written().is_some_and(|at| at < self.token_index(0));
         let is_word = self.on_same_line() && !self.names_something(0);
@@ -366,7 +367,7 @@ impl<'t> Parser<'t, '_> {
         is_strange && self.habit(OPERATOR)
     }
 
-    /// Whether a habit is written where an operand begins; reports it.
+    /// Whether a habit begins in the place of an operand; reports it.
     pub(super) fn habit_of_operand(&mut self) -> bool {
         let is_foreign = self.next_written().is_some_and(|at| at < self.token_index(0));
         let is_strange = is_foreign

@@ -1,25 +1,25 @@
-//! What the grammar looks far ahead for, found once: ends of lines, braces, brackets that are closed.
+//! Positions that the parser needs far ahead: ends of lines, braces, closed brackets.
 //!
-//! A file may be one line, and wrong at every token; looking through the line each time would take as long as the line
-//! is for each of them.
+//! They are found once. A file may be one line with an error at every token, and a search per error
+//! would take quadratic time.
 
 use crate::kind::Kind;
 use crate::lexer::Token;
 
-/// Places in a file, each list from first to last.
+/// Positions in a file, each list in ascending order.
 #[derive(Default)]
 pub(super) struct Marks {
     /// The line breaks, in bytes.
     newlines: Vec<u32>,
-    /// The braces that open and those that close, as places among the tokens that are read.
+    /// The opening and the closing braces, as indices of tokens.
     open_braces: Vec<u32>,
     close_braces: Vec<u32>,
-    /// The brackets '(' that are closed before any brace, likewise.
+    /// The `(` that are closed before the next brace, as indices of tokens.
     closed: Vec<u32>,
 }
 
 impl Marks {
-    /// Finds them; `solid` are the places of the tokens that are read.
+    /// Finds the positions; `solid` are the indices of the tokens that are read.
     pub(super) fn new(tokens: &[Token<'_>], solid: &[u32]) -> Marks {
         let mut marks = Marks::default();
         for token in tokens.iter().filter(|token| token.ends_line()) {
@@ -46,12 +46,12 @@ impl Marks {
         marks
     }
 
-    /// The first line break at a byte or behind it.
+    /// The first line break at or after a byte.
     pub(super) fn newline(&self, from: u32) -> Option<u32> {
         self.newlines.get(self.newlines.partition_point(|at| *at < from)).copied()
     }
 
-    /// The first brace of a kind from a place on, among the tokens that are read.
+    /// The first brace of a kind from an index on, among the tokens that are read.
     pub(super) fn brace(&self, kind: Kind, from: usize) -> Option<usize> {
         let all = match kind {
             Kind::OpenBrace => &self.open_braces,
@@ -60,7 +60,7 @@ impl Marks {
         all.get(all.partition_point(|index| (*index as usize) < from)).map(|index| *index as usize)
     }
 
-    /// Whether the bracket at a place is closed before any brace.
+    /// Whether the bracket at an index is closed before the next brace.
     pub(super) fn is_closed(&self, index: usize) -> bool {
         u32::try_from(index).is_ok_and(|index| self.closed.binary_search(&index).is_ok())
     }

@@ -1,6 +1,6 @@
-//! What is said of text that does not fit, and where reading goes on.
+//! Errors in text that does not match the grammar, and recovery from them.
 //!
-//! One thing is said about a line: what else does not fit there comes of it, more often than not.
+//! A line has one error; further errors on it are usually consequences.
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, Message, Subject, Words};
@@ -8,37 +8,37 @@ use crate::kind::Kind;
 use crate::message;
 use crate::source::Span;
 
-/// Braces with something in them.
+/// Braces with tokens in them.
 pub(super) struct Body {
-    /// Where the first one stands, if it does.
+    /// The index of the first brace, if there is one.
     opened: Option<Span>,
 }
 
 impl Body {
-    /// Whether its first brace stands there.
+    /// Whether its first brace is at this index.
     pub(super) fn is_opened(&self) -> bool {
         self.opened.is_some()
     }
 }
 
 impl Parser<'_, '_> {
-    /// Reports an arrow of another language, and reads past it.
+    /// Reports an arrow of another language, and skips it.
     pub(super) fn wrong_arrow(&mut self, tokens: usize, message: &'static str, right: &str) {
         let here = self.ahead(tokens);
         self.error(Diagnostic::new(Code::E0108, here, message).write(right));
-        // A word is no name of the edge.
+        // A word is not a name of the edge.
         match self.at(Kind::Name) {
             true => self.pass(tokens),
             false => (0..tokens).for_each(|_| self.bump()),
         }
     }
 
-    /// As [`Diagnostics::explains`](crate::diagnostics::Diagnostics::explains).
+    /// Like [`Diagnostics::explains`](crate::diagnostics::Diagnostics::explains).
     pub(super) fn explains(&self) -> bool {
         self.diags.explains()
     }
 
-    /// Reports what is wrong, unless something before it on the same line is.
+    /// Reports an error, unless an earlier error is on the same line.
     pub(super) fn error(&mut self, diagnostic: Diagnostic) {
         let mut diagnostic = diagnostic;
         let place = diagnostic.span.start;
@@ -52,7 +52,8 @@ impl Parser<'_, '_> {
             self.hidden.insert(self.next_line(place));
             return;
         }
-        // What was read as if it had been right has no consequences, but it may have been no arrow at all.
+        // Text that was read as if it were right has no consequences, but it may not have been an
+        // arrow.
         match is_arrow {
             true => self.behind_arrow = self.next_line(place),
             false => self.be_quiet(place),
@@ -60,7 +61,8 @@ impl Parser<'_, '_> {
         self.diags.push(diagnostic);
     }
 
-    /// Takes back what is said of a ';' at the end of a line on which something else is wrong; an edit removes it, too.
+    /// Withdraws the error about a ';' at the end of a line with another error; an edit also
+    /// removes it.
     fn with_semicolon(&mut self, diagnostic: &mut Diagnostic) {
         let place = diagnostic.span.start;
         let Some(cause) = self.reported_before(place).filter(|cause| *cause > place) else {
@@ -78,7 +80,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Takes back edits that do not mend all that is wrong on their lines.
+    /// Withdraws edits that do not fix all errors on their lines.
     pub(super) fn withdraw_fixes(&mut self) {
         let (hidden, file) = (std::mem::take(&mut self.hidden), self.file);
         if hidden.is_empty() {
@@ -88,7 +90,7 @@ impl Parser<'_, '_> {
         diags.change(|each| {
             let is_in_part =
                 each.span.file == file && hidden.contains(&self.next_line(each.span.start));
-            // What the lexer mends it mends by itself.
+            // The lexer has its own edits.
             let is_of_grammar = matches!(
                 each.code,
                 Code::E0101 | Code::E0102 | Code::E0103 | Code::E0108 | Code::E0109
@@ -100,24 +102,24 @@ impl Parser<'_, '_> {
         *self.diags = diags;
     }
 
-    /// What else is wrong on the line of a place is not worth a word.
+    /// Suppresses further errors on the line of a place.
     pub(super) fn be_quiet(&mut self, index: u32) {
         self.quiet = self.quiet.max(self.next_line(index));
     }
 
-    /// Notes lines of which something is reported already, each with the place of that.
+    /// Notes lines with a reported error, each with the place of that error.
     pub(super) fn note_reported(&mut self, reported: &[(u32, u32)]) {
         for (index, cause) in reported {
             self.reported.entry(self.next_line(*index)).or_insert(*cause);
         }
     }
 
-    /// The place of what is reported already on the line of a place.
+    /// The place of the reported error on the line of a place.
     pub(super) fn reported_before(&self, index: u32) -> Option<u32> {
         self.reported.get(&self.next_line(index)).copied()
     }
 
-    /// Where the line behind that of a place begins.
+    /// The start of the line after a place.
     pub(super) fn next_line(&self, index: u32) -> u32 {
         self.marks.newline(index).map_or(u32::MAX, |end| end + 1)
     }
@@ -145,14 +147,14 @@ impl Parser<'_, '_> {
         self.error(self.instead_of(here, what).help(help).about(subject));
     }
 
-    /// What is said of the next token in the place of something else.
+    /// The message about the next token, which is unexpected.
     pub(super) fn instead_of(&self, here: Span, what: impl Into<Message>) -> Diagnostic {
         let message = message!("expected {}", what.into());
         Diagnostic::new(Code::E0102, here, message).found(self.found())
     }
 
-    /// Opens a body, or reports that its brace is missing. What else stands before the brace on this line belongs to the
-    /// same mistake; without a brace there may be a body all the same.
+    /// Opens a body, or reports that its brace is missing. Other tokens before the brace on this
+    /// line belong to the same error. Without a brace there may still be a body.
     pub(super) fn open_body(
         &mut self,
         help: impl Into<Message>,
@@ -173,7 +175,7 @@ impl Parser<'_, '_> {
             _ if self.nothing_before_brace() => {}
             _ => self.expected("'{'", help),
         }
-        // As indented languages have it.
+        // Indented languages write it so.
         if self.at(Kind::Colon) && self.on_same_line() && self.begins_line(1) {
             self.pass(1);
         }
@@ -191,7 +193,8 @@ impl Parser<'_, '_> {
         self.eat(Kind::OpenBrace).then_some(opened)
     }
 
-    /// Closes a body; where nothing opened it, nothing need close it, and where every brace has its other one, none does.
+    /// Closes a body. A body without an opening brace needs no closing brace, and if all braces
+    /// match, none is missing.
     pub(super) fn close_body(&mut self, body: Body) {
         match body.opened {
             Some(opened) => self.close_bracket(Kind::CloseBrace, opened),
@@ -202,7 +205,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether a brace stands here that does not end the plan: more of its items follow.
+    /// Whether a brace is next that does not end the plan, because more of its items follow.
     fn closes_more(&self) -> bool {
         let ends =
             matches!(self.word(1), "plan" | "scenario" | "enum" | "table" | "toolbox" | "use");
@@ -219,7 +222,7 @@ impl Parser<'_, '_> {
         fits
     }
 
-    /// Takes a name, or reports that one is missing.
+    /// Reads a name, or reports that it is missing.
     pub(super) fn name(&mut self, help: impl Into<Message>) -> bool {
         if !self.on_same_line() && self.begins_item() {
             self.expected_name(help);
@@ -232,14 +235,14 @@ impl Parser<'_, '_> {
         self.expect(Kind::Name, help)
     }
 
-    /// Takes the next token, which is a name.
+    /// Reads the next token, which is a name.
     pub(super) fn take_name(&mut self) {
         if !self.name_with_hyphens() {
             self.take_word();
         }
     }
 
-    /// Takes the next token, which is a name; a '-' behind it is none of it.
+    /// Reads the next token, which is a name; a '-' after it does not belong to it.
     pub(super) fn take_word(&mut self) {
         if self.word(0) == "repeat" {
             self.reserved("choose another name");
@@ -247,7 +250,7 @@ impl Parser<'_, '_> {
         self.bump();
     }
 
-    /// Whether an item of some level surely begins here, so that no name can be meant.
+    /// Whether an item of some level certainly begins here, so that it cannot be a name.
     pub(super) fn begins_item(&self) -> bool {
         let first = matches!(self.word(0), "start" | "supervise") && self.nth(1) == Kind::Name;
         (first && !self.names_something(0)) || self.leaves_body() || self.at_tool()
@@ -259,7 +262,7 @@ impl Parser<'_, '_> {
         self.error(Diagnostic::new(Code::E0112, here, message).help(help));
     }
 
-    /// Closes a bracket, or reports where it was opened.
+    /// Closes a bracket, or reports the place of its opening.
     pub(super) fn close_bracket(&mut self, kind: Kind, opened: Span) {
         if self.eat(kind) {
             return;
@@ -284,7 +287,7 @@ impl Parser<'_, '_> {
         );
     }
 
-    /// How many commas stand in the bracket that begins here, as far as it is closed.
+    /// The number of commas in the bracket that begins here, as far as it is closed.
     pub(super) fn commas_in_brackets(&self) -> usize {
         if !self.at(Kind::OpenParen) || !self.is_closed() {
             return 0;
@@ -304,7 +307,7 @@ impl Parser<'_, '_> {
         commas
     }
 
-    /// Whether the bracket that begins here is closed before any brace.
+    /// Whether the bracket that begins here is closed before the next brace.
     pub(super) fn is_closed(&self) -> bool {
         self.marks.is_closed(self.at)
     }
@@ -321,7 +324,7 @@ impl Parser<'_, '_> {
         self.pass_to(stop);
     }
 
-    /// Reports the next token as unexpected; another word may have been meant.
+    /// Reports the next token as unexpected, with the word that may have been meant.
     pub(super) fn report_skipped(
         &mut self,
         what: impl Into<Message>,
@@ -341,7 +344,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Passes over everything up to where `stop` holds, brackets and braces as a whole.
+    /// Skips to where `stop` holds, brackets and braces as a whole.
     pub(super) fn pass_to(&mut self, stop: impl Fn(&Self) -> bool) {
         self.open(Kind::Error);
         let mut depth = 0_usize;
