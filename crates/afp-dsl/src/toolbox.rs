@@ -1,4 +1,5 @@
-//! What a toolbox file declares: templates with their ports, timing, help and icons; devices.
+//! The declarations of a toolbox file: templates with their ports, timing, help and icons, and
+//! devices.
 
 pub mod case;
 pub mod device;
@@ -18,35 +19,35 @@ pub use fact::Fact;
 /// A checked toolbox file.
 #[derive(Clone, Debug, Default)]
 pub struct Toolbox {
-    /// The name by which `use` finds it.
+    /// Its name in `use`.
     pub name: String,
-    /// Its version text, empty where none is given.
+    /// Its version; empty by default.
     pub version: String,
     /// Its `///` lines.
     pub doc: String,
     pub devices: Vec<Device>,
     pub templates: Vec<Template>,
     pub enums: Vec<Arc<Enum>>,
-    /// The object types as written.
+    /// The object types, in source order.
     pub objects: Vec<Arc<Object>>,
     /// The Rust crate (a path such as `afp_carbot`) that implements it.
     pub rust_path: String,
-    /// The name in the text.
+    /// The span of the name.
     pub span: Span,
 }
 
 impl Toolbox {
-    /// Whether it says what is true of a robot as a whole, so that it is a robot's.
+    /// Whether it declares facts of a whole robot, so that it is a robot's toolbox.
     pub(crate) fn declares_robot(&self) -> bool {
         self.devices.iter().any(|device| device.kind == DeviceKind::Robot)
     }
 
-    /// Whether it has a name. The computations of a plan file are a toolbox without one.
+    /// Whether it has a name. The computations of a plan file are a toolbox without a name.
     pub fn is_named(&self) -> bool {
         !self.name.is_empty()
     }
 
-    /// Whether it comes with the compiler.
+    /// Whether it is built in.
     pub(crate) fn is_built_in(&self) -> bool {
         matches!(&*self.rust_path, "afp_std" | "afp_carbot")
     }
@@ -66,33 +67,33 @@ pub struct Template {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// The name of its icon, without folder and ending.
+    /// The name of its icon, without folder and extension.
     pub icon: Option<String>,
-    /// The resources that it commands exclusively.
+    /// The resources that it controls exclusively.
     pub uses: Vec<String>,
     pub inputs: Vec<InPort>,
     pub outputs: Vec<OutPort>,
-    /// States, or a supervisor's events, as written.
+    /// The states, or a supervisor's events, in source order.
     pub outcomes: Vec<Outcome>,
     /// The states of a declared computation, with their conditions and assignments.
     pub cases: Option<Arc<[Case]>>,
     /// The declared facts of a supervisor's events.
     pub facts: Arc<[Fact]>,
-    /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
-    /// there.
+    /// The port whose values are the states. [`Template::outcomes`] is empty until an enum is bound
+    /// to it.
     pub states_of: Option<StatesOf>,
-    /// The port that takes a table, whose columns are the outputs; there are none until a table is
-    /// bound there. No Rust type implements such a template: each back end reads its tables itself.
+    /// The port for a table whose columns are the outputs; there are none until a table is bound to
+    /// it. No Rust type implements such a template: each back end reads its tables itself.
     pub reads_table: Option<ReadsTable>,
-    /// Poll period in nanoseconds (10 ms where none is written).
+    /// Poll period in nanoseconds (default 10 ms).
     pub every: u64,
-    /// Deadline in nanoseconds, where written.
+    /// Deadline in nanoseconds, if declared.
     pub deadline: Option<u64>,
-    /// Bound of one poll in nanoseconds, where written.
+    /// Bound of one poll in nanoseconds, if declared.
     pub budget: Option<u64>,
-    /// Time from interruption to standstill in nanoseconds, where written.
+    /// Time from interruption to standstill in nanoseconds, if declared.
     pub stop: Option<u64>,
-    /// The name in the text.
+    /// The span of the name.
     pub span: Span,
 }
 
@@ -102,32 +103,32 @@ impl Template {
         self.cases.is_some() || self.states_of.is_some() || self.reads_table.is_some()
     }
 
-    /// The table that it reads, in the template as a component of a plan has it, and the port that takes it.
+    /// The table that it reads, in the template of a component, and the port for it.
     pub fn table(&self) -> Option<(&InPort, &Arc<Table>)> {
         let reads = self.reads_table.as_ref()?;
         Some((&reads.port, reads.table.as_ref()?))
     }
 }
 
-/// The states of a template that has one for each value of an enum.
+/// The states of a template with one state for each value of an enum.
 #[derive(Clone, Debug)]
 pub struct StatesOf {
-    /// The input port, by position.
+    /// The index of the input port.
     pub port: u16,
     /// The `///` lines above it.
     pub doc: String,
-    /// The word `states` in the text.
+    /// The span of the word `states`.
     pub span: Span,
-    /// The enum, in the template as a component of a plan has it.
+    /// The enum, in the template of a component.
     pub home: Option<Arc<Enum>>,
 }
 
-/// What a template that reads a table knows of it.
+/// The table of a template that reads one.
 #[derive(Clone, Debug)]
 pub struct ReadsTable {
-    /// The input port that takes it.
+    /// The index of the input port.
     pub port: InPort,
-    /// The table, in the template as a component of a plan has it; that one has no such port.
+    /// The table, in the template of a component; there the port is absent.
     pub table: Option<Arc<Table>>,
 }
 
@@ -136,7 +137,7 @@ pub struct InPort {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// Its type, perhaps `any` or `number`.
+    /// Its type, which may be `any` or `number`.
     pub ty: Type,
     /// Whether it is read again at every poll.
     pub live: bool,
@@ -144,7 +145,7 @@ pub struct InPort {
     pub default: Option<Constant>,
     /// Least and greatest allowed value (`int`, `float` and quantities, in SI units).
     pub range: Option<(f64, f64)>,
-    /// The name in the text.
+    /// The span of the name.
     pub span: Span,
 }
 
@@ -153,11 +154,11 @@ pub struct OutPort {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// Its type, perhaps `any` or `number`.
+    /// Its type, which may be `any` or `number`.
     pub ty: Type,
-    /// The outcomes that carry it, by position; all of them where no `on` is written.
+    /// The indices of the outcomes that carry it; all of them without `on`.
     pub on: Vec<u16>,
-    /// The name in the text.
+    /// The span of the name.
     pub span: Span,
 }
 
@@ -167,8 +168,8 @@ pub struct Outcome {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// Whether it is an event that happens and does not last, `once`.
+    /// Whether it is an event at an instant, declared with `once`.
     pub once: bool,
-    /// The name in the text.
+    /// The span of the name.
     pub span: Span,
 }

@@ -1,4 +1,4 @@
-//! Finds the template or plan that an element or supervisor names.
+//! Finds the template or plan of an element or supervisor.
 
 use std::rc::Rc;
 
@@ -14,17 +14,17 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, word
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// Something of a name.
+/// A candidate with the name.
 struct Candidate<'a> {
     signature: Rc<Signature>,
     /// The name that qualifies it.
     home: Option<&'a str>,
-    /// Where it is declared.
+    /// The span of its declaration.
     span: Span,
     reach: Reach,
 }
 
-/// How far from the place of use a declaration is; the nearest one wins.
+/// The distance of a declaration from its use; the nearest one wins.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Reach {
     /// A computation of the file.
@@ -35,15 +35,16 @@ enum Reach {
     BuiltIn,
 }
 
-/// What the keyword in front of a component asks for, and where it stands.
+/// The expected kind of a component, by its keyword, and the span of the keyword.
 pub(crate) struct Wanted {
     pub keyword: &'static str,
-    /// Its place; `None` for `supervise`, which cannot be exchanged for another keyword.
+    /// Its span; `None` for `supervise`, which cannot be replaced by another keyword.
     pub span: Option<Span>,
 }
 
 impl Context<'_> {
-    /// What `reference` names; reports when there is nothing, too much, or the wrong thing.
+    /// The template or plan that `reference` names; reports an unknown, an ambiguous or a wrong
+    /// one.
     pub fn callee(
         &self,
         reference: &Ref,
@@ -73,7 +74,7 @@ impl Context<'_> {
         }
         let Some(Candidate { signature, span, .. }) = found.pop() else {
             record.unknown(name.span);
-            // It may be in the toolbox or file that is missing.
+            // It may be in the missing toolbox or file.
             let subplan = wanted.keyword == "subplan";
             if if subplan { self.file.incomplete } else { self.file.types.incomplete } {
                 return None;
@@ -84,7 +85,7 @@ impl Context<'_> {
         let is_fit = signature.kind.keyword() == wanted.keyword;
         let is_plan = matches!(signature.kind, SignatureKind::Plan(_));
         match !is_fit && is_plan && self.file.types.incomplete {
-            // The template of that name may be in the toolbox that is missing.
+            // The template of that name may be in the missing toolbox.
             true => record.unknown(name.span),
             false => record.definition(name.span, span),
         }
@@ -104,7 +105,7 @@ impl Context<'_> {
         None
     }
 
-    /// Everything of that name.
+    /// All candidates of that name.
     fn candidates(&self, name: &Name, home: Option<&Name>) -> Vec<Candidate<'_>> {
         let mut found = Vec::new();
         let plans = self.file.plans.get(&name.text).filter(|_| home.is_none());
@@ -194,7 +195,7 @@ impl Context<'_> {
         )
     }
 
-    /// Says where a template is that a toolbox has which is not used, or not the one that is named.
+    /// Names the toolbox of a template that is not used, or not the named one.
     fn in_another_toolbox(
         &self,
         name: &Name,
@@ -209,7 +210,7 @@ impl Context<'_> {
         }
         let is_named = |toolbox: &Toolbox| home.is_some_and(|home| home.text == toolbox.name);
         let others = self.program.toolboxes.iter().filter(|toolbox| has(toolbox));
-        // The first of those that suit equally well.
+        // The first of equally good candidates.
         let other = others.min_by_key(|toolbox| !is_named(toolbox))?;
         let taken = |word: &str| self.file.imports.iter().any(|import| import.qualifier == word);
         let numbered = (2_u32..).map(|number| format!("{}{number}", other.name));
@@ -228,14 +229,14 @@ impl Context<'_> {
         })
     }
 
-    /// The plans but that around a place: a plan cannot be part of itself.
+    /// The plans except the one around a place: a plan cannot contain itself.
     fn other_plans(&self, place: Span) -> impl Iterator<Item = &str> {
         let own = move |plan: &usize| self.program.plans[*plan].node.span().contains(place);
         let others = self.file.plans.iter().filter(move |(_, plans)| !plans.iter().any(own));
         others.map(|(name, _)| name.as_str())
     }
 
-    /// The path of a file that has a plan of that name and is used by a used file only.
+    /// The path of a file that has a plan of that name and is used only indirectly.
     fn home_of_plan(&self, name: &Name) -> Option<String> {
         let is_it = |head: &&PlanHead| head.name.as_ref().is_some_and(|n| n.text == name.text);
         let head = self.program.plans.iter().find(is_it)?;
@@ -243,8 +244,8 @@ impl Context<'_> {
     }
 }
 
-/// Keeps the nearest template of a name, and reports what it hides: a template that is added to another toolbox changes
-/// no plan that has its own.
+/// Keeps the nearest template of a name and reports the hidden ones: a template that is added to
+/// another toolbox changes no plan with its own template.
 fn nearest(found: &mut Vec<Candidate<'_>>, place: (&Name, Span), diags: &mut Diagnostics) {
     let nearest = found.iter().map(|each| each.reach).min();
     let (near, far): (Vec<_>, Vec<_>) = found.iter().partition(|each| Some(each.reach) == nearest);

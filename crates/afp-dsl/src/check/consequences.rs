@@ -1,8 +1,8 @@
-//! What is no mistake of its own: it comes of another one, which is reported.
+//! Removes errors that are consequences of other errors.
 //!
-//! Where text cannot be read, names that stand in it seem to be missing elsewhere. A name that is not there is one
-//! mistake, however often it is used; and where nothing else is called for, it is that of a declaration with a slip in
-//! it.
+//! Names in unreadable text seem to be missing elsewhere. An unknown name is one error, however
+//! often it is used. If something is declared and never used, the unknown name is probably its
+//! misspelling.
 
 use std::collections::hash_map::Entry;
 
@@ -18,7 +18,7 @@ use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// What may only seem to be missing in a plan of which something cannot be read.
+/// Errors that may be consequences in a plan with unreadable text.
 const MISSING: &[Code] = &[
     Code::E0201,
     Code::E0202,
@@ -39,20 +39,21 @@ const MISSING: &[Code] = &[
     Code::E0608,
 ];
 
-/// Names that are not there.
+/// Errors of unknown names.
 const UNKNOWN: &[Code] =
     &[Code::E0201, Code::E0209, Code::E0216, Code::E0238, Code::E0248, Code::E0602];
 
-/// What is said of a whole scenario, which may be that of a line which cannot be read.
+/// Errors of a whole scenario, which may be those of an unreadable line in it.
 const WHOLE: &[Code] = &[Code::E0601, Code::E0605, Code::E0609];
 
-/// So many of the places at which a name is used are shown.
+/// The maximum number of uses of a name that an error shows.
 const MOST_PLACES: usize = 8;
 
-/// So many names that are not there are looked for elsewhere, which takes a look at all elements each time.
+/// The maximum number of unknown names that are searched elsewhere, because each search visits all
+/// elements.
 const MOST_EXPLAINED: usize = 100;
 
-/// Drops and joins what comes of mistakes that are reported.
+/// Removes and joins consequences of reported errors.
 pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut Diagnostics) {
     let is_unread =
         |each: &&Diagnostic| each.code < Code::E0201 && each.severity == Severity::Error;
@@ -82,14 +83,14 @@ pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut D
     });
 }
 
-/// What cannot be read.
+/// The unreadable places.
 struct Unread {
     places: Vec<Span>,
-    /// Those of names that are missing.
+    /// The places of missing names.
     nameless: Vec<Span>,
 }
 
-/// Drops what may come of text that cannot be read at these places.
+/// Removes possible consequences of unreadable text at these places.
 fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
     let items: Vec<Span> =
         files.iter().flat_map(|file| file.tree.items()).filter_map(|it| span(&it)).collect();
@@ -101,26 +102,26 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
     let (enums, tables) = nameless_of_files(files, &nameless);
     let nameless = Ranges::new(plans_around(files, &nameless));
     let broken = Ranges::new(items.iter().copied().filter(|item| unread.any(*item)).collect());
-    // A plan that ends too early has the rest of it behind itself.
+    // If a plan ends too early, its rest follows it.
     let items = Ranges::new(items);
     let outside = all.places.iter().filter(|place| !items.any(**place));
     let mut whole: FxHashSet<u16> = outside.map(|place| place.file).collect();
     whole.extend(files_with_broken_uses(files, &unread));
     let heads = Ranges::new(nameless_heads(files));
-    // What is wrong besides, once the line can be read: one edit does not mend it.
+    // Further errors that remain after the line is readable: one edit does not fix them.
     let mut besides: FxHashSet<(u16, usize)> = FxHashSet::default();
     diags.retain(|each| {
-        // The grammar has said that a name is missing.
+        // The grammar has already reported a missing name.
         if each.code == Code::E0602 && each.span == Span::default() {
             return false;
         }
-        // A unit is read, whatever stands around it.
+        // A unit is read in any surroundings.
         if each.code < Code::E0201 || each.code == Code::E0236 {
             return true;
         }
         let file = each.span.file;
         let beside = by_line.beside(&lines, each.span);
-        // Where nothing but a name is missing, the edges behind it are read.
+        // If only a name is missing, the edges after it are read.
         let are_read = |(_, here): (usize, &[Span])| here.iter().all(|place| heads.any(*place));
         if each.code == Code::E0216 && beside.is_some_and(are_read) {
             return true;
@@ -160,7 +161,7 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
     });
 }
 
-/// The plans with a declaration without its name, which is that of something that seems to be missing.
+/// The plans with a declaration without a name, which may be the missing name.
 fn plans_around(files: &[PlanFile], nameless: &Within) -> Vec<Span> {
     let plans = files.iter().flat_map(|file| file.tree.items()).filter_map(|item| match item {
         Item::Plan(plan) => Some(plan.span()),
@@ -169,7 +170,7 @@ fn plans_around(files: &[PlanFile], nameless: &Within) -> Vec<Span> {
     plans.filter(|plan| nameless.any(*plan)).collect()
 }
 
-/// The files with an enum without its name, and those with such a table.
+/// The files with an enum or a table without a name.
 fn nameless_of_files(files: &[PlanFile], nameless: &Within) -> (FxHashSet<u16>, FxHashSet<u16>) {
     let (mut enums, mut tables) = (FxHashSet::default(), FxHashSet::default());
     for item in files.iter().flat_map(|file| file.tree.items()) {
@@ -183,7 +184,7 @@ fn nameless_of_files(files: &[PlanFile], nameless: &Within) -> (FxHashSet<u16>, 
     (enums, tables)
 }
 
-/// Files with a 'use' that cannot be read: what it would have brought is not known.
+/// Files with an unreadable `use`: its names are unknown.
 fn files_with_broken_uses(files: &[PlanFile], unread: &Within) -> Vec<u16> {
     let uses = files.iter().flat_map(|file| file.tree.items()).filter_map(|item| match item {
         Item::Use(item) => Some(item.span()),
@@ -193,7 +194,7 @@ fn files_with_broken_uses(files: &[PlanFile], unread: &Within) -> Vec<u16> {
     broken.map(|item| item.file).collect()
 }
 
-/// Where an item stands that has its own mistakes.
+/// The spans of items with errors of their own.
 fn span(item: &Item) -> Option<Span> {
     Some(match item {
         Item::Use(item) => item.span(),
@@ -234,7 +235,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .filter(|it| !it.is_empty())
 }
 
-/// Joins what is said of one unknown name of one plan: in the plan, and in the scenarios for it.
+/// Joins the errors about one unknown name of one plan, in the plan and in its scenarios.
 fn join(program: &Program<'_>, diags: &mut Diagnostics) {
     let plans: Vec<Span> = program.plans.iter().map(|head| head.node.span()).collect();
     let around = |span: Span| plans.iter().position(|plan| plan.contains(span));
@@ -242,7 +243,7 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
     let mut joined: Vec<(Diagnostic, Vec<Span>)> = Vec::new();
     let mut last: FxHashMap<usize, FxHashMap<&str, usize>> = FxHashMap::default();
     let mut all: Vec<_> = diags.iter().filter(|it| UNKNOWN.contains(&it.code)).cloned().collect();
-    // What is wrong in a plan comes before what scenarios say of it.
+    // Errors of a plan come before those of its scenarios.
     all.sort_by_cached_key(|each| (around(each.span).is_none(), each.span));
     for each in all {
         match first.entry(Once::new(program, &each, around(each.span))) {
@@ -265,11 +266,11 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
         let slip = head.and_then(|head| {
             let last = last.entry(head.file).or_insert_with(|| last_places(program, head.file));
             let end = head.node.span().end as usize;
-            // Scenarios may use names of the plan, and are not read while it is wrong.
+            // Scenarios may use names of the plan, and are not read while the plan has errors.
             let is_behind = |name: &str| last.get(name).is_some_and(|index| *index >= end);
             let text = program.files.get(head.file)?.text;
             let used = text.get(error.span.start as usize..error.span.end as usize)?;
-            // The search for a slip looks at all elements.
+            // The search for a misspelling visits all elements.
             if others.is_empty() && !is_behind(used) {
                 return None;
             }
@@ -284,12 +285,12 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// What is said once, however often it is wrong.
+/// The identity of an error that is reported only once.
 #[derive(PartialEq, Eq, Hash)]
 enum Once {
-    /// A name that nothing has: what it would be, and in which plan.
+    /// An unknown name: its kind and its plan.
     Name(Sought, Option<usize>, String),
-    /// Something else, at its place.
+    /// Another error, at its place.
     Place(Code, Span, Message),
 }
 
@@ -305,7 +306,7 @@ impl Once {
     }
 }
 
-/// Drops what scenarios say of elements whose own edges are wrong.
+/// Removes errors of scenarios about elements with wrong edges.
 fn hold_back_edges(program: &Program<'_>, diags: &mut Diagnostics) {
     const EDGES: &[Code] = &[Code::E0210, Code::E0211, Code::E0216, Code::E0226];
     let wrong = diags.iter().filter(|each| EDGES.contains(&each.code)).map(|each| each.span);
@@ -319,7 +320,7 @@ fn hold_back_edges(program: &Program<'_>, diags: &mut Diagnostics) {
     let names = |all: Vec<&Element>| -> FxHashSet<String> {
         all.into_iter().filter_map(|element| Some(element.name()?.text)).collect()
     };
-    // Elements of several plans may have one name.
+    // Elements of several plans may have the same name.
     let (mut names, right) = (names(wrong), names(right));
     names.retain(|name| !right.contains(name));
     diags.retain(|each| {
@@ -328,16 +329,16 @@ fn hold_back_edges(program: &Program<'_>, diags: &mut Diagnostics) {
     });
 }
 
-/// Where each word of a file stands last.
+/// The last place of each word of a file.
 fn last_places<'a>(program: &Program<'a>, file: usize) -> FxHashMap<&'a str, usize> {
     let text = program.files.get(file).map_or("", |file| file.text);
     let place = |word: &str| word.as_ptr().addr() - text.as_ptr().addr();
     words(text).map(|word| (word, place(word))).collect()
 }
 
-/// The name that is declared, used nowhere, and differs by a slip from a name that is used but unknown.
+/// The only declared and unused name that is a misspelling of a used and unknown name.
 fn slip(head: &PlanHead, code: Code, used: &str) -> Option<Name> {
-    // One letter is like any other; and what is a unit is more likely meant for that.
+    // All single letters are similar, and a unit is more likely a unit.
     if used.chars().count() < 2 || Unit::parse(used).is_some() {
         return None;
     }
@@ -351,7 +352,7 @@ fn slip(head: &PlanHead, code: Code, used: &str) -> Option<Name> {
     declared.iter().find(|name| name.text == meant).filter(|_| !is_used).cloned()
 }
 
-/// Says it where the name is declared.
+/// Reports the misspelling at the declaration.
 fn at_declaration(error: &Diagnostic, others: &[Span], name: &Name, meant: &str) -> Diagnostic {
     let message =
         message!("nothing uses '{}', and '{}', which is used, is not there", name.text, meant);
@@ -360,7 +361,7 @@ fn at_declaration(error: &Diagnostic, others: &[Span], name: &Name, meant: &str)
     places.fold(said, |said, place| said.note(*place, message!("'{}' is used here", meant)))
 }
 
-/// Says it where the name is used first. One edit does not mend several places.
+/// Reports it at the first use. One edit does not fix several places.
 fn also_at(mut error: Diagnostic, others: &[Span]) -> Diagnostic {
     if !others.is_empty() {
         error.fix = None;

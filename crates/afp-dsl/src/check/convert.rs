@@ -1,4 +1,4 @@
-//! Which types become which, and with what warning.
+//! Conversions between types, and their warnings.
 
 mod unit;
 
@@ -13,8 +13,8 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
-/// How a value of type `from` becomes one of type `to`: `Ok(None)` without doing anything, `Err`
-/// not at all.
+/// The conversion of a value of type `from` to type `to`: `Ok(None)` if none is needed, `Err` if
+/// there is none.
 pub(crate) fn conversion(from: &Type, to: &Type) -> Result<Option<Conversion>, ()> {
     if from == to {
         return Ok(None);
@@ -33,7 +33,8 @@ pub(crate) fn conversion(from: &Type, to: &Type) -> Result<Option<Conversion>, (
     }))
 }
 
-/// The type that the right side of a comparison becomes: that of the left one, but a float stays one beside an int, since it
+/// The target type of the right side of a comparison: that of the left side. A float next to an int
+/// stays a float, because a conversion would change the result.
 /// would lose what it is compared for.
 pub(crate) fn compared_as(left: &Type, right: &Type) -> Type {
     match (left, right) {
@@ -42,9 +43,10 @@ pub(crate) fn compared_as(left: &Type, right: &Type) -> Type {
     }
 }
 
-/// The formula as one of type `want`; reports what cannot be converted and what deserves a word.
+/// The formula as a value of type `want`; reports errors and warnings of the conversion.
 ///
-/// `text` is the formula as written, `range` has the least and the greatest value that fit, in SI units.
+/// `text` is the source of the formula. `range` has the least and the greatest allowed value, in SI
+/// units.
 pub(crate) fn coerce(
     formula: Formula,
     want: &Type,
@@ -66,7 +68,7 @@ pub(crate) fn coerce(
     }
 }
 
-/// Says that a conversion changes the value or may fail.
+/// Warns of a conversion that changes the value or may fail.
 pub(crate) fn remark(conversion: &Conversion, span: Span, diags: &mut Diagnostics) {
     let diagnostic = match conversion {
         Conversion::IntToFloat => return,
@@ -101,7 +103,7 @@ pub(crate) fn remark(conversion: &Conversion, span: Span, diags: &mut Diagnostic
     diags.push(diagnostic);
 }
 
-/// A quantity that fits: one of its usual unit, or the end of the range that is nearer to that.
+/// A fitting quantity: one of its usual unit, or the nearer end of the range.
 fn example(ty: &Type, range: Option<(f64, f64)>) -> String {
     let Type::Quantity(dimension) = ty else { return String::new() };
     let one = format!("1 {}", dimension.usual_unit());
@@ -152,7 +154,7 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
         }
         (Type::Quantity(found), Type::Quantity(dimension)) => {
             let error = Diagnostic::new(Code::E0204, span, expected);
-            // Elsewhere an angle has no dimension.
+            // In other systems an angle has no dimension.
             let sign = match found.over(*dimension) {
                 Some(Dimension { angle: 1, .. }) if same_but_angle(*found, *dimension) => Some('/'),
                 Some(Dimension { angle: -1, .. }) if same_but_angle(*found, *dimension) => {
@@ -189,7 +191,7 @@ fn one_type(found: &Type, want: &Type) -> Message {
     }
 }
 
-/// The text, in brackets where an operation behind it would bind tighter.
+/// The text, in parentheses if a following operation would bind tighter.
 fn bracketed(formula: &Formula, text: &str) -> String {
     use crate::graph::Operator::{Add, Sub};
     let inner = match formula.op() {
@@ -200,12 +202,12 @@ fn bracketed(formula: &Formula, text: &str) -> String {
     if loose && !text.starts_with('(') { format!("({text})") } else { text.to_owned() }
 }
 
-/// Whether two dimensions differ in their angles alone.
+/// Whether two dimensions differ only in their angles.
 fn same_but_angle(left: Dimension, right: Dimension) -> bool {
     Dimension { angle: 0, ..left } == Dimension { angle: 0, ..right }
 }
 
-/// The number of a quantity that is written as one.
+/// The number of a literal quantity.
 fn without_unit(text: &str) -> Option<&str> {
     let (number, unit) = text.split_at_checked(afp_types::number_length(text))?;
     Unit::parse(unit.trim_start()).filter(|_| !number.is_empty()).map(|_| number)

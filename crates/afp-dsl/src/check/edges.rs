@@ -1,4 +1,4 @@
-//! Where states and events lead: every one of them is connected, once, to something that is there.
+//! Targets of states and events: each is connected once, to an existing element or a keyword.
 
 mod written_edge;
 
@@ -27,7 +27,7 @@ pub(crate) use written_edge::{WrittenEdge, name};
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";
 const TERMINATE: &str = "terminate";
-/// Where an edge leads that ends its plan because it failed.
+/// The target of a failed component without an `Error` edge.
 const FAIL: &str = "fail";
 /// The edge of a supervisor that was polled too late.
 pub(crate) const DEADLINE_MISSED: &str = "DeadlineMissed";
@@ -45,7 +45,7 @@ pub(crate) struct Connected {
 pub(crate) struct Origin<'a> {
     pub signature: &'a Signature,
     pub name: Option<&'a Name>,
-    /// Where it stands, for what is missing.
+    /// The span for errors about missing edges.
     pub span: Span,
     /// Whether the text has syntax errors here.
     pub broken: bool,
@@ -53,7 +53,7 @@ pub(crate) struct Origin<'a> {
 }
 
 impl Origin<'_> {
-    /// What it has beside its states or events in any case.
+    /// Its built-in edge, in addition to states or events.
     fn extra(&self) -> &'static str {
         if self.supervisor { DEADLINE_MISSED } else { ERROR }
     }
@@ -68,10 +68,10 @@ impl Origin<'_> {
     }
 }
 
-/// Why a plan fails whose `fail` says nothing.
+/// The reason of a `fail` without a text.
 const NO_REASON: &str = "the plan failed";
 
-/// What edges can lead to: the elements of a plan by name, and the reasons behind `fail`.
+/// The targets of edges: the elements of a plan by name, and the reasons after `fail`.
 pub(crate) struct Elements<'a> {
     names: Vec<Option<Name>>,
     indices: Indices,
@@ -79,7 +79,7 @@ pub(crate) struct Elements<'a> {
     record: &'a Recorder,
 }
 
-/// The texts behind `fail`, each once, and where which one stands.
+/// The texts after `fail`, each once, with its index.
 #[derive(Default)]
 struct Reasons {
     list: Vec<String>,
@@ -100,19 +100,19 @@ impl Reasons {
 }
 
 impl<'a> Elements<'a> {
-    /// Takes the names of a plan's elements by index.
+    /// Takes the names of a plan's elements, by index.
     pub fn new(names: Vec<Option<Name>>, record: &'a Recorder) -> Elements<'a> {
         let texts = names.iter().map(|name| name.as_ref().map(|name| name.text.as_str()));
         let reasons = RefCell::default();
         Elements { indices: Indices::of(texts), names, reasons, record }
     }
 
-    /// The reasons met so far, each once.
+    /// The reasons so far, each once.
     pub fn reasons(&self) -> Vec<String> {
         self.reasons.borrow().list.clone()
     }
 
-    /// The number of the text behind `fail`; reports one that cannot be a reason.
+    /// The index of the text after `fail`. Reports a text that cannot be a reason.
     fn reason(&self, text: Option<&Name>, diags: &mut Diagnostics) -> Option<ReasonId> {
         let reason = text.map_or(NO_REASON.to_owned(), |text| unquote(text, diags));
         if let Some(Name { span, .. }) = text.filter(|_| reason.is_empty()) {
@@ -127,7 +127,7 @@ impl<'a> Elements<'a> {
             return None;
         }
         let index = self.reasons.borrow_mut().index_of(reason);
-        // More than fit are reported with the plan's other tables.
+        // Too many reasons are reported with the plan's other tables.
         Some(ReasonId(u16::try_from(index).unwrap_or(u16::MAX)))
     }
 
@@ -147,13 +147,13 @@ impl<'a> Elements<'a> {
         true
     }
 
-    /// The names that are there, as written.
+    /// The names of the elements, in source order.
     pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.names.iter().flatten().map(|name| name.text.as_str())
     }
 }
 
-/// Checks the edges of one component; `elements` are those of the plan.
+/// Checks the edges of one component; `elements` are the elements of the plan.
 pub(crate) fn check(
     origin: &Origin<'_>,
     edges: &[WrittenEdge],
@@ -167,7 +167,7 @@ pub(crate) fn check(
     connected
 }
 
-/// Checks the edges that are written, tells which outcomes they are for, and how many are for none.
+/// Checks the edges of the source. Returns their outcomes, and the number of edges without one.
 pub(super) fn connect<'e>(
     origin: &Origin<'_>,
     edges: &'e [WrittenEdge],
@@ -181,7 +181,7 @@ pub(super) fn connect<'e>(
     let mut seen: Vec<&Name> = Vec::new();
     let mut unknown = 0;
     let extra = origin.extra();
-    // Computed once, since a text may have very many unknown names.
+    // Computed once, because a text may have many unknown names.
     let missing = LazyCell::new(|| without_edge(signature, edges));
     for edge in edges {
         let name = &edge.name;
@@ -256,12 +256,12 @@ pub(crate) fn names_only(
     }
 }
 
-/// Finds out where an edge leads that does not count.
+/// Resolves the target of an invalid edge.
 fn leads_to(edge: &WrittenEdge, origin: &Origin<'_>, elements: &Elements<'_>) {
     target(edge, origin, elements, &mut Diagnostics::default());
 }
 
-/// Says which state or event an edge is for.
+/// Resolves the state or event of an edge.
 fn outcome(origin: &Origin<'_>, index: Option<usize>, name: &Name, record: &Recorder) {
     let known = index.is_some() || name.text == origin.extra();
     match (index.and_then(|index| origin.signature.outcome_span(index)), word(&name.text)) {
@@ -271,7 +271,7 @@ fn outcome(origin: &Origin<'_>, index: Option<usize>, name: &Name, record: &Reco
     }
 }
 
-/// The states and events that no template declares.
+/// The states and events that need no declaration.
 pub(crate) fn word(name: &str) -> Option<Word> {
     Some(match name {
         "OK" => Word::Ok,
@@ -282,7 +282,7 @@ pub(crate) fn word(name: &str) -> Option<Word> {
     })
 }
 
-/// The error for a name that no state or event has, and the number of them that it may stand for.
+/// The error for an unknown state or event, and the number of outcomes that it may stand for.
 fn unknown_outcome(origin: &Origin<'_>, missing: &[&str], name: &Name) -> (Diagnostic, usize) {
     if is_rest(&name.text) {
         let message =
@@ -293,12 +293,12 @@ fn unknown_outcome(origin: &Origin<'_>, missing: &[&str], name: &Name) -> (Diagn
             many => (error.write(missing.join(", ")), many),
         };
     }
-    // 'OK' of an actor is meant for its state.
+    // 'OK' of an actor probably means its state.
     let added = matches!(name.text.as_str(), ERROR | DEADLINE_MISSED);
     (of_no_outcome(origin, name), usize::from(!added))
 }
 
-/// Whether other languages have the word for all states that have no edge of their own.
+/// Whether the word means all remaining states in other languages.
 fn is_rest(name: &str) -> bool {
     matches!(name, "else" | "otherwise" | "default" | "any" | "sonst" | "sinon" | "_")
 }
@@ -358,7 +358,7 @@ fn target(
     find(to, leads, elements, diags).map(Target::Element)
 }
 
-/// Notes that a fault's own reason is lost.
+/// Reports that the reason of a fault is lost.
 fn hides_reason(edge: &WrittenEdge, diags: &mut Diagnostics) {
     if edge.name.text == ERROR && edge.reason.is_none() {
         diags.push(
@@ -368,7 +368,7 @@ fn hides_reason(edge: &WrittenEdge, diags: &mut Diagnostics) {
     }
 }
 
-/// The element of that name; reports when there is none. Edges may lead to words instead.
+/// The element of that name; reports an unknown one. An edge may lead to a keyword instead.
 pub(crate) fn find(
     to: &Name,
     leads: Leads,
@@ -384,7 +384,7 @@ pub(crate) fn find(
         let message = message!("the plan has no element '{}'", to.text);
         let error = Diagnostic::new(Code::E0216, to.span, message);
         let error = error.unknown(Sought::Element, &to.text);
-        // None can be called like a word.
+        // No element can have the name of a keyword.
         let none = match is_word(&to.text) {
             true => "add an element, and name that",
             false => "add an element of that name",
@@ -406,7 +406,7 @@ pub(crate) fn find(
     u16::try_from(index).ok().map(ElementId)
 }
 
-/// Reports what is not connected; each unknown one stands for one of those.
+/// Reports unconnected outcomes; each unknown name stands for one of them.
 fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &mut Diagnostics) {
     let signature = origin.signature;
     let is_plan = matches!(signature.kind, SignatureKind::Plan(_));
@@ -432,7 +432,7 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
             Words(either)
         )));
     }
-    // An unknown one may be meant for it.
+    // An unknown name may mean this outcome.
     let named = unknown > 0 || seen.iter().any(|name| name.text == "Interrupted");
     let interrupted = is_plan && !named;
     if let Some(edge) = signature.interrupting.filter(|_| interrupted) {

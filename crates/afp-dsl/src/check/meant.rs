@@ -1,4 +1,4 @@
-//! What a name that is not there may have been meant for: an element, a part of a unit.
+//! Likely meanings of unknown names: an element, a part of a unit.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
-/// Says of a name that is not there what else it is, if it is something.
+/// Explains an unknown name that has a meaning of another kind.
 pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnostic) -> Diagnostic {
     let head = plan.and_then(|index| program.plans.get(index));
     let Some(text) = head.and_then(|head| program.files.get(head.file)).map(|file| file.text)
@@ -70,7 +70,7 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     Some(said.help(help).fix(place, whole))
 }
 
-/// `d / cm`: a unit without its number.
+/// `d / cm`: a unit without a number.
 fn unit_alone(text: &str, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let is_factor = text[..error.span.start as usize].trim_end().ends_with(['/', '*']);
     let unit = Unit::parse(name).filter(|_| name.len() > 1 || is_factor)?;
@@ -79,7 +79,7 @@ fn unit_alone(text: &str, name: &str, error: &Diagnostic) -> Option<Diagnostic> 
     (!unit.celsius).then(|| error.bare().help(help).replace(better))
 }
 
-/// `leg.driven`, `Main.far`: a point before the entry of an element or of another plan.
+/// `leg.driven`, `Main.far`: a dot before the entry of an element or of another plan.
 fn path(
     program: &Program<'_>,
     head: &PlanHead,
@@ -124,7 +124,7 @@ fn path(
     Some(said.help(help))
 }
 
-/// `on TouchSensorPressed -> back`: an event of a supervisor behind a word.
+/// `on TouchSensorPressed -> back`: an event of a supervisor after a word.
 fn behind_word(
     program: &Program<'_>,
     head: &PlanHead,
@@ -144,7 +144,7 @@ fn behind_word(
     Some(said.replace(fix.text))
 }
 
-/// `Forward(30 cm)`: a value without its port, which its place may tell.
+/// `Forward(30 cm)`: a value without its port, which its position may show.
 fn value(program: &Program<'_>, text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let (before, behind) = text.split_at_checked(error.span.start as usize)?;
     if behind.starts_with('(') {
@@ -218,7 +218,7 @@ fn event(
     Some(said.help(message!("write '{}'", better)).fix(whole, better))
 }
 
-/// An element is no entry.
+/// An element in the place of an entry.
 fn entry(head: &PlanHead, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let elements = head.node.elements();
     let element = elements.iter().filter_map(|it| it.name()).find(|it| it.text == name)?;
@@ -248,7 +248,7 @@ fn element(
     Some(said.note(place, message!("'{}' is an element of '{}'", name, other)).help(help))
 }
 
-/// The error for a target that is a name of something else than an element.
+/// The error for a target that is not an element.
 fn no_element(
     program: &Program<'_>,
     head: &PlanHead,
@@ -276,7 +276,7 @@ fn no_element(
     Some(said.help(help))
 }
 
-/// What help on too many values says of the first two that may be one number with a decimal comma.
+/// The help for two values that may be one number with a decimal comma.
 pub(super) fn decimal_comma<'a>(
     values: impl Iterator<Item = &'a ast::Formula> + Clone,
 ) -> Option<Message> {

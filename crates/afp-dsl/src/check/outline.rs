@@ -1,4 +1,4 @@
-//! Reads the outline from the trees, with what the check has found out about names and types.
+//! Builds the outline from the trees and the results of the check.
 
 use std::mem::take;
 
@@ -16,19 +16,19 @@ use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 use rustc_hash::FxHashMap;
 
-/// What the outline is made of.
+/// The input of the outline.
 pub(crate) struct Material<'a> {
-    /// Everything that was read.
+    /// The syntax trees.
     pub program: &'a Program<'a>,
     pub files: &'a [PlanFile],
     /// The components of each plan.
     pub members: Vec<Members>,
     pub meanings: &'a Meanings,
-    /// The plan that was asked for.
+    /// The requested plan.
     pub main: Option<usize>,
 }
 
-/// Reads the outline of all files.
+/// Builds the outline of all files.
 pub(crate) fn build(mut material: Material<'_>) -> Outline {
     let mut members = take(&mut material.members).into_iter();
     let material = &material;
@@ -40,7 +40,7 @@ pub(crate) fn build(mut material: Material<'_>) -> Outline {
         outline.files.push(self::file(material, at, file, &names));
         let heads = || material.program.plans.iter().filter(|head| head.file == at);
         let items = numbered(heads().map(|head| head.name.as_ref()));
-        // Plans stand file by file.
+        // Plans are ordered by file.
         for ((head, item), members) in heads().zip(items).zip(members.by_ref()) {
             outline.plans.push(plan(material, head, members, item));
         }
@@ -171,7 +171,7 @@ fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String
     }
 }
 
-/// Says paths and meanings of an element, its supervisors and reactions.
+/// Sets the paths and meanings of an element, its supervisors and reactions.
 fn settle(places: &Places<'_>, element: &mut Component, plan: &str, own: String) {
     for (each, name) in items(&mut element.supervisors) {
         places.settle(each, Item::local(plan, &own, name));
@@ -189,7 +189,7 @@ fn items(all: &mut [Component]) -> impl Iterator<Item = (&mut Component, String)
     all.iter_mut().zip(items)
 }
 
-/// The names of components, each with where it begins.
+/// The names of components, each with its first byte.
 fn named(components: &[Component]) -> Vec<(Option<&Name>, u32)> {
     components.iter().map(|each| (each.name.as_ref(), each.span.start)).collect()
 }
@@ -230,19 +230,19 @@ fn entry(
     }
 }
 
-/// What names mean inside of one plan.
+/// The meanings of names inside a plan.
 struct Places<'a> {
     /// The text of the file.
     text: &'a str,
     meanings: Lookup<'a>,
-    /// The names of elements, in order, with their places.
+    /// The names of elements, in order, with their spans.
     elements: Vec<(Span, usize)>,
-    /// The names of entries, in order, with their places.
+    /// The names of entries, in order, with their spans.
     entries: Vec<(Span, usize)>,
 }
 
 impl Places<'_> {
-    /// Says the path of a component, and what the names in it mean.
+    /// Sets the path of a component and the meanings of the names in it.
     fn settle(&self, component: &mut Component, item: Item) {
         component.item = item;
         let inputs = component.inputs.iter_mut().filter_map(|input| input.binding.as_mut());
@@ -262,7 +262,7 @@ impl Places<'_> {
         }
     }
 
-    /// Where an edge or `start` leads.
+    /// The target of an edge or of `start`.
     fn leads_to(&self, target: &Target) -> Destination {
         match self.meanings.get(target.name_span()) {
             Some(Found::Word(Word::Terminate)) => Destination::Terminate,
@@ -307,7 +307,7 @@ fn find(known: &[(Span, usize)], span: Span) -> Option<usize> {
     Some(known[index].1)
 }
 
-/// The names of items of one scope in their paths: the second of a name has `#2` behind it.
+/// The names of items of one scope in paths: the second item of a name has the suffix `#2`.
 fn numbered<'n>(names: impl Iterator<Item = Option<&'n Name>>) -> impl Iterator<Item = String> {
     let mut seen: FxHashMap<&str, u32> = FxHashMap::default();
     names.map(move |name| path_name(name, &mut seen))
@@ -323,8 +323,8 @@ fn path_name<'n>(name: Option<&'n Name>, seen: &mut FxHashMap<&'n str, u32>) -> 
     }
 }
 
-/// The names of entries, global supervisors and elements, which share one scope, in their paths.
-/// Each comes with where it begins.
+/// The names of entries, global supervisors and elements, which share one scope, in paths. Each has
+/// its first byte.
 fn inner_items(names: &[Vec<(Option<&Name>, u32)>; 3]) -> [Vec<String>; 3] {
     let mut order: Vec<(u32, usize, usize)> = Vec::new();
     for (list, names) in names.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A graph as text, for tests and for people who look into the compiler.
+//! A graph as text, for tests and for work on the compiler.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use crate::types::text::{self, duration};
 use crate::types::{Conversion, Type};
 
 impl Graph {
-    /// Everything that the graph holds, line by line, sub-plans first. The format may change.
+    /// The whole graph, line by line, sub-plans first. The format may change.
     pub fn dump(&self) -> String {
         let mut text = String::new();
         for (index, plan) in self.plans.iter().enumerate() {
@@ -197,7 +197,7 @@ impl Dump<'_> {
         match formula.op() {
             Op::Bool(value) => value.to_string(),
             Op::Int(value) => value.to_string(),
-            // With a point, so that floats and ints can be told apart.
+            // With a decimal point, to distinguish floats from ints.
             Op::Float(value) => format!("{value:?}"),
             Op::Text(text) => format!("{text:?}"),
             Op::Choice(index) => match &formula.ty {

@@ -1,4 +1,4 @@
-//! The type that `any` or `number` stands for in one instance.
+//! The type of `any` or `number` in an instance.
 
 use crate::check::bindings::Ports;
 use crate::check::formula::Scope;
@@ -11,12 +11,12 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// What stands for `any` or `number` in one instance.
+/// The meaning of `any` or `number` in an instance.
 pub(super) enum Generic {
     /// The template has no such port.
     None,
     Is(Type),
-    /// Something is wrong, and reported.
+    /// There is an error, which has been reported.
     Unknown,
     /// No port is bound.
     Undecided,
@@ -26,7 +26,7 @@ fn is_generic(ty: Option<&Type>) -> bool {
     ty.is_some_and(Type::is_generic)
 }
 
-/// Decides the type of the instance from its inputs, else from its outputs.
+/// Decides the type of the instance by its inputs, or else by its outputs.
 pub(super) fn decide(
     scope: &Scope<'_>,
     signature: &Signature,
@@ -48,7 +48,7 @@ pub(super) fn decide(
     };
     let Ok(decided) = decided else { return Generic::Unknown };
     let Some((ty, span)) = decided else {
-        // An input without a value is reported as such.
+        // An input without a value has its own error.
         return if has_inputs || !ports.complete { Generic::Unknown } else { Generic::Undecided };
     };
     let carries = signature.outputs.iter().any(|output| is_generic(output.ty.as_ref()));
@@ -61,7 +61,7 @@ pub(super) fn decide(
         (Type::Discrete, Type::Quantity(_)) => {
             "measures are hardly ever equal: use 'Compare' of 'std'"
         }
-        // What comes out must be what went in at the same instant.
+        // An output has the value that was read at the same instant.
         (Type::Any, Type::Object(_)) if !carries || is_computation => return Generic::Is(ty),
         (Type::Any, Type::Object(_)) => "copy it with 'Assign' of 'std'",
         (_, Type::Object(_)) => "only the templates of its toolbox look into an object",
@@ -72,7 +72,7 @@ pub(super) fn decide(
     Generic::Unknown
 }
 
-/// The type that the inputs have, and where; an error where one of them is wrong.
+/// The type of the inputs, and its place; an error if an input is wrong.
 fn by_inputs(
     signature: &Signature,
     inferred: &[Option<Option<Formula>>],
@@ -92,7 +92,7 @@ fn by_inputs(
     Ok(decided)
 }
 
-/// The same of the outputs: the type of the first entry that takes one.
+/// The type of the outputs: that of the first entry.
 fn by_outputs(
     scope: &Scope<'_>,
     signature: &Signature,

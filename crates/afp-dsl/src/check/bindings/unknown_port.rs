@@ -23,7 +23,7 @@ fn time_limit(value: &str) -> Message {
     )
 }
 
-/// What is said of a binding, one of several, whose name is no port.
+/// The message about a binding with an unknown port, one of several.
 pub(super) fn report(
     scope: &Scope<'_>,
     signature: &Signature,

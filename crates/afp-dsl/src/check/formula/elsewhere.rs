@@ -1,4 +1,4 @@
-//! Names in formulas that nothing is called, and what other languages mean by them.
+//! Unknown names in formulas, and their meanings in other languages.
 
 use super::Scope;
 use crate::check::names::{offer, unknown};
@@ -22,7 +22,7 @@ const OWN: &[&str] = &[
     "vars",
 ];
 
-/// What is said of a name that other languages have for a value.
+/// The message about a name that is a value in other languages.
 fn elsewhere(error: &Diagnostic, name: &str) -> Option<Diagnostic> {
     let error = error.clone();
     Some(match name {
@@ -38,7 +38,7 @@ fn elsewhere(error: &Diagnostic, name: &str) -> Option<Diagnostic> {
     })
 }
 
-/// Reports a name before a point that no enum has.
+/// Reports a name before a dot that is not an enum.
 pub(super) fn unknown_enum(
     scope: &Scope<'_>,
     home: &ast::Name,
@@ -76,18 +76,18 @@ pub(super) fn unknown_enum(
     offer(error, &home.text, known, none)
 }
 
-/// Says where random numbers come from.
+/// Names the source of random numbers.
 pub(super) fn random(error: Diagnostic) -> Diagnostic {
     error.elsewhere("draw the number with the computation 'Random' of 'std'")
 }
 
-/// The error of a name that no entry has, without its help.
+/// The error of an unknown entry, without its help.
 pub(super) fn no_entry(name: &ast::Name) -> Diagnostic {
     let message = message!("there is no entry '{}'", name.text);
     Diagnostic::new(Code::E0209, name.span, message).unknown(Sought::Entry, &name.text)
 }
 
-/// Reports a name that no entry has.
+/// Reports an unknown entry.
 pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
     if let Some(table) = scope.table(name) {
         let message = message!("'{}' is a table, not a value", name.text);
@@ -112,7 +112,7 @@ pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
     {
         return error;
     }
-    // Toolboxes have no entries; only there are generic types.
+    // Only toolboxes have generic types, and they have no entries.
     let none = match scope.entries {
         _ if scope.types.generic => "write a value",
         [] if !scope.unreadable.is_empty() => scope.unreadable,

@@ -124,14 +124,14 @@ pub(super) struct Site<'a> {
     pub types: &'a Types,
     /// The text of its file.
     pub source: &'a str,
-    /// What is found out about names.
+    /// The index of the names.
     pub record: &'a Recorder,
     /// The devices of the toolbox.
     pub devices: &'a [Device],
 }
 
 impl Site<'_> {
-    /// Finds out what the names in an input mean of which nothing else can be said.
+    /// Records the names of an input that has errors.
     fn names_only(&self, node: &ast::InPort) {
         if let Some(ty) = node.ty() {
             self.types.resolve(&ty, self.record, &mut Diagnostics::default());
@@ -139,7 +139,7 @@ impl Site<'_> {
         self.values_only(node.default().into_iter().chain(node.ends()));
     }
 
-    /// Finds out what the names in values mean of whose type nothing is known.
+    /// Records the names in values of unknown type.
     pub fn values_only(&self, values: impl Iterator<Item = Formula>) {
         for formula in values {
             self.formula(&formula, None, &mut Diagnostics::default());
@@ -166,16 +166,16 @@ impl Site<'_> {
     }
 }
 
-/// What is declared with values.
+/// A declaration with values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Declared {
     /// A port of a template.
     Port,
-    /// How much there is of a fault.
+    /// The amount of a fault.
     Amount,
 }
 
-/// Values that stand in the declaration of one port or amount.
+/// The values in the declaration of a port or an amount.
 pub(super) struct Values<'a> {
     pub site: &'a Site<'a>,
     pub ty: &'a Type,
@@ -218,7 +218,7 @@ impl Values<'_> {
         Some(value)
     }
 
-    /// Least and greatest value; of a range that is half written the names are read.
+    /// The least and the greatest value. The names of an incomplete range are recorded, too.
     pub fn range(
         &self,
         written: Option<range::Written>,

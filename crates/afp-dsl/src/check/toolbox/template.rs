@@ -1,4 +1,4 @@
-//! One template: its parts, each where it belongs and as often as it may stand.
+//! One template: its parts, their places and their numbers.
 
 use crate::check::names::{DeclaredNames, unknown};
 use crate::check::toolbox::cases;
@@ -83,7 +83,7 @@ fn without_parts(node: &ast::Template, name: Name) -> Template {
     }
 }
 
-/// The parts that may stand once, with the place of the first.
+/// The parts that may occur once, with the span of the first.
 #[derive(Default)]
 struct Seen {
     first: Vec<(String, Span)>,
@@ -122,7 +122,7 @@ fn uses(resource: Option<&Name>, span: Span, template: &mut Template, diags: &mu
     }
 }
 
-/// Says what `uses` names: a device of the toolbox, or what other toolboxes command, too.
+/// Resolves `uses`: a device of the toolbox, or a resource that other toolboxes also use.
 fn names_device(resource: &Name, site: &Site<'_>, diags: &mut Diagnostics) {
     let known = site.devices.iter().find(|device| device.name == resource.text);
     if let Some(device) = known {
@@ -163,7 +163,7 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
     }
 }
 
-/// What is said of a name that edges have which need no declaration.
+/// The message about a built-in name of edges that is declared.
 fn reserved(name: &Name, kind: TemplateKind) -> Diagnostic {
     let own = match kind {
         TemplateKind::Supervisor => "DeadlineMissed",
@@ -181,7 +181,7 @@ fn reserved(name: &Name, kind: TemplateKind) -> Diagnostic {
         .help(help)
 }
 
-/// States that are the values of whatever enum is bound to a port.
+/// States that are the values of the enum bound to a port.
 fn states_of(
     port: Option<&Name>,
     span: Span,
@@ -285,7 +285,7 @@ fn too_large(template: &Template, diags: &mut Diagnostics) {
 
 fn deadline(parts: &[Part], template: &Template, diags: &mut Diagnostics) {
     let Some(deadline) = template.deadline else { return };
-    // A period that is written and wrong has been reported.
+    // An invalid period has already been reported.
     let written = |word: &str| {
         parts.iter().find_map(|part| match part {
             Part::Timing(time) if time.keyword().is_some_and(|known| known.text == word) => {
@@ -316,7 +316,7 @@ fn without_outcomes(node: &ast::Template, template: &Template, diags: &mut Diagn
     diags.push(Diagnostic::new(Code::E0512, template.span, message).help(help));
 }
 
-/// An actor without a state lasts until an event ends it, so that it never writes anything.
+/// An actor without a state ends only by an event, so it never writes its outputs.
 fn lasting(template: &Template, diags: &mut Diagnostics) {
     for port in &template.outputs {
         let message = message!("'{}' has no state, so nothing ever writes it", template.name);
