@@ -1,4 +1,5 @@
-//! The native half of the Python package as wheels have it: the Carbot, and the way to the extensions of projects.
+//! The native half of the Python package in wheels: the Carbot, and access to the extensions of
+//! projects.
 
 use std::path::{Path, PathBuf};
 
@@ -16,8 +17,8 @@ fn _afp(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(pyo3::wrap_pyfunction!(extension, module)?)
 }
 
-/// The extension with the robot and the toolboxes of the project in a folder, built if need be; `None` where the project
-/// has nothing of its own.
+/// The extension with the robot and the toolboxes of the project in a folder, built on demand;
+/// `None` if the project has neither.
 #[pyfunction]
 #[pyo3(crate = "afp_py::pyo3")]
 fn extension(py: Python<'_>, folder: PathBuf) -> PyResult<Option<PathBuf>> {

@@ -226,7 +226,7 @@ impl Diagnostic {
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    /// The places of errors; each item searches its own.
+    /// The spans of errors; each item searches its own span.
     errors: BTreeSet<Span>,
     /// The places of syntax errors.
     unread: BTreeSet<Span>,
@@ -234,10 +234,10 @@ pub struct Diagnostics {
     counted: Vec<(Span, Code)>,
 }
 
-/// A text with so many errors is wrong throughout: the meaning of the rest is not searched.
+/// A text with this many errors is invalid throughout: no meanings are searched for the rest.
 const MOST_EXPLAINED: usize = 500;
 
-/// So many diagnostics are kept; of errors beyond them only the number and the places.
+/// The maximum number of diagnostics. Further errors only have a number and spans.
 const MOST_KEPT: usize = 10_000;
 
 impl Diagnostics {
@@ -298,12 +298,12 @@ impl Diagnostics {
         self.list.is_empty()
     }
 
-    /// How many there are, with errors that are only counted.
+    /// The number of diagnostics, with errors that are only counted.
     pub fn len(&self) -> usize {
         self.list.len() + self.counted.len()
     }
 
-    /// Whether there are so few that the next one is worth a search for its meaning.
+    /// Whether there are so few errors that the next one is worth a search for its meaning.
     pub fn explains(&self) -> bool {
         self.len() < MOST_EXPLAINED
     }
@@ -342,18 +342,18 @@ impl Diagnostics {
         within(&self.unread, span)
     }
 
-    /// Whether an error lies in `span`.
+    /// Whether an error is inside `span`.
     pub fn error_within(&self, span: Span) -> bool {
         within(&self.errors, span).next().is_some()
     }
 }
 
-/// Whether diagnostics of a code are about text that could not be read.
+/// Whether diagnostics of a code are about unreadable text.
 fn is_of_text(code: Code) -> bool {
     code < Code::E0201
 }
 
-/// The places that lie in `span`.
+/// The spans inside `span`.
 fn within(places: &BTreeSet<Span>, span: Span) -> impl Iterator<Item = Span> {
     let first = Span { end: 0, ..span };
     let last = Span { start: span.end.max(span.start), end: u32::MAX, ..span };

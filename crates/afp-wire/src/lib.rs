@@ -4,7 +4,7 @@
 //!
 //! | part | bytes | |
 //! |---|---|---|
-//! | boot id | 1 to 5 | chosen anew by each start of a program, so that a restart is noticed |
+//! | boot id | 1 to 5 | new at each start of a program, so that a restart is noticed |
 //! | sequence number | 1 to 3 | counts frames, so that lost and repeated frames are noticed |
 //! | packet | | a hello with the version of the messages, or a message, as [postcard](https://postcard.jamesmunns.com/wire-format) writes it |
 //! | checksum | 4 | CRC-32 (ISO-HDLC) of all bytes before it, least significant byte first |

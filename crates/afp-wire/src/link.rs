@@ -28,7 +28,7 @@ pub struct Receiver<const LONGEST: usize> {
     overflows: bool,
 }
 
-/// The other end of a line, since its hello.
+/// The other end of a line, after its hello.
 #[derive(Clone, Copy, Debug)]
 struct Peer {
     boot: u32,
@@ -57,7 +57,7 @@ pub enum Received<T> {
 pub enum Rejected {
     /// Bytes were lost, added or changed.
     Damaged,
-    /// The other end has not said hello yet.
+    /// The other end has not sent a hello.
     Stranger,
     /// The messages of the other end have another version.
     Version {
@@ -95,7 +95,8 @@ impl Sender {
         Sender { boot, version, next: 0 }
     }
 
-    /// Writes a hello into a buffer and returns its bytes. Repeat it until the other end has said hello, too.
+    /// Writes a hello into a buffer and returns its bytes. Repeat it until the other end has sent a
+    /// hello, too.
     ///
     /// # Errors
     /// The buffer is too short; 20 bytes suffice.
@@ -187,7 +188,7 @@ impl<const LONGEST: usize> Receiver<LONGEST> {
         }
     }
 
-    /// Whether the other end has said hello.
+    /// Whether the other end has sent a hello.
     pub fn is_connected(&self) -> bool {
         self.peer.is_some()
     }

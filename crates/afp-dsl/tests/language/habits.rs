@@ -1,4 +1,4 @@
-//! Habits of other languages: one error at the right place, and a help that mends.
+//! Habits of other languages: one error at the right place, and a help that fixes it.
 
 use crate::support;
 
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use afp_dsl::{Compiled, Toolboxes};
 use afp_syntax::diagnostics::{Diagnostic, Severity};
 
-/// A plan that is right. Each '@PART' is where a text of a case goes, with what is there otherwise.
+/// A valid plan. A case replaces the text at one or several '@PART'.
 const PLAN: &str = "use carbot
 use std
 
@@ -50,7 +50,7 @@ plan Other {
 const PARTS: [&str; 11] =
     ["args", "head", "event", "body", "state", "start", "value", "way", "side", "item", "top"];
 
-/// The plan with texts in some of its parts.
+/// The plan with some of its parts replaced.
 fn plan(parts: &BTreeMap<&'static str, String>) -> String {
     let mut text = String::new();
     for (index, piece) in PLAN.split('@').enumerate() {
@@ -60,7 +60,7 @@ fn plan(parts: &BTreeMap<&'static str, String>) -> String {
         }
         let (part, rest) = piece.split_once('<').unwrap();
         let end = rest.find(['>', '\n']).map(|_| {
-            // The '>' of an arrow does not end what is there otherwise.
+            // The '>' of an arrow does not end the default text.
             let mut at = 0;
             loop {
                 at += rest[at..].find('>').unwrap();
@@ -86,7 +86,7 @@ fn quoted(help: &str) -> Vec<&str> {
     help.split('\'').skip(1).step_by(2).collect()
 }
 
-/// The plan text of a help in the parts where it belongs, in place of what is wrong there.
+/// The plan text of a help, inserted into its parts in place of the errors.
 fn followed(part: &'static str, help: &str) -> BTreeMap<&'static str, String> {
     let mut parts: BTreeMap<&str, String> = BTreeMap::new();
     for text in quoted(help) {
@@ -96,7 +96,7 @@ fn followed(part: &'static str, help: &str) -> BTreeMap<&'static str, String> {
             "supervise" if text.contains('{') => "body",
             "actor" | "computation" | "subplan" if text.contains('{') => "item",
             "var" | "in" | "const" if text.contains(' ') => "item",
-            // An edge of another component stays there.
+            // An edge of another component stays.
             _ if help.contains(&format!("'{text}' in the braces of")) => continue,
             _ if matches!(part, "event" | "state") && text.contains(" -> ") => part,
             _ => continue,
@@ -106,7 +106,7 @@ fn followed(part: &'static str, help: &str) -> BTreeMap<&'static str, String> {
     parts
 }
 
-/// What is wrong with a case, and what is said of its text.
+/// The errors of a case, and the messages about it.
 fn judge(line: &str, toolboxes: &Toolboxes) -> (Option<&'static str>, String) {
     let fields: Vec<_> = line.split(" | ").map(str::trim).collect();
     let part = PARTS.into_iter().find(|part| *part == fields[1]).unwrap();

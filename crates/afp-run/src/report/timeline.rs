@@ -33,8 +33,8 @@ pub(super) fn head(what: &[(&str, String)]) -> String {
     text
 }
 
-/// An event as a line without its end; `None` for what is not worth a line. The template is that
-/// of the event's component.
+/// An event as a line without its end; `None` if it needs no line. `template` is the template of
+/// the event's component.
 pub(super) fn line(event: &RunEvent, template: &str, logs: bool) -> Option<String> {
     use EventKind as Kind;
     let component = &event.component.path;

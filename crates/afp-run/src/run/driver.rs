@@ -1,4 +1,4 @@
-//! Drives a session to the end of its run, and does what keys, signals and those who watch ask for on the way.
+//! Drives a session to the end of its run, and handles keys, signals and viewers on the way.
 
 use std::panic::resume_unwind;
 use std::thread;
@@ -17,34 +17,34 @@ use crate::report::StoppedBy;
 use crate::requests;
 use crate::watchdog::Watchdog;
 
-/// The robot itself sleeps no longer than this before keys and signals are looked at.
+/// The maximum sleep of a real robot between two looks at keys and signals.
 const SLICE: Duration = Duration::from_millis(10);
 
-/// The observers of a real robot look at their queue this often, unless they are woken.
+/// The period in which the observers of a real robot look at their queue, unless they are woken.
 const LOOK: std::time::Duration = std::time::Duration::from_millis(250);
 
 /// An observer that may work on another thread.
 pub(super) type AnyObserver<'a> = dyn Observer + Send + 'a;
 
-/// How a session is driven.
+/// The driver of a session.
 pub(super) struct Driver<'a> {
     pub watchdog: Option<Watchdog>,
     pub realtime: Realtime,
     pub keeper: TimeKeeper,
-    /// When the plan is stopped at the latest.
+    /// The time at which the plan is stopped.
     pub end: Instant,
     pub live: Option<&'a dyn Live>,
 }
 
-/// A session that was driven to the end of its run.
+/// A session at the end of its run.
 pub(super) struct Driven {
     pub stopped_by: Option<StoppedBy>,
     pub measured: Figures,
-    /// The items that a full queue kept from the observers.
+    /// The number of items that a full queue lost before the observers.
     pub lost: u64,
 }
 
-/// Stops the robot, also if a panic leaves the run.
+/// Stops the robot, also if a panic ends the run.
 struct Stop<'a>(&'a mut dyn AnySession);
 
 impl Drop for Stop<'_> {
@@ -54,11 +54,11 @@ impl Drop for Stop<'_> {
 }
 
 impl Driver<'_> {
-    /// Runs the plan to its end, or until it is stopped, and stops the robot. The observers of a real robot work on a thread
-    /// of their own.
+    /// Runs the plan to its end, or until it is stopped, and stops the robot. The observers of a
+    /// real robot have their own thread.
     ///
     /// # Errors
-    /// The plan cannot start, or there is no thread.
+    /// The plan or the thread cannot start.
     pub fn drive(
         self,
         session: &mut dyn AnySession,
@@ -74,7 +74,7 @@ impl Driver<'_> {
         Ok(Driven { stopped_by, measured, lost: 0 })
     }
 
-    /// Drives a session whose observers are behind a queue.
+    /// Drives a session with a queue before its observers.
     fn drive_apart(
         mut self,
         session: &mut dyn AnySession,
@@ -83,7 +83,7 @@ impl Driver<'_> {
     ) -> Result<Driven, RunError> {
         let (writer, reader) = queue(session.owned_names(), session.devices(), observers);
         thread::scope(move |scope| {
-            // Dropped here in any case: the other thread waits for that.
+            // Dropped in any case, because the other thread waits for it.
             let mut writer = writer;
             let observe = move || observe(reader, &mut plain(observers));
             let observing = thread::Builder::new().name("afp-observers".into());
@@ -97,7 +97,7 @@ impl Driver<'_> {
             let went = self.run_to_end(&mut *stop.0, gate, &mut [&mut writer]);
             drop(self.watchdog.take());
             let measured = stop.0.end();
-            // The robot stands before the observers are waited for.
+            // The robot is stopped before the wait for the observers.
             drop(writer);
             let (trace, lost) = observing.join().unwrap_or_else(|panic| resume_unwind(panic));
             stop.0.set_trace(trace);
@@ -106,7 +106,7 @@ impl Driver<'_> {
         })
     }
 
-    /// Runs the plan to its end, or until it is stopped; says by what.
+    /// Runs the plan to its end, or until it is stopped. Returns the cause.
     fn run_to_end(
         &self,
         session: &mut dyn AnySession,
@@ -120,7 +120,7 @@ impl Driver<'_> {
                 false => session.run(self.end, gate, observers)?,
             };
             match (gate.take_halt(), self.live) {
-                // Nobody can press the robot's own buttons from here: the key stops it.
+                // The robot's own buttons are out of reach here, so the key stops the plan.
                 (Some((Halt::Escape, _)), _) if itself => break StoppedBy::Signal,
                 (Some((Halt::Escape, at)), _) => requests::press_stop(session, at),
                 (Some((Halt::Asked, at)), Some(live)) => live.serve(session, at),
@@ -134,8 +134,8 @@ impl Driver<'_> {
         Ok(Some(stopped_by))
     }
 
-    /// Keys and signals are looked at every [`SLICE`], however long the plan has nothing to do, and before each step,
-    /// however late it is.
+    /// Looks at keys and signals every [`SLICE`], also while the plan waits, and before each step,
+    /// also if it is late.
     fn slice(
         &self,
         session: &mut dyn AnySession,
@@ -154,7 +154,7 @@ fn plain<'a>(observers: &'a mut [&mut AnyObserver<'_>]) -> Vec<&'a mut dyn Obser
     observers.iter_mut().map(|each| &mut **each as &mut dyn Observer).collect()
 }
 
-/// Reports everything that comes from the control thread, until it ends.
+/// Reports all items of the control thread until it ends.
 fn observe(
     mut reader: QueueReader,
     to: &mut [&mut dyn Observer],

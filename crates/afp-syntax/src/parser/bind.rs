@@ -1,4 +1,4 @@
-//! Bindings: what goes into and out of a component.
+//! Bindings: the inputs and outputs of a component.
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, Message, Subject};
@@ -6,7 +6,8 @@ use crate::kind::Kind;
 use crate::message;
 
 impl Parser<'_, '_> {
-    /// `"(" {bind [","]} ")"`; in a scenario, whose values are written out, no binding is a name alone.
+    /// `"(" {bind [","]} ")"`. Scenarios have no short bindings, because their values are written
+    /// out.
     pub(super) fn args(&mut self, alone: bool) {
         self.open(Kind::Args);
         let opened = self.here();
@@ -27,7 +28,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Whether `=` or `=>` stands behind the next token, or what is written for it.
+    /// Whether `=` or `=>`, or a substitute for one, follows the next token.
     pub(super) fn at_sign_of_bind(&self) -> bool {
         let is_output = self.nth(1) == Kind::GreaterEqual && self.nth(2) == Kind::Name;
         let is_output = is_output && matches!(self.nth(3), Kind::Comma | Kind::CloseParen);
@@ -43,7 +44,7 @@ impl Parser<'_, '_> {
     fn ends_args(&self) -> bool {
         matches!(self.nth(0), Kind::End | Kind::CloseParen | Kind::OpenBrace | Kind::CloseBrace)
             || self.leaves_body()
-            // An edge on a line of its own, whose arrow is no mistake for '=>'.
+            // An edge on its own line; its arrow is not a wrong '=>'.
             || (!self.on_same_line() && self.at(Kind::Name) && self.nth(1) == Kind::Arrow)
             || (!self.on_same_line() && self.at_line() && !self.names_something(0))
             || (self.word(0) == "supervise"
@@ -51,8 +52,8 @@ impl Parser<'_, '_> {
                 && self.nth(2) == Kind::Colon)
     }
 
-    /// Whether nothing belongs to the name that is next: what stands before or behind it on its line without a comma
-    /// may be a value whose `=` or sign is missing.
+    /// Whether the next name stands alone between commas. Otherwise a value next to it on its line
+    /// may lack its `=` or its sign.
     fn stands_alone(&self) -> bool {
         self.at(Kind::Name)
             && !self.follows_value()
@@ -112,7 +113,7 @@ impl Parser<'_, '_> {
             let message = "'=>' carries data out to an entry; '->' is the flow of action";
             self.wrong_arrow(1, message, "=>");
         }
-        // A formula here is an error of its own, reported where outputs are checked.
+        // A formula here is reported where outputs are checked.
         self.open(Kind::Target);
         let computes = matches!(
             self.nth(1),
@@ -127,13 +128,13 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// Whether the name so many ahead is that of an entry that takes values, and ends a binding.
+    /// Whether a name ahead is a writable entry and ends a binding.
     fn may_take_value(&self, ahead: usize) -> bool {
         let ends = matches!(self.nth(ahead + 1), Kind::Comma | Kind::CloseParen);
         ends && matches!(self.known.entries.get(self.word(ahead)), Some(&("var" | "out")))
     }
 
-    /// `distance: length = 3 m`: the type of a port stands in its toolbox.
+    /// `distance: length = 3 m`: the toolbox has the type of a port.
     fn no_type_before_value(&mut self) {
         let is_type = self.at(Kind::Colon) && self.nth(1) == Kind::Name;
         if is_type && self.nth(2) == Kind::Equal && self.on_same_line() && !self.begins_line(1) {
@@ -142,7 +143,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether neither a bracket nor a comma nor a line's end stands before the next token.
+    /// Whether the next token is on the same line, without a bracket or comma before it.
     fn follows_value(&self) -> bool {
         let before = self.before();
         before.is_some_and(|token| {
@@ -150,7 +151,7 @@ impl Parser<'_, '_> {
         })
     }
 
-    /// What is missing of a binding.
+    /// The missing part of a binding.
     fn bind_help(&self) -> (&'static str, Message) {
         let is_value =
             matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Text | Kind::OpenParen)
@@ -171,7 +172,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// A value without a port, or text that is no binding at all.
+    /// A value without a port, or text that is not a binding.
     fn unnamed_bind(&mut self) {
         let (what, help) = self.bind_help();
         let is_value = what == "a port"

@@ -74,7 +74,7 @@ impl Parser<'_, '_> {
                 self.call();
             }
             Kind::Name if self.nth(1) == Kind::OpenParen => self.call(),
-            // A name that is bound begins the next item; the operand is missing.
+            // A bound name begins the next item; the operand is missing.
             Kind::Name if !self.names_something(0) || self.nth(1) == Kind::Colon => {
                 self.reference()
             }
@@ -118,7 +118,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Reads where commas separate formulas, or where they do not.
+    /// Reads with or without commas that separate formulas.
     pub(super) fn with_commas(&mut self, separate: bool, rule: impl FnOnce(&mut Self)) {
         let around = std::mem::replace(&mut self.commas_separate, separate);
         rule(self);
@@ -162,7 +162,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// `1 m 20 cm`: reports the quantity behind one that begins at a token, and reads past it.
+    /// `1 m 20 cm`: reports the second quantity, and skips it.
     pub(super) fn no_second_quantity(&mut self, first: usize) {
         let is_quantity = |p: &Self, from: usize| {
             matches!(p.nth(from), Kind::Int | Kind::Float) && p.nth(from + 1) == Kind::Unit
@@ -180,7 +180,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `30`, and its unit on the next line: reports that, and reads it.
+    /// `30`, and its unit on the next line: reports the line break, and reads the unit.
     fn unit_of_another_line(&mut self) -> bool {
         let word = self.word(0);
         let ends = matches!(self.nth(1), Kind::CloseParen | Kind::Comma | Kind::CloseBrace);
@@ -195,7 +195,7 @@ impl Parser<'_, '_> {
         is_unit
     }
 
-    /// `12 in`: reports a unit that the language does not have, and reads past it.
+    /// `12 in`: reports an unknown unit, and skips it.
     fn foreign_unit(&mut self) -> bool {
         let word = self.word(0);
         let name = if self.word(1) == "live" && self.nth(2) == Kind::Name { 2 } else { 1 };
@@ -226,7 +226,7 @@ impl Parser<'_, '_> {
         if !strange {
             return;
         }
-        // Where it is one, what stands behind it is wrong.
+        // If it is one, the text after it is wrong.
         if Unit::meant(word).is_some_and(|unit| unit == word) {
             return self.bump_as(Kind::Unit);
         }
@@ -247,7 +247,8 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Whether a word of the grammar stands behind a number, perhaps with a slip and what such a word has behind it.
+    /// Whether a word of the grammar follows a number, perhaps misspelt, with the text that such a
+    /// word needs.
     fn at_word_behind_number(&self) -> bool {
         let word = self.word(0);
         let goes_on = self.nth(1).begins_formula() && !self.begins_line(1);
@@ -257,7 +258,7 @@ impl Parser<'_, '_> {
             || is_slip && words::nearest(word, keywords::with(BEHIND_NUMBER)).is_some()
     }
 
-    /// Whether a word of the grammar stands here, with what it has behind it on its line.
+    /// Whether a word of the grammar is next, with the text that it needs on its line.
     pub(super) fn at_word_of_grammar(&self) -> bool {
         let goes_on = self.nth(1).begins_formula() && !self.begins_line(1);
         goes_on && keywords::has(self.word(0), BEHIND_NUMBER)
@@ -277,7 +278,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Reports the nesting once and takes the rest of the brackets flat.
+    /// Reports the nesting once and reads the remaining brackets flat.
     pub(super) fn too_deep(&mut self) {
         let here = self.here();
         self.error(
@@ -307,14 +308,14 @@ impl Parser<'_, '_> {
     /// `NAME ["." NAME]`
     pub(super) fn reference(&mut self) {
         self.open(Kind::Ref);
-        // In a formula a '-' subtracts.
+        // In a formula '-' subtracts.
         let is_word = self.at(Kind::Name) && !self.has_hyphens_in_use();
         match is_word && (self.on_same_line() || !self.begins_item()) {
             true => self.take_word(),
             false => _ = self.name("write a name"),
         }
         if self.nth(1) != Kind::Caret && self.eat(Kind::Dot) || self.double_colon() {
-            // An item on the next line is none of what is still being typed here.
+            // An item on the next line does not belong to an incomplete reference.
             if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {
                 self.bump();
             } else {
@@ -324,7 +325,8 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Whether what is claimed of a path stands behind the next name, so that no line of a scenario begins with it.
+    /// Whether the next name is followed by a claim about a path, so that it does not begin a line
+    /// of a scenario.
     fn at_path(&self) -> bool {
         let claims = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || self.nth(1).is_comparison();
         claims || self.word(1) == "active" && !self.begins_line(1)
@@ -399,7 +401,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// A number with a unit, where the grammar wants a time.
+    /// A number with a unit, in the place of a time.
     pub(super) fn quantity(&mut self, help: impl Into<Message>) {
         match self.nth(0) {
             Kind::Int | Kind::Float => self.number(),

@@ -10,7 +10,7 @@ use crate::message;
 
 /// The help for a time after the braces of a supervisor.
 const TIME_BEHIND_BODY: &str = "write it behind the supervisor's template, before its '{'";
-/// What the body of an element holds.
+/// The content of an element's body.
 pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
 const ITEMS: &str = "an item of the plan";
 const ITEM_HELP: &str =
@@ -53,7 +53,7 @@ impl Parser<'_, '_> {
         keywords::has(self.word(0), PLAN) && (!named || self.word(0) == "start")
     }
 
-    /// Passes over what is no item of a plan.
+    /// Skips text that is not an item of a plan.
     fn no_plan_item(&mut self) {
         if self.live_before_in() {
             return self.plan_item();
@@ -85,7 +85,7 @@ impl Parser<'_, '_> {
             let next = p.at > first && !p.on_same_line() && p.at_strange_item();
             next || p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item()
         });
-        // Edges whose element cannot be read have its brace behind them.
+        // After edges of an unreadable element comes its brace.
         if is_body && self.at(Kind::CloseBrace) && self.nth(1) != Kind::End {
             self.open(Kind::Error);
             self.bump();
@@ -93,7 +93,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// The words of the items of a plan that have behind them what stands there.
+    /// The words that begin items of a plan and are followed by the text here.
     fn possible_items_of_plan(&self) -> Vec<&'static str> {
         keywords::with(match self.nth(2) {
             Kind::Colon => NAMED,
@@ -102,12 +102,12 @@ impl Parser<'_, '_> {
         })
     }
 
-    /// Whether a line begins here like an item that no plan has.
+    /// Whether a line begins like an item that plans do not have.
     fn at_strange_item(&self) -> bool {
         self.at(Kind::Name) && matches!(self.nth(1), Kind::Name | Kind::Colon | Kind::Equal)
     }
 
-    /// Whether an edge begins here, which stands in a body alone: its brace is missing.
+    /// Whether an edge begins outside of a body, because a brace is missing.
     pub(super) fn begins_body(&self) -> bool {
         self.at(Kind::Name) && self.nth(1) == Kind::Arrow
     }
@@ -121,7 +121,7 @@ impl Parser<'_, '_> {
                 if self.at(Kind::Name) {
                     self.element = self.word(0);
                 }
-                // The name of an edge or entry is that of the next item.
+                // The name of an edge or entry belongs to the next item.
                 if self.on_same_line() || !self.names_something(0) {
                     self.name("name the first element");
                 } else {
@@ -226,7 +226,7 @@ impl Parser<'_, '_> {
         if is_nameless || self.colon_of_head() {
             self.times_before_template(watches);
             self.word_before_template();
-            // The name of an edge or of the next item is no template.
+            // The name of an edge or of the next item is not a template.
             let template = !self.names_something(0) && !self.begins_item();
             if self.at(Kind::Name) && (self.on_same_line() || template) {
                 self.template_name();
@@ -255,7 +255,7 @@ impl Parser<'_, '_> {
         matches!(self.word(0), "every" | "deadline") && self.nth(1) != Kind::Arrow
     }
 
-    /// Whether the body of an element or a supervisor is over.
+    /// Whether the body of an element or a supervisor has ended.
     pub(super) fn ends_body(&self, body: &Body) -> bool {
         let leaves = self.leaves_body() && !(body.is_opened() && self.is_nested());
         self.at_end() || self.at(Kind::CloseBrace) || leaves
@@ -268,7 +268,7 @@ impl Parser<'_, '_> {
             let message = message!("unexpected {} before a time", self.found());
             self.instead(1, message, "remove it", "");
         }
-        // A time that is missing has the other word behind it.
+        // The word of the other time follows a missing time.
         let other = matches!(self.word(0), "every" | "deadline")
             && matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Name);
         let is_name = self.at(Kind::Name) && !self.names_something(0) && !other;
@@ -280,14 +280,14 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Whether a constant on the next line is the time: behind it stands what comes behind times.
+    /// Whether a constant on the next line is the time: the text after it is that after a time.
     fn at_time_of_another_line(&self) -> bool {
         let goes_on =
             self.nth(1) == Kind::OpenBrace || matches!(self.word(1), "every" | "deadline");
         goes_on && !self.begins_item()
     }
 
-    /// Whether an item begins that no body of an element holds: a `}` is missing.
+    /// Whether an item begins that a body cannot have: a `}` is missing.
     pub(super) fn leaves_body(&self) -> bool {
         let element = matches!(self.word(0), "actor" | "computation" | "subplan")
             && self.nth(1) == Kind::Name

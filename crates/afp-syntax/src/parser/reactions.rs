@@ -1,4 +1,4 @@
-//! `on`: what an element does instead where a supervisor of its plan reports something.
+//! `on`: the reactions of an element to the plan's supervisors.
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, Message};
@@ -7,11 +7,11 @@ use crate::kind::Kind;
 use crate::message;
 
 impl Parser<'_, '_> {
-    /// Whether `on` begins here; a state may be called so, too.
+    /// Whether `on` begins here; a state may have the same name.
     pub(super) fn at_reactions(&self) -> bool {
         let named =
             self.nth(1) == Kind::Name && (!self.begins_line(1) || self.nth(2) == Kind::OpenBrace);
-        // An edge with a word before it is told that by itself.
+        // An edge with a word before it has an error of its own.
         let is_edge = self.arrow_at(2).is_some();
         self.at_word("on") && !is_edge && (named || self.nth(1) == Kind::OpenBrace)
     }
@@ -33,7 +33,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// `on Main.escape { ... }`: reports what stands before the supervisor's name, and reads past it.
+    /// `on Main.escape { ... }`: reports the text before the supervisor's name, and skips it.
     fn path_of_supervisor(&mut self) {
         let is_path = self.nth(1) == Kind::Dot && self.nth(3) == Kind::OpenBrace;
         let name = self.word(2);
@@ -43,7 +43,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `on esc -> ignore`, `on esc.Pressed -> ignore`: reports that the edge belongs into braces, and reads past it.
+    /// `on esc -> ignore`, `on esc.Pressed -> ignore`: reports that the edge belongs into braces,
+    /// and skips it.
     pub(super) fn reaction_without_braces(&mut self) -> bool {
         let event = if self.nth(2) == Kind::Dot { self.word(3) } else { "Event" };
         let arrow = if self.nth(2) == Kind::Dot { 4 } else { 2 };
@@ -66,7 +67,8 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `esc.Pressed -> ignore`, of a supervisor of the plan: reports that the edge belongs into an 'on', and reads past it.
+    /// `esc.Pressed -> ignore` of a supervisor of the plan: reports that the edge belongs into an
+    /// 'on', and skips it.
     pub(super) fn reaction_as_edge(&mut self) -> bool {
         let (supervisor, event, target) = (self.word(0), self.word(2), self.word(4));
         let is_edge = self.nth(1) == Kind::Dot && self.nth(3) == Kind::Arrow;
@@ -79,7 +81,7 @@ impl Parser<'_, '_> {
         let message = "reactions to the plan's supervisors are written in 'on'";
         let error = Diagnostic::new(Code::E0102, self.ahead(5), message);
         let error = error.help(message!("write '{}'", better));
-        // Several of one supervisor stand in one.
+        // Edges of the same supervisor belong into one 'on'.
         let is_other = |first: Option<usize>| {
             let text = |at: usize| self.solid.get(at).map(|at| self.tokens[*at as usize].text);
             first.is_some_and(|at| text(at) == Some(supervisor) && text(at + 1) == Some("."))
@@ -90,7 +92,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// The edges of events, in braces; `help` tells who has left them out.
+    /// The edges of events, in braces; `help` names the missing braces.
     pub(super) fn events(&mut self, help: impl Into<Message>) {
         if self.at(Kind::Arrow) && self.nth(1) == Kind::Name && !self.begins_line(1) {
             let error = Diagnostic::new(

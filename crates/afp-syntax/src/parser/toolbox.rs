@@ -64,7 +64,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// Whether a template begins: one with its brace, or in a toolbox one that something stands behind.
+    /// Whether a template begins: with a brace, or in a toolbox with any text.
     pub(super) fn at_template(&self) -> bool {
         self.at_named_template() && (self.nth(2) == Kind::OpenBrace || self.is_toolbox)
     }
@@ -84,7 +84,7 @@ impl Parser<'_, '_> {
         keywords::has(self.word(0), PART)
     }
 
-    /// `use eye` in a template, which no 'use' of a file can be.
+    /// `use eye` in a template, which is not a `use` of a file.
     fn at_use_for_uses(&self) -> bool {
         self.word(0) == "use" && self.nth(1) == Kind::Name
     }
@@ -138,7 +138,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `["after" formula]` behind an event.
+    /// `["after" formula]` of an event.
     fn after(&mut self) {
         if self.at_word("after") && self.on_same_line() {
             self.open(Kind::After);
@@ -156,7 +156,8 @@ impl Parser<'_, '_> {
         false
     }
 
-    /// `["when" condition] ["{" {bind} "}"]` behind a state of a declared computation. An event has no body.
+    /// `["when" condition] ["{" {bind} "}"]` of a state of a declared computation. An event has no
+    /// body.
     fn case(&mut self, is_event: bool) {
         let behind_name = self.at;
         if self.at_condition() {
@@ -178,7 +179,7 @@ impl Parser<'_, '_> {
         self.close_body(body);
     }
 
-    /// Whether a part of the template begins, which nothing binds.
+    /// Whether an unbound part of the template begins.
     fn at_part_behind_case(&self) -> bool {
         self.at_part() && !self.at_sign_of_bind() || self.at_template()
     }
@@ -213,7 +214,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Uses);
         self.keyword();
         self.name("name what it commands, such as 'uses navigator'");
-        // Behind a comma may stand the next part.
+        // The next part may follow a comma.
         while self.at(Kind::Comma)
             && self.nth(1) == Kind::Name
             && !keywords::has(self.word(1), PART)
@@ -234,7 +235,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// A value and its bounds, each of which may be missing.
+    /// A value and its bounds; each may be missing.
     pub(super) fn value_and_range(&mut self) {
         if self.at(Kind::Colon) && self.nth(1) == Kind::Equal && self.on_same_line() {
             self.instead(1, "unexpected ':' before '='", "write '='", "");
@@ -252,14 +253,14 @@ impl Parser<'_, '_> {
             if !has_value && self.at(Kind::Equal) && self.on_same_line() {
                 match is_whole {
                     true => self.value_behind_range(range),
-                    // What is wrong with the range is said.
+                    // An error of the range has been reported.
                     false => self.pass_value(),
                 }
             }
         }
     }
 
-    /// `"from" formula "to" formula`. Returns whether both ends are there.
+    /// `"from" formula "to" formula`. Returns whether both ends exist.
     pub(super) fn range(&mut self) -> bool {
         self.open(Kind::Range);
         self.eat_meant("from", Kind::begins_formula);
@@ -293,7 +294,8 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// `from 0 s to 5 s = 3 s`: a unit behind a bound, which elsewhere would be the name that a value is bound to.
+    /// `from 0 s to 5 s = 3 s`: a unit after a bound, which in other places would be the name of a
+    /// bound value.
     pub(super) fn unit_of_a_bound(&mut self) -> bool {
         let is_unit = self.in_range
             && self.nth(1) == Kind::Equal
@@ -322,7 +324,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// `on A, B`, `on A or B`: says what stands between the names, and reads past it.
+    /// `on A, B`, `on A or B`: reports the text between the names, and skips it.
     fn other_sign_between_outcomes(&mut self) -> bool {
         let is_sign = self.at(Kind::Comma) || matches!(self.word(0), "or" | "and");
         let is_name = self.nth(1) == Kind::Name && !self.begins_line(1);

@@ -2,7 +2,7 @@
 
 use crate::units::Unit;
 
-/// A time as it is written, or a bare number as so many of a unit: `1 s` for `1000` ms.
+/// A time in source form. A bare number gets a unit: `1 s` for `1000` ms.
 pub(super) fn time(text: &str, unit: &str) -> String {
     let Ok(number) = text.parse::<f64>() else { return text.to_owned() };
     let ms = if unit == "s" { number * 1000.0 } else { number };
@@ -45,7 +45,7 @@ pub(super) fn comparison(condition: &str) -> Option<(&str, &str, &str)> {
     Some((simple(left), sign.trim(), number_of(right.trim())))
 }
 
-/// A value without what no formula has: its first name, if there is more.
+/// A value without the parts that formulas lack: its first name, if there is more.
 fn simple(value: &str) -> &str {
     let value = value.trim();
     if !value.contains(['(', ':', '[', '{', '?']) && !value.contains("->") {
@@ -55,7 +55,7 @@ fn simple(value: &str) -> &str {
     &value[..ends.unwrap_or(value.len())]
 }
 
-/// A number with its unit, without what follows it; any other text whole.
+/// A number with its unit, without the text after it; any other text unchanged.
 fn number_of(text: &str) -> &str {
     let number = text.find(' ').filter(|_| text.starts_with(|it: char| it.is_ascii_digit()));
     let Some(number) = number else { return simple(text) };
@@ -69,7 +69,8 @@ fn number_of(text: &str) -> &str {
     }
 }
 
-/// The computation that chooses by a condition: if it holds, an edge leads on to `then`, else to an element.
+/// A computation that chooses by a condition: if it holds, an edge leads to `then`, otherwise to an
+/// element.
 pub(super) fn choose(condition: &str, then: &str, element: &str) -> String {
     let other = if then == "terminate" { element } else { "terminate" };
     let whole = |(left, _, right): &(&str, _, &str)| !left.is_empty() && !right.is_empty();
