@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from stable_baselines3 import PPO
 from stable_baselines3.common.vec_env import VecMonitor, VecNormalize
 
-from afp.gym import TASKS, Score, evaluate, run_plan
+from afp.gym import TASKS, Score, evaluate, plan_of
 from afp.gym.sb3 import CarbotVecEnv
 
 ENVIRONMENTS = 16
@@ -67,7 +67,7 @@ def main() -> None:
     print(f"{task.name}: mean reward of {len(JUDGED)} episodes ± its standard error", flush=True)
     shown("random", evaluate(None, task, JUDGED))
     if task.plan is not None:
-        shown("plan", run_plan(task, JUDGED))
+        shown("plan", evaluate(plan_of(task), task, JUDGED))
     begin = time.perf_counter()
     policy = train(task.name, given.steps, given.seed)
     took = time.perf_counter() - begin

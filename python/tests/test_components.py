@@ -6,7 +6,7 @@ import asyncio
 import gc
 import pickle
 import weakref
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 
@@ -412,3 +412,23 @@ def test_an_actor_that_awaits_asyncio_is_told_what_it_can_await() -> None:
     text = "use tools plan P { start a actor a: Sleepy { Done -> terminate } }"
     with pytest.raises(TypeError, match=r"an actor can await afp.tick\(\) only; no event loop"):
         afp.Simulation(afp.Plan(text, toolboxes=[tools])).run(until=1.0).check()
+
+
+def test_a_return_annotation_declares_the_states() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation()
+    def Parity(value: int) -> Literal["Odd", "Even"]:
+        return "Odd" if value % 2 else "Even"
+
+    @tools.actor()
+    class Go:
+        def poll(self, robot: afp.Robot) -> Literal["There"] | None:
+            return "There"
+
+    assert "state Odd\n    state Even" in tools.text and "state There" in tools.text
+    with pytest.raises(TypeError, match=r"the computation 'Nothing' needs states=\[...\], or a return annotation"):
+
+        @tools.computation()
+        def Nothing(value: int) -> str:
+            return "Odd"

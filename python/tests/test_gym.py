@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import copy
 import io
 import os
 import re
@@ -203,7 +204,7 @@ def test_a_reset_has_a_world_a_pose_a_goal_and_faults() -> None:
     env = afp.gym.CarbotEnv(task="ReachGoal")
     room = afp.World.load("random:5")
     x, y, _ = room.start
-    options = {"world": room, "pose": (x, y, 1.25), "goal": (x + 0.5, y), "faults": [("ultrasonic", "lost")]}
+    options = {"world": room, "pose": (x, y, 1.25), "goal": (x + 0.5, y), "faults": [afp.Fault("ultrasonic", "lost")]}
     seen, info = env.reset(seed=3, options=options)
     assert info["world"] == room.name and info["pose"] == pytest.approx((x, y, 1.25), abs=1e-6)
     assert info["target"] == pytest.approx((x + 0.5, y))
@@ -217,9 +218,7 @@ def test_a_reset_has_a_world_a_pose_a_goal_and_faults() -> None:
         ({"wrld": 1}, "no option 'wrld' of reset; there are: world, pose, goal, faults"),
         ({"pose": (1.0, 2.0)}, "'pose' has 3 numbers, not 2"),
         ({"pose": (1.0, math.nan, 0.0)}, "pose is nan; give a finite number"),
-        ({"faults": ["ultrasonic"]}, "a fault is a device"),
-        ({"faults": [("ultrasonic", "fried")]}, "fried"),
-        ({"faults": [("wheels", "slip", {"much": 1.0})]}, "a fault has no 'much'"),
+        ({"faults": [afp.Fault("ultrasonic", "fried")]}, "fried"),
     ]:
         with pytest.raises(ValueError, match=text):
             env.reset(options=wrong)
@@ -244,7 +243,7 @@ def test_what_a_task_lacks_is_added_as_the_error_says() -> None:
 
 
 def test_a_fault_is_seen_as_what_was_said_last() -> None:
-    env = afp.gym.CarbotEnv(observe=["odometry", "valid"], faults=[("odometry", "lost", {"at": 1.0})])
+    env = afp.gym.CarbotEnv(observe=["odometry", "valid"], faults=[afp.Fault("odometry", "lost", at=1.0)])
     env.reset(seed=0)
     rows = [env.step(np.array([0.5, 0.2]))[0] for _ in range(20)]
     assert rows[8][6] == 1.0 and (rows[8] != rows[9]).any()
@@ -256,7 +255,7 @@ def test_faults_are_made_up_by_a_function() -> None:
 
     def broken(rng: np.random.Generator) -> list[Any]:
         drawn.append(share := float(rng.uniform(0.1, 0.9)))
-        return [("wheels", "slip", {"share": share})]
+        return [afp.Fault("wheels", "slip", share=share)]
 
     env = afp.gym.CarbotEnv(faults=broken)
     for seed in (1, 2, 1):
@@ -321,7 +320,7 @@ def test_at_the_end_of_the_sensors_range_silence_is_known() -> None:
 def random_faults(rng: np.random.Generator) -> list[Any]:
     """Random faults of all devices, each for a while."""
     return [
-        (device, kind, {"at": rng.uniform(0, 20), "lasting": rng.uniform(0, 20)})
+        afp.Fault(device, kind, at=rng.uniform(0, 20), lasting=rng.uniform(0, 20))
         for device, kind in afp.faults()
         if rng.uniform() < 0.1
     ]
@@ -367,8 +366,32 @@ def test_who_closes_the_window_sees_no_more(window: list[bytes]) -> None:
 def test_without_a_display_a_window_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "tkinter", None)
     env = afp.gym.CarbotEnv("random:1", render_mode="human")
-    with pytest.raises(gymnasium.error.DependencyNotInstalled, match="rgb_array"):
+    with pytest.warns(UserWarning, match="shows nothing without a display"):
         env.reset(seed=0)
+    env.step(np.array([1.0, 0.0]))
+    env.close()
+
+
+def test_the_camera_has_one_size() -> None:
+    env = afp.gym.CarbotEnv("random:1", render_mode="rgb_array", view="camera")
+    env.reset(seed=0)
+    shapes = {env.render().shape}
+    for _ in range(10):
+        env.step(np.array([0.5, 0.0]))
+        shapes.add(env.render().shape)
+    assert shapes == {(120, 160, 3)}
+
+
+def test_an_environment_can_be_copied_before_its_first_episode() -> None:
+    env = copy.deepcopy(afp.gym.CarbotEnv("random:1"))
+    assert (env.reset(seed=1)[0] == afp.gym.CarbotEnv("random:1").reset(seed=1)[0]).all()
+
+
+def test_tasks_and_scores_can_be_compared_and_hashed() -> None:
+    assert len({afp.gym.ROAM, afp.gym.ROAM, afp.gym.REACH_GOAL}) == 2
+    scores = [afp.gym.evaluate(None, "Roam", range(2)) for _ in range(2)]
+    assert scores[0] == scores[1] and len(set(scores)) == 1
+    assert scores[0] != afp.gym.evaluate(None, "Roam", range(1, 3))
 
 
 def test_a_cell_of_a_notebook_is_drawn_again_and_again(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -405,7 +428,7 @@ def test_a_picture_is_a_png() -> None:
 
 
 def test_episodes_have_seeds() -> None:
-    for judge in (lambda seeds: afp.gym.run_plan("WallFollow", seeds), lambda seeds: afp.gym.evaluate(None, "WallFollow", seeds)):
+    for judge in (lambda seeds: afp.gym.evaluate(afp.gym.plan_of("WallFollow"), "WallFollow", seeds), lambda seeds: afp.gym.evaluate(None, "WallFollow", seeds)):
         for seeds, kind, said in (([], ValueError, r"there are no seeds in \[\]"), (3, TypeError, "seeds are several whole numbers"), ([-1], ValueError, "-1 is no seed")):
             with pytest.raises(kind, match=said):
                 judge(seeds)

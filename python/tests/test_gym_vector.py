@@ -153,13 +153,22 @@ def test_wrappers_of_gymnasium_fit() -> None:
 def test_a_plan_is_judged_as_an_environment_is() -> None:
     """A plan that drives like an environment's actions gets the environment's reward."""
     room = afp.WorldBuilder("hall", start=(1.0, 2.0, 0.2)).room(6.0, 4.0).infrared("beacon", (3.0, 2.0)).build()
-    score = afp.gym.run_plan("FindInfrared", [0, 1], world=room)
+    plan = afp.gym.plan_of("FindInfrared")
+    score = afp.gym.evaluate(plan, "FindInfrared", [0, 1], world=room)
     assert (score.rewards > 10.5).all() and (score.steps < 300).all() and score.ended.all()
-    assert afp.gym.run_plan("FindInfrared", [0], world=room).rewards[0] == score.rewards[0]
-    goal = afp.gym.run_plan("ReachGoal", range(2), world=room)
+    assert afp.gym.evaluate(plan, "FindInfrared", [0], world=room).rewards[0] == score.rewards[0]
+    goal = afp.gym.evaluate(afp.gym.plan_of("ReachGoal"), "ReachGoal", range(2), world=room)
     assert (goal.rewards > 10.0).all()
     with pytest.raises(ValueError, match="no plan for 'Roam'"):
-        afp.gym.run_plan("Roam", [0])
+        afp.gym.plan_of("Roam")
+    broken = [afp.Fault("infrared", "lost")]
+    assert afp.gym.evaluate(plan, "FindInfrared", [0], world=room, faults=broken) != afp.gym.evaluate(plan, "FindInfrared", [0], world=room)
+
+
+def test_a_vector_knows_its_seed() -> None:
+    envs = afp.gym.CarbotVectorEnv(2)
+    envs.reset(seed=3)
+    assert envs.np_random_seed == 3
 
 
 def test_the_plans_of_the_package_are_sound_and_in_canonical_form() -> None:
@@ -198,6 +207,8 @@ def test_single_ones_run_in_processes_with_a_world_made_in_the_program() -> None
 
 def test_a_running_environment_is_not_copied() -> None:
     with pytest.raises(TypeError, match="make the environment again"):
-        copy.deepcopy(afp.gym.CarbotEnv())
+        env = afp.gym.CarbotEnv()
+        env.reset(seed=0)
+        copy.deepcopy(env)
     task = afp.gym.REACH_GOAL
     assert pickle.loads(pickle.dumps(task)) == task == copy.deepcopy(task)

@@ -56,7 +56,7 @@ def test_a_result_has_the_picture_of_its_log_and_shows_it(log: afp.Log, wall_fol
     result = afp.Simulation(wall_following).run(until=6.0)
     assert result.picture() == log.picture()
     shown = result._repr_html_()
-    assert "interrupted (until)" in shown and "data:image/svg+xml;base64," in shown
+    assert "time_limit (until)" in shown and "data:image/svg+xml;base64," in shown
     kept = pickle.loads(pickle.dumps(result))
     assert kept == result and "<img" not in kept._repr_html_()
     with pytest.raises(afp.AfpError, match="a result that was pickled"):

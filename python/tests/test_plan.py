@@ -104,7 +104,7 @@ def test_a_plan_can_be_built(tmp_path: Path) -> None:
     plan.save(tmp_path / "square.afp")
     assert afp.load(tmp_path / "square.afp").text == plan.text
     result = afp.Simulation(plan, set={"side": afp.cm(20)}).run(until=3.0)
-    assert result.ending == "interrupted" and result.distance == pytest.approx(0.2, abs=0.01)
+    assert result.ending == "time_limit" and result.distance == pytest.approx(0.2, abs=0.01)
 
 
 def test_extract_and_inline(wall_following: afp.Plan) -> None:

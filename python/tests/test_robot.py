@@ -22,8 +22,8 @@ afp.use("VACUUM")
 plan = afp.load("plans/clean.afp")
 plan.check()
 sim = afp.Simulation(plan, seed=3, set={"time": 60.0})
-sim.fail("wheels", "slip", share=0.9, at=5.0, lasting=1.0)
-sim.press("bumper.left", at=8.0)
+sim.fail(afp.Fault("wheels", "slip", share=0.9, at=5.0, lasting=1.0))
+sim.press(afp.Press("bumper.left", at=8.0))
 result = sim.run(until=70.0)
 found = {
     "time": result.time, "ending": result.ending,
@@ -31,15 +31,15 @@ found = {
     "faults": afp.faults(), "world": sim.world.name, "path": len(sim.path),
 }
 again = afp.Simulation(plan, seed=3, set={"time": 60.0})
-again.fail("wheels", "slip", share=0.9, at=5.0, lasting=1.0)
-again.press("bumper.left", at=8.0)
+again.fail(afp.Fault("wheels", "slip", share=0.9, at=5.0, lasting=1.0))
+again.press(afp.Press("bumper.left", at=8.0))
 found["again"] = again.run(until=70.0).trace_hash == result.trace_hash
 log = tempfile.mkdtemp() + "/run.mcap"
 with afp.Simulation(plan, seed=3, log=log) as logged:
     trace = logged.run(until=10.0).trace_hash
 found["from_log"] = afp.Log(log).simulation().run(until=10.0).trace_hash == trace
 halted = afp.Simulation(plan)
-halted.press(at=1.0)
+halted.press(afp.Press(at=1.0))
 found["halted"] = halted.run(until=10.0).time
 found["scenarios"] = {each.name: each.run().passed for each in afp.load("plans/tests/clean.afp").scenarios}
 runs = afp.sweep(plan, worlds=["random:0", "random:1"], seeds=2, until=10.0, progress=False)

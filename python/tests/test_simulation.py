@@ -51,14 +51,14 @@ def test_driving_bit_by_bit_is_the_same(wall_following: afp.Plan) -> None:
 def test_a_result_tells_everything(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following, seed=7)
     result = simulation.run(until=10.0)
-    assert (result.plan, result.seed, result.ending, result.stopped_by) == ("WallFollowing", 7, "interrupted", "until")
+    assert (result.plan, result.seed, result.ending, result.stopped_by) == ("WallFollowing", 7, "time_limit", "until")
     assert result.ok and result.check() is result and result.time == 10.0
     assert result.path.shape == (501, 4) and result.path.dtype == np.float64
     assert 0.5 < result.distance < 5.0 and result.timeline
     assert result.entries["walldist"] == 0.3
     table = result.columns
     assert {len(column) for column in table.values()} == {len(result.events)}
-    assert "WallFollowing" in result._repr_html_() and "interrupted" in repr(result)
+    assert "WallFollowing" in result._repr_html_() and "time_limit" in repr(result)
     del simulation
     assert result.path[-1, 0] == 10.0
 
@@ -82,7 +82,7 @@ plan Keys {
 
 def test_stimuli(wall_following: afp.Plan) -> None:
     pressed = afp.Simulation(wall_following)
-    pressed.press(at=1.0)
+    pressed.press(afp.Press(at=1.0))
     result = pressed.run(until=5.0)
     assert result.ending == "interrupted" and result.stopped_by is None and 1.0 <= result.time < 1.1
     bumped = afp.Simulation(wall_following)
@@ -93,14 +93,14 @@ def test_stimuli(wall_following: afp.Plan) -> None:
     fired.run_to(0.3)
     assert fired.active == "findWallAngle"
     frozen = afp.Simulation(wall_following)
-    frozen.fail("ultrasonic", "lost", at=0.2)
+    frozen.fail(afp.Fault("ultrasonic", "lost", at=0.2))
     assert frozen.run(until=5.0).fault is not None
 
 
 def test_what_comes_from_outside_is_among_the_events_and_in_the_timeline(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     simulation.set("walldist", afp.cm(40), at=0.2)
-    simulation.fail("ultrasonic", "frozen", at=0.5, lasting=1.0)
+    simulation.fail(afp.Fault("ultrasonic", "frozen", at=0.5, lasting=1.0))
     simulation.bump(at=0.6, hold=0.1)
     requests = ["set walldist = 0.4 m", "fail ultrasonic.frozen for 1 s", "press touch.touch for 0.1 s", "release touch.touch"]
     streamed = [event.request for event in simulation.stream(until=1.0) if event.kind == "requested"]
@@ -112,8 +112,8 @@ def test_what_comes_from_outside_is_among_the_events_and_in_the_timeline(wall_fo
 
 def test_the_timeline_is_that_of_the_command_line(wall_following: afp.Plan, afpc: str) -> None:
     simulation = afp.Simulation(wall_following)
-    simulation.fail("ultrasonic", "frozen", at=0.5, lasting=1.0)
-    simulation.press(at=1.0)
+    simulation.fail(afp.Fault("ultrasonic", "frozen", at=0.5, lasting=1.0))
+    simulation.press(afp.Press(at=1.0))
     options = ["--fail", "ultrasonic.frozen@0.5s..1.5s", "--press", "escape@1s", "--until", "3s", "--svg", "none"]
     ran = subprocess.run([afpc, "run", str(wall_following.path), *options], capture_output=True, text=True)
     assert all(line in ran.stdout + ran.stderr for line in simulation.run(until=3.0).timeline)
@@ -145,7 +145,7 @@ def test_a_simulation_that_was_closed_with_its_log_takes_nothing_more(wall_follo
     simulation.close()
     asks: list[Callable[[], object]] = [
         *(lambda: simulation.set("walldist", 0.4), lambda: simulation.__setitem__("walldist", 0.4), simulation.press),
-        *(simulation.bump, simulation.idle, lambda: simulation.fail("ultrasonic", "frozen")),
+        *(simulation.bump, simulation.idle, lambda: simulation.fail(afp.Fault("ultrasonic", "frozen"))),
         *(lambda: simulation.fire("escape", "EscapeButtonPressed"), simulation.step),
     ]
     for ask in asks:
@@ -156,15 +156,15 @@ def test_a_simulation_that_was_closed_with_its_log_takes_nothing_more(wall_follo
 def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     with pytest.raises(ValueError, match="it can be frozen, lost"):
-        simulation.fail("ultrasonic", "melted")
+        simulation.fail(afp.Fault("ultrasonic", "melted"))
     with pytest.raises(ValueError, match="unknown device 'hat'; there are"):
-        simulation.fail("hat", "lost")
+        simulation.fail(afp.Fault("hat", "lost"))
     with pytest.raises(ValueError, match="no actor or supervisor 'nobody'"):
         simulation.fire("nobody", "Done")
     with pytest.raises(ValueError, match="no control 'enter'; it has 'touch', 'escape'"):
-        simulation.press("enter")
+        simulation.press(afp.Press("enter"))
     with pytest.raises(ValueError, match="not a time"):
-        simulation.press(at=float("nan"))
+        simulation.press(afp.Press(at=float("nan")))
     with pytest.raises(TypeError, match="needs a Plan, not a str"):
         afp.Simulation("wall.afp")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="-1 is no seed"):
@@ -185,7 +185,7 @@ def test_actors_that_idle(wall_following: afp.Plan) -> None:
     assert idle.run_to(2.0) and idle.active == "searchFirstWall" and idle.pose[:2] == pytest.approx((2.1, 1.95))
     later = afp.Simulation(wall_following, seed=7)
     later.idle("backupCollision", at=1.0)
-    later.press("touch", at=1.5)
+    later.press(afp.Press("touch", at=1.5))
     assert later.run_to(10.0) and later.active == "backupCollision"
     with pytest.raises(ValueError, match="no actor or sub-plan 'searchFirstWall.touch'"):
         later.idle("searchFirstWall.touch")
@@ -290,7 +290,7 @@ def test_ctrl_c_interrupts_a_long_run(wall_following: afp.Plan) -> None:
     # The benchmark's limit is 100 ms; a busy machine gets more here.
     assert interrupted(lambda: simulation.run(until=1e6)) < 1.0
     assert simulation.ending == "running"
-    assert simulation.run(until=simulation.time + 0.5).ending == "interrupted"
+    assert simulation.run(until=simulation.time + 0.5).ending == "time_limit"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no fork")
@@ -358,3 +358,11 @@ def test_single_steps_are_those_of_a_run_also_once_it_has_ended(tmp_path: Path) 
     stopped.step()
     stopped.request_stop()
     assert not stopped.step() and stopped.result().stopped_by == "stop"
+
+
+def test_a_stopped_plan_does_not_continue(wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following, "random:1", seed=np.int64(3), start=np.array([1.0, 1.2, 0.0]))
+    assert type(simulation.seed) is int
+    assert simulation.run(until=1.0) == simulation.run(until=1.0)
+    with pytest.raises(RuntimeError, match="was stopped at 1 s and does not continue to 5 s"):
+        simulation.run(until=5.0)

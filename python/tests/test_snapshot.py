@@ -84,7 +84,7 @@ def test_others_read_while_one_drives(wall_following: afp.Plan) -> None:
     times = [0.0]
     while driving.is_alive() and len(times) < 50:
         times.append(simulation.time)
-        assert len(simulation.pose) == 3 and simulation.ending in ("running", "interrupted", "ok")
+        assert len(simulation.pose) == 3 and simulation.ending in ("running", "time_limit", "ok")
         assert simulation.active is None or isinstance(simulation.active, str)
         assert repr(simulation).startswith("<Simulation of WallFollowing in ")
         time.sleep(0.005)
@@ -98,7 +98,7 @@ def test_a_simulation_begins_in_a_moment_of_a_log(tmp_path: Path, wall_following
     file = tmp_path / "run.mcap"
     first = afp.Simulation(wall_following, seed=3, set={"walldist": afp.cm(40)}, log=file)
     first.bump(at=1.0)
-    first.fail("ultrasonic", "frozen", at=2.0, lasting=1.0)
+    first.fail(afp.Fault("ultrasonic", "frozen", at=2.0, lasting=1.0))
     first.run_to(1.5)
     first["walldist"] = afp.cm(35)
     moment = first.pose
@@ -107,7 +107,7 @@ def test_a_simulation_begins_in_a_moment_of_a_log(tmp_path: Path, wall_following
     assert (again.time, again.pose, again["walldist"]) == (1.5, moment, 0.4)
     assert again.run(until=6.0).trace_hash == result.trace_hash
     other = afp.Log(file).simulation(at=1.5)
-    other.press(at=4.0)
+    other.press(afp.Press(at=4.0))
     assert other.run(until=6.0).trace_hash != result.trace_hash
 
 

@@ -32,8 +32,8 @@ def test_tables_have_all_that_events_say(wall_following: afp.Plan, tmp_path: Pat
     arrow = pytest.importorskip("pyarrow")
     simulation = afp.Simulation(wall_following, set={"walldist": afp.cm(35)}, log=tmp_path / "run.mcap")
     simulation.set("walldist", afp.cm(40), at=0.5)
-    simulation.fail("ultrasonic", "lost", at=1.0)
-    simulation.press(at=9.0)
+    simulation.fail(afp.Fault("ultrasonic", "lost", at=1.0))
+    simulation.press(afp.Press(at=9.0))
     result = simulation.run(until=5.0)
     log = afp.Log(tmp_path / "run.mcap")
     for table, events in ((result.to_arrow(), result.events), (log.to_arrow(), log.events)):

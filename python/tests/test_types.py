@@ -37,9 +37,9 @@ tools: tuple[afp.Toolbox, ...] = (afp.Toolbox("tools"),)
 afp.Plan("", toolboxes=tools)
 verdict = plan.scenarios[0].run()
 whys: list[str] = [broken.why for broken in verdict.broken]
-faults = [("wheels", "slip", {"share": 0.5})]
+faults = [afp.Fault("wheels", "slip", share=0.5)]
 env = afp.gym.CarbotEnv(hall.build(), task=afp.gym.REACH_GOAL, reward={"nearer": 1.0}, faults=faults)
-envs = afp.gym.CarbotVectorEnv(4, faults=lambda rng: [("wheels", "slip")])
+envs = afp.gym.CarbotVectorEnv(4, faults=lambda rng: [afp.Fault("wheels", "slip")])
 seen, infos = envs.reset(seed=[1, 2, None, 4])
 mean: float = afp.gym.evaluate(lambda seen: seen[:, :2], "Roam", range(3), world=hall.build()).mean
 
@@ -75,6 +75,14 @@ except afp.PlanError as error:
 except afp.AfpError as error:
     print(error)
 toolbox = afp.Toolbox("more", version="1.0")
+ending: afp.Ending = result.ending
+elements: list[afp.Element] = plan.elements
+entries: list[afp.Entry] = plan.entries
+edges: list[afp.Edge] = plan.edges
+hit = afp.sweep(plan, seeds=3, vary={afp.Press("touch"): [1.0, 2.0]}, draw={"walldist": lambda rng: rng.uniform(0.2, 0.4)})
+success: afp.Estimate = hit.share(ending="ok")
+simulation.press(afp.Press(at=1.0))
+simulation.fail(afp.Fault("wheels", "slip", share=0.3))
 
 
 @toolbox.actor(states={"There": {"went": afp.Length}}, uses=["navigator"])

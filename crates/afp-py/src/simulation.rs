@@ -43,6 +43,7 @@ use event::line;
 pub use event::{Event, plain, value};
 use glance::Seen;
 pub use keeper::Keeper;
+pub use lookup::unknown_entry;
 pub use names::Names;
 pub use session::Run;
 use session::no_pose;
@@ -173,7 +174,7 @@ impl Runner {
         self.see(|run| Ok(run.session.now().as_secs_f64()), |glance| Ok(glance.time))
     }
 
-    /// How the plan ended: `ok`, `interrupted`, `error`; `running` before.
+    /// How the plan ended: `ok`, `interrupted`, `time_limit`, `error`; `running` before.
     #[getter]
     fn ending(&self) -> PyResult<&'static str> {
         self.see(|run| Ok(run.ending()), |glance| Ok(glance.ending))

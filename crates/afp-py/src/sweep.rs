@@ -22,7 +22,10 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
 use afp_session::{Build, Loader};
-use afp_sweep::{Header, Journal, JournalError, Outcome, OutputFiles, Parts, Row, Setting, Sweep};
+use afp_sweep::{
+    Axis, Header, Journal, JournalError, Outcome, OutputFiles, Parts, Row, Setting, Sweep,
+    varies_stimuli,
+};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -74,7 +77,7 @@ impl Sweeper {
         plan: &Plan,
         worlds: Vec<GivenWorld>,
         seeds: GivenSeeds,
-        vary: Vec<(String, GivenValues)>,
+        vary: Vec<(String, GivenValues, bool)>,
         until: f64,
         stimuli: (Vec<String>, Vec<String>),
         metrics: Vec<String>,
@@ -102,7 +105,11 @@ impl Sweeper {
         let header = with_setting(py, &toolboxes, &compiled, |robot| {
             let graph = graph(&compiled)?;
             let names = PlanNames::new(graph);
-            let axes = vary.into_iter().map(|(name, values)| values.axis(&names, name));
+            let known = graph.main().entries.iter().map(|entry| entry.name.clone());
+            let known: Vec<String> = known.collect();
+            let axes = vary.into_iter().map(|(name, values, by_seed)| {
+                Ok(Axis { by_seed, ..values.axis(&names, &known, name)? })
+            });
             sweep.axes = axes.collect::<PyResult<_>>()?;
             if sweep.is_empty() {
                 let text = "there is nothing to run: no worlds, seeds or values";
@@ -253,8 +260,8 @@ impl Sweeper {
         let host = components.host(py)?;
         let (world, log) = (&loaded, log.as_deref());
         let (file, compiled) = (&*self.file, &self.compiled);
-        let settings =
-            row.values.iter().map(|(name, point)| ((*name).to_owned(), point.text.clone()));
+        let settings = row.values.iter().filter(|(name, _)| !varies_stimuli(name));
+        let settings = settings.map(|(name, point)| ((*name).to_owned(), point.text.clone()));
         let settings = &*settings.collect::<Vec<_>>();
         let seed = row.seed;
         let world_file = world.path.as_deref();

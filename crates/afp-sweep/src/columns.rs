@@ -127,6 +127,7 @@ mod tests {
         let axis = |name: &str| Axis {
             name: name.to_owned(),
             points: vec![Point { text: "1".to_owned(), si: Some(1.0) }],
+            by_seed: false,
         };
         let mut sweep = Sweep {
             plan: "p.afp".to_owned(),

@@ -9,6 +9,7 @@ use afp_run::options::{Failure, Press};
 use afp_run::world::LoadedWorld;
 
 use crate::seeds::Seeds;
+use crate::stimuli::{Stimuli, varies_stimuli};
 
 /// Integers below this are exact as floats.
 const EXACT: f64 = 9_007_199_254_740_992.0;
@@ -45,9 +46,12 @@ pub enum WorldChoice {
 /// A varied value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// An entry of the plan, or `world.` and the path of a value in the world's file.
+    /// An entry of the plan, `world.` and the path of a value in the world's file, or a stimulus as
+    /// in [`crate::varies_stimuli`].
     pub name: String,
     pub points: Vec<Point>,
+    /// Whether it has one point for each seed, instead of all points for each seed.
+    pub by_seed: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +91,8 @@ impl WorldChoice {
 impl Sweep {
     /// The number of runs.
     pub fn len(&self) -> u64 {
-        let points = self.axes.iter().map(|axis| axis.points.len() as u64);
+        let axes = self.axes.iter().filter(|axis| !axis.by_seed);
+        let points = axes.map(|axis| axis.points.len() as u64);
         let combinations = points.fold(self.worlds.len() as u64, u64::saturating_mul);
         combinations.saturating_mul(self.seeds.len())
     }
@@ -100,10 +105,16 @@ impl Sweep {
     /// Returns a run by its number, which is below [`Sweep::len`].
     pub fn row(&self, run: u64) -> Row<'_> {
         let (mut rest, seeds) = (run, self.seeds.len().max(1));
-        let seed = self.seeds.nth(rest % seeds);
+        let of_seed = rest % seeds;
+        let seed = self.seeds.nth(of_seed);
         rest /= seeds;
         let mut values = Vec::with_capacity(self.axes.len());
         for axis in self.axes.iter().rev() {
+            if axis.by_seed {
+                let point = axis.points.get(of_seed as usize);
+                values.extend(point.map(|point| (axis.name.as_str(), point)));
+                continue;
+            }
             let count = (axis.points.len() as u64).max(1);
             if let Some(point) = axis.points.get((rest % count) as usize) {
                 values.push((axis.name.as_str(), point));
@@ -124,13 +135,14 @@ impl Sweep {
             let _ = write!(command, " --world {}", shell_file(world));
         }
         let _ = write!(command, " --seed {}", row.seed);
-        for (name, point) in &row.values {
+        for (name, point) in row.values.iter().filter(|(name, _)| !varies_stimuli(name)) {
             let _ = write!(command, " --set {}", shell_setting(name, &point.text));
         }
-        for press in &self.presses {
+        let varied = Stimuli::of(row);
+        for press in self.presses.iter().chain(&varied.presses) {
             let _ = write!(command, " --press {}", shell_word(&press.to_string()));
         }
-        for failure in &self.failures {
+        for failure in self.failures.iter().chain(&varied.failures) {
             let _ = write!(command, " --fail {}", shell_word(&failure.to_string()));
         }
         let _ = write!(command, " --until {}", spelled(self.until));
@@ -153,10 +165,14 @@ impl Sweep {
         for axis in &self.axes {
             let points = axis.points.iter().map(|point| match point.si {
                 // Both zeros are one value; an integer beyond the limit is not exact.
-                Some(si) if si.abs() < EXACT => (si + 0.0).to_string(),
+                Some(si) if si.abs() < EXACT && !varies_stimuli(&axis.name) => {
+                    (si + 0.0).to_string()
+                }
                 _ => shell_word(&point.text),
             });
-            let _ = write!(text, ", {} = {}", axis.name, points.collect::<Vec<_>>().join(" "));
+            let equals = if axis.by_seed { "by seed" } else { "=" };
+            let points = points.collect::<Vec<_>>().join(" ");
+            let _ = write!(text, ", {} {equals} {points}", axis.name);
         }
         for press in &self.presses {
             let _ = write!(text, ", press {press}");
@@ -254,7 +270,7 @@ mod tests {
         values.extend([" a ", "\"", "\"\"", "\" a \"", "''", "-x", "=ls"].map(str::to_owned));
         for name in ["mode", "world.name", "world.box.sofa.height_m"] {
             let points = values.iter().map(|text| Point { text: text.clone(), si: None }).collect();
-            let axes = vec![Axis { name: name.to_owned(), points }];
+            let axes = vec![Axis { name: name.to_owned(), points, by_seed: false }];
             let sweep = Sweep {
                 axes,
                 seeds: seeds("0").unwrap(),

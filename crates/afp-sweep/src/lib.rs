@@ -21,6 +21,7 @@ mod output_files;
 mod ranges;
 mod seeds;
 mod setting;
+mod stimuli;
 mod table;
 
 pub use columns::{Cells, Column, columns};
@@ -34,6 +35,7 @@ pub use output_files::{Make, OutputFiles};
 pub use ranges::{axis, seeds, worlds};
 pub use seeds::Seeds;
 pub use setting::Setting;
+pub use stimuli::varies_stimuli;
 pub use table::to_csv;
 #[cfg(feature = "parquet")]
 pub use table::to_parquet;

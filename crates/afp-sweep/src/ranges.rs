@@ -80,7 +80,7 @@ pub fn axis(text: &str) -> Result<Axis, String> {
         None => list(values)?,
     };
     let points = texts.into_iter().map(|text| Point { text, si: None }).collect();
-    Ok(Axis { name, points })
+    Ok(Axis { name, points, by_seed: false })
 }
 
 /// Splits values at commas; a quoted value loses its quotes.

@@ -11,6 +11,7 @@ use afp_run::{RunError, hash, inputs, requests};
 use afp_session::{AnySession, Loader};
 
 use crate::grid::{Axis, Point, Row, Sweep, WorldChoice};
+use crate::stimuli::{Stimuli, varies_stimuli};
 
 /// The most runs: a sweep also keeps its outcomes in memory, some hundred bytes each.
 const MOST: u64 = 10_000_000;
@@ -73,6 +74,7 @@ impl<'a> Setting<'a> {
             let mut whole = Vec::new();
             match change::key(&axis.name) {
                 Some(key) => self.check_worlds(key, &mut axis.points)?,
+                None if varies_stimuli(&axis.name) => check_stimuli(axis)?,
                 None => {
                     for point in &mut axis.points {
                         let value = inputs::set(&mut *session, &axis.name, &point.text)?;
@@ -89,7 +91,9 @@ impl<'a> Setting<'a> {
                     }
                 }
             }
-            different_values(axis, &whole)?;
+            if !axis.by_seed {
+                different_values(axis, &whole)?;
+            }
         }
         self.check_together(&sweep.axes)
     }
@@ -164,10 +168,13 @@ impl<'a> Setting<'a> {
         let measures = self.robot.kind().measures();
         let session = self.robot.session(self.graph, &*world.world, row.seed, measures);
         let mut session = session.map_err(|why| world.no_session(why))?;
-        for (name, point) in row.values.iter().filter(|(name, _)| change::key(name).is_none()) {
+        let entry = |name: &str| change::key(name).is_none() && !varies_stimuli(name);
+        for (name, point) in row.values.iter().filter(|(name, _)| entry(name)) {
             inputs::set(&mut *session, name, &point.text)?;
         }
         requests::make(&mut *session, &self.presses, &self.failures)?;
+        let varied = Stimuli::of(row);
+        requests::make(&mut *session, &varied.presses, &varied.failures)?;
         Ok(session)
     }
 
@@ -194,11 +201,25 @@ fn different_worlds(worlds: &[WorldChoice]) -> Result<(), RunError> {
     })
 }
 
+/// Checks the syntax of stimuli; their instants are the numbers of the axis.
+fn check_stimuli(axis: &mut Axis) -> Result<(), RunError> {
+    for point in &mut axis.points {
+        let mut stimuli = Stimuli::default();
+        let read = stimuli.add(&axis.name, &point.text);
+        read.map_err(|why| RunError::usage(why, "give a control or fault, and its time"))?;
+        point.si = stimuli.instant();
+    }
+    Ok(())
+}
+
 /// Rejects a repeated value, also in a different unit; `whole` has the values of an integer axis.
 fn different_values(axis: &Axis, whole: &[i64]) -> Result<(), RunError> {
     let mut known = HashSet::new();
+    let stimuli = varies_stimuli(&axis.name);
     let value = |(number, point): &(usize, &Point)| match (whole.get(*number), point.si) {
         (Some(whole), _) => whole.to_string(),
+        // Different faults may begin at the same instant.
+        _ if stimuli => point.text.clone(),
         // Both zeros are one value.
         (None, Some(si)) => (si + 0.0).to_bits().to_string(),
         (None, None) => point.text.clone(),

@@ -32,13 +32,16 @@ if TYPE_CHECKING:
     )
     from .builder import WorldBuilder
     from .components import Toolbox, tick
+    from .estimates import Estimate
     from .log import Log
     from .picture import Picture
     from .plan import Plan, load, new_plan
-    from .result import Collision, ComponentError, Result
+    from .result import Collision, ComponentError, Ending, Result
     from .runs import Runs
     from .simulation import Simulation
     from .snapshot import Snapshot
+    from .stimuli import Fault, Press
+    from .structure import Edge, Element, Entry
     from .sweeps import sweep
     from .units import (
         Angle,
@@ -71,12 +74,19 @@ __all__ = [
     "ComponentError",
     "Diagnostic",
     "Duration",
+    "Edge",
+    "Element",
+    "Ending",
+    "Entry",
+    "Estimate",
     "Event",
+    "Fault",
     "Length",
     "Log",
     "Picture",
     "Plan",
     "PlanError",
+    "Press",
     "Quantity",
     "Result",
     "Robot",
@@ -114,18 +124,21 @@ __all__ = [
 _WHERE = {
     "_afp": "AfpError Broken Carbot Diagnostic Event PlanError Robot Scenario Verdict World __version__ faults",
     "units": "Angle AngularSpeed Duration Length Quantity Speed cm deg deg_per_s kmh m m_per_s minutes mm ms rad rad_per_s s",
-    "result": "Collision ComponentError Result",
+    "estimates": "Estimate",
+    "result": "Collision ComponentError Ending Result",
     "log": "Log",
     "plan": "Plan load new_plan",
     "runs": "Runs",
     "sweeps": "sweep",
     "simulation": "Simulation",
     "snapshot": "Snapshot",
+    "stimuli": "Fault Press",
+    "structure": "Edge Element Entry",
     "components": "Toolbox tick",
     "builder": "WorldBuilder",
     "picture": "Picture",
 }
-_MODULES = {*_WHERE, "plots", "tables"}
+_MODULES = {*_WHERE, "metrics", "plots", "tables"}
 
 
 def __getattr__(name: str) -> Any:

@@ -169,7 +169,7 @@ class Runner:
         """The time in seconds."""
     @property
     def ending(self) -> str:
-        """How the plan ended: `ok`, `interrupted`, `error`; `running` before."""
+        """How the plan ended: `ok`, `interrupted`, `time_limit`, `error`; `running` before."""
     @property
     def fault(self) -> tuple[str, str] | None:
         """The code and the text of the fault that ended the plan."""
@@ -360,7 +360,7 @@ class Sweeper:
         plan: Plan,
         worlds: Sequence[World | str | None],
         seeds: tuple[int, int] | list[int],
-        vary: Sequence[tuple[str, str | list[tuple[str, str | None]]]],
+        vary: Sequence[tuple[str, str | list[tuple[str, str | None]], bool]],
         until: float,
         stimuli: tuple[list[str], list[str]],
         metrics: list[str],

@@ -31,7 +31,7 @@ from typing import Any, TypeVar
 from . import _afp
 from ._afp import Robot, read_text
 from .checks import text
-from .declaration import GIVEN, Outcomes, declaration, method_of, named, outcomes_of, parameters_of, start_of, text_of
+from .declaration import GIVEN, Outcomes, annotated_outcomes, declaration, method_of, named, outcomes_of, parameters_of, start_of, text_of
 from .fingerprint import Fingerprint, fingerprint
 from .units import spelled_time
 
@@ -104,21 +104,24 @@ class Toolbox(_afp.Toolbox):
     def actor(
         self,
         *,
-        states: Outcomes,
+        states: Outcomes | None = None,
         name: str | None = None,
         uses: str | Sequence[str] = (),
         every: str | float = "10 ms",
         stop: str | float | None = None,
         icon: str | None = None,
     ) -> Callable[[Component], Component]:
-        """Declare and implement an actor: a class with `poll`, or an `async def` function."""
+        """Declare and implement an actor: a class with `poll`, or an `async def` function.
+
+        Without `states`, a return annotation such as `-> Literal["There", "Blocked"]` declares them.
+        """
         timing = _timing(every=every, stop=stop)
         return self._declarer("actor", states, name, uses, timing, icon)
 
     def supervisor(
         self,
         *,
-        events: Outcomes,
+        events: Outcomes | None = None,
         name: str | None = None,
         uses: str | Sequence[str] = (),
         every: str | float = "10 ms",
@@ -126,20 +129,26 @@ class Toolbox(_afp.Toolbox):
         budget: str | float | None = None,
         icon: str | None = None,
     ) -> Callable[[Component], Component]:
-        """Declare and implement a supervisor: a class with `poll`, or a function for each poll."""
+        """Declare and implement a supervisor: a class with `poll`, or a function for each poll.
+
+        Without `events`, a return annotation such as `-> Literal["Near"] | None` declares them.
+        """
         timing = _timing(every=every, deadline=every if deadline is None else deadline, budget=budget)
         return self._declarer("supervisor", events, name, uses, timing, icon)
 
     def computation(
-        self, *, states: Outcomes, name: str | None = None, icon: str | None = None
+        self, *, states: Outcomes | None = None, name: str | None = None, icon: str | None = None
     ) -> Callable[[Component], Component]:
-        """Declare and implement a computation: a function."""
+        """Declare and implement a computation: a function.
+
+        Without `states`, a return annotation such as `-> Literal["Odd", "Even"]` declares them.
+        """
         return self._declarer("computation", states, name, (), "", icon)
 
     def _declarer(
-        self, kind: str, outcomes: Outcomes, name: str | None, uses: str | Sequence[str], timing: str, icon: str | None
+        self, kind: str, given: Outcomes | None, name: str | None, uses: str | Sequence[str], timing: str, icon: str | None
     ) -> Callable[[Component], Component]:
-        outcomes = outcomes_of(outcomes)
+        declared_here = None if given is None else outcomes_of(given)
         devices = [text("a device", device) for device in ([uses] if isinstance(uses, str) else uses)]
         icon = None if icon is None else text("icon", icon)
 
@@ -148,6 +157,7 @@ class Toolbox(_afp.Toolbox):
             if not template.isidentifier():
                 raise ValueError(f"{template!r} is no name of a template; give letters, digits and '_'")
             _fits(kind, template, component)
+            outcomes = annotated_outcomes(kind, component) if declared_here is None else declared_here
             declared = declaration(kind, template, component, outcomes, devices, timing, icon)
             _maker(kind, component, *_own_ports(kind, component))
             try:

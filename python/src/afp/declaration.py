@@ -6,12 +6,12 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 from . import _afp
 from .units import UNITS, Quantity, plain
 
-__all__ = ["GIVEN", "Outcomes", "declaration", "method_of", "named", "outcomes_of", "parameters_of", "start_of", "text_of"]
+__all__ = ["GIVEN", "Outcomes", "annotated_outcomes", "declaration", "method_of", "named", "outcomes_of", "parameters_of", "start_of", "text_of"]
 
 Outcomes = Sequence[str] | Mapping[str, Mapping[str, Any]]
 
@@ -78,6 +78,26 @@ def outcomes_of(given: Any) -> Outcomes:
         if not isinstance(outputs, Mapping) or not all(isinstance(port, str) for port in outputs):
             raise TypeError(f"the outputs of '{name}' are ports with their types, such as {{'x': float}}, not {outputs!r}")
     return {str.__str__(name): outputs for name, outputs in given.items()}
+
+
+def annotated_outcomes(kind: str, component: Callable[..., Any]) -> Outcomes:
+    """The states or events of a return annotation with `Literal`."""
+    function = method_of(component, "poll") if isinstance(component, type) else component
+    names = list(_literals(_hints(function).get("return")))
+    if not names:
+        word = "events" if kind == "supervisor" else "states"
+        what = f"the {kind} '{named(component)}' needs {word}=[...]"
+        raise TypeError(f'{what}, or a return annotation such as -> Literal["There", "Blocked"]')
+    return outcomes_of(dict.fromkeys(names, {}))
+
+
+def _literals(hint: Any) -> Iterable[str]:
+    """The strings of a Literal, also inside of a union."""
+    for part in get_args(hint):
+        if isinstance(part, str):
+            yield part
+        elif get_origin(part) is not None:
+            yield from _literals(part)
 
 
 def start_of(component: type) -> Callable[..., Any] | None:

@@ -6,6 +6,8 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from ._afp import World
 from .units import number_in, plain, spelled
 
@@ -42,7 +44,7 @@ def changed(
 
 
 def _pose(start: Sequence[float]) -> tuple[float, float, float]:
-    if isinstance(start, str) or not isinstance(start, Sequence) or len(start) not in (2, 3):
+    if isinstance(start, str) or not isinstance(start, (Sequence, np.ndarray)) or len(start) not in (2, 3):
         raise TypeError(f"start is x, y and perhaps a heading, such as (1.0, 2.0, afp.deg(90)), not {start!r}")
     x, y, heading = [*start, 0.0][:3]
     return number_in("start", x, "m"), number_in("start", y, "m"), number_in("start", heading, "rad")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import json
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,6 +13,7 @@ from . import _afp, checks
 from ._afp import Toolbox, read_text
 from .checks import toolboxes_of
 from .picture import Picture
+from .structure import Edge, Element, Entry
 from .units import spelled, spelled_time
 
 __all__ = ["Plan", "load", "new_plan"]
@@ -60,6 +62,42 @@ class Plan(_afp.Plan):
     def _repr_html_(self) -> str:
         lines = [f"<pre>{html.escape(self.report().rstrip())}</pre>"] if self.diagnostics else []
         return "\n".join([self.svg(), *lines])
+
+    @property
+    def elements(self) -> list[Element]:
+        """The elements of the plan that runs, in the order of the text.
+
+        Raises:
+            PlanError: the plan has errors.
+        """
+        return [Element._of(given) for given in self._graph()["actors"]]
+
+    @property
+    def entries(self) -> list[Entry]:
+        """The entries of the plan that runs, in the order of the text.
+
+        Raises:
+            PlanError: the plan has errors.
+        """
+        known = ("name", "kind", "type", "init", "doc")
+        return [Entry(*(given.get(name, "") for name in known)) for given in self._graph().get("entries", [])]
+
+    @property
+    def edges(self) -> list[Edge]:
+        """The edges of the plan that runs, from a state or event to an element or an end.
+
+        Raises:
+            PlanError: the plan has errors.
+        """
+        graph = self._graph()
+        begin = Edge("", "start", graph["first"])
+        outer = [Edge(it["name"], event, to) for it in graph.get("global_supervisors", []) for event, to in it["events"].items()]
+        return [begin, *(edge for element in self.elements for edge in element.edges), *outer]
+
+    def _graph(self) -> dict[str, Any]:
+        self.check()
+        graph: dict[str, Any] = json.loads(self.json())
+        return graph
 
     def save_svg(self, path: str | os.PathLike[str], *, theme: str = "auto", fold: bool = False) -> None:
         """Write the drawing to an SVG file."""

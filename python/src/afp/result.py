@@ -7,7 +7,7 @@ import pickle
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,11 @@ from . import plots, tables
 from ._afp import AfpError, Event, Names, Runner, World
 from .picture import Picture, address
 
-__all__ = ["ComponentError", "Collision", "Result"]
+__all__ = ["ComponentError", "Collision", "Ending", "Result"]
+
+Ending = Literal["running", "ok", "interrupted", "time_limit", "error", "not_started", "panicked"]
+"""How a run ended, here and in `Runs`: by the plan, by a stop, by `until`, by a fault, before its start, or by a panic of
+the engine."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +66,8 @@ class Result(tables.Events):
     """The name of the world."""
     seed: int
     """The seed."""
-    ending: str
-    """`ok`, `interrupted`, `error`, or `running`."""
+    ending: Ending
+    """How the plan ended, or `running`."""
     fault: str | None
     """The code of the fault that ended the plan."""
     fault_text: str | None
@@ -98,7 +102,7 @@ class Result(tables.Events):
         self.plan = plan
         self.world = world.name
         self.seed = seed
-        self.ending = runner.ending
+        self.ending = runner.ending  # type: ignore[assignment]
         self.fault, self.fault_text = runner.fault or (None, None)
         self.stopped_by = runner.stopped_by
         self.time = runner.time

@@ -10,9 +10,13 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, overload
 
-from . import plots, tables
+import numpy as np
+from numpy.typing import NDArray
+
+from . import estimates, plots, tables
 from ._afp import Plan, Sweeper, alike, number_of
 from .checks import flag
+from .estimates import Estimate
 from .picture import address
 from .result import Result
 from .simulation import Simulation
@@ -43,7 +47,7 @@ class Runs:
         columns: dict[str, list[Any]],
         kinds: dict[str, str],
         units: Mapping[str, str],
-        again: _Again | None = None,
+        again: Sequence[tuple[_Again, int]] | None = None,
     ) -> None:
         self.plan = plan
         self.columns = columns
@@ -52,14 +56,15 @@ class Runs:
         self._again = again
 
     @classmethod
-    def of(cls, plan: Plan, sweeper: Sweeper, until: float) -> Runs:
+    def of(cls, plan: Plan, sweeper: Sweeper, until: float, more: Callable[[Any], Runs]) -> Runs:
         """The outcomes of a sweep so far."""
         table = sweeper.columns()
         columns = {name: cells for name, (cells, _) in table.items()}
         kinds = {name: kind for name, (_, kind) in table.items()}
         types = {entry["name"]: entry["type"] for entry in json.loads(plan.json()).get("entries", [])}
         units = {name: UNITS[type] for name, type in types.items() if type in UNITS}
-        return cls(plan.name, columns, kinds, units, _Again(plan, sweeper, until))
+        again = _Again(plan, sweeper, until, more)
+        return cls(plan.name, columns, kinds, units, [(again, run) for run in columns["run"]])
 
     def __len__(self) -> int:
         return len(self.columns["run"])
@@ -70,13 +75,93 @@ class Runs:
     @overload
     def __getitem__(self, row: slice) -> Runs: ...
 
-    def __getitem__(self, row: int | slice) -> dict[str, Any] | Runs:
+    @overload
+    def __getitem__(self, row: str) -> NDArray[Any]: ...
+
+    def __getitem__(self, row: int | slice | str) -> dict[str, Any] | Runs | NDArray[Any]:
+        if isinstance(row, str):
+            return self._array(row)
         if isinstance(row, slice):
             return self._only(range(len(self))[row])
         return {name: cells[row] for name, cells in self.columns.items()}
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         return (self[row] for row in range(len(self)))
+
+    def _array(self, name: str) -> NDArray[Any]:
+        """A column as an array; missing numbers are not a number."""
+        cells = self._column(name)
+        if self._kinds[name] == "text":
+            return np.array(cells, np.str_)
+        if self._kinds[name] == "count" and None not in cells:
+            return np.array(cells, np.uint64)
+        return np.array([math.nan if cell is None else cell for cell in cells], np.float64)
+
+    def __add__(self, other: object) -> Runs:
+        """The runs of two sweeps with the same columns; runs of the second one get new numbers."""
+        if not isinstance(other, Runs):
+            return NotImplemented
+        if self._kinds != other._kinds or self.plan != other.plan:
+            differ = [name for name in {**self._kinds, **other._kinds} if self._kinds.get(name) != other._kinds.get(name)]
+            raise ValueError(f"the sweeps have different columns: {', '.join(differ) or 'they are of different plans'}")
+        columns = {name: [*cells, *other.columns[name]] for name, cells in self.columns.items()}
+        first = max(self.columns["run"], default=-1) + 1
+        columns["run"] = [*self.columns["run"], *(first + number for number in range(len(other)))]
+        again = None if self._again is None or other._again is None else [*self._again, *other._again]
+        return Runs(self.plan, columns, self._kinds, self._units, again)
+
+    def extended(self, seeds: int | Iterable[int]) -> Runs:
+        """These runs, and the same sweep with more seeds: `runs.extended(range(100, 200))`.
+
+        Raises:
+            ValueError: a seed was used before.
+        """
+        if not self._again:
+            raise RuntimeError("runs that were pickled are a table only: sweep again")
+        seeds = range(seeds) if isinstance(seeds, int) else list(seeds)
+        known = set(self.columns["seed"])
+        for seed in seeds:
+            if seed in known:
+                raise ValueError(f"the sweep has runs with seed {seed}; give other seeds")
+        return self + self._again[0][0].more(seeds)
+
+    # Statistics
+
+    def mean(self, column: str, confidence: float = 0.95) -> Estimate:
+        """The mean of a measure with its confidence interval; missing values do not count."""
+        return estimates.mean(self._column(self._number(column)), confidence)
+
+    def share(self, confidence: float = 0.95, **columns: Any) -> Estimate:
+        """The share of runs with these values in these columns, as in `where`, with its confidence
+        interval: `runs.share(ending="ok")` is the success rate.
+        """
+        tests = [self._test(name, plain(value)) for name, value in columns.items()]
+        return estimates.share((all(test(row) for test in tests) for row in self), confidence)
+
+    def difference(self, other: Runs, column: str, confidence: float = 0.95) -> Estimate:
+        """The mean of `other` minus these runs, for pairs with equal world and seed.
+
+        Raises:
+            ValueError: a pair is missing, or a world and seed have several runs.
+        """
+        mine, others = self._paired(column), other._paired(column)
+        if mine.keys() != others.keys():
+            world, seed = min(mine.keys() ^ others.keys())
+            raise ValueError(f"the run in the world '{world}' with seed {seed} has no partner")
+        return estimates.difference(mine.values(), [others[pair] for pair in mine], confidence)
+
+    def _paired(self, column: str) -> dict[tuple[str, int], Any]:
+        pairs = zip(self.columns["world"], self.columns["seed"], self._column(self._number(column)), strict=True)
+        found = {(world, seed): value for world, seed, value in pairs}
+        if len(found) != len(self):
+            raise ValueError("a world and seed have several runs: select one of them by where()")
+        return found
+
+    def by(self, column: str) -> dict[Any, Runs]:
+        """The runs for each value of a column; varied numbers are in SI units."""
+        cells = self._column(self._number(column))
+        values = dict.fromkeys(cells)
+        return {value: self._only(row for row, cell in enumerate(cells) if cell == value) for value in values}
 
     def where(self, columns: Mapping[str, Any] | None = None, /, **more: Any) -> Runs:
         """The runs with these values in these columns: `where(ending="error", seed=3)`.
@@ -118,7 +203,8 @@ class Runs:
     def _only(self, rows: Iterable[int]) -> Runs:
         these = list(rows)
         columns = {name: [cells[row] for row in these] for name, cells in self.columns.items()}
-        return Runs(self.plan, columns, self._kinds, self._units, self._again)
+        again = None if self._again is None else [self._again[row] for row in these]
+        return Runs(self.plan, columns, self._kinds, self._units, again)
 
     def _column(self, name: str) -> list[Any]:
         if name not in self.columns:
@@ -147,13 +233,14 @@ class Runs:
         if self._again is None:
             raise RuntimeError("runs that were pickled are a table only: sweep again, or make the simulation from the row")
         row = operator.index(row)
-        return self._again.simulation(self.columns["run"][row], self.columns["seed"][row], log, flag("camera", camera))
+        again, run = self._again[row]
+        return again.simulation(run, self.columns["seed"][row], log, flag("camera", camera))
 
     def result(self, row: int) -> Result:
         """Repeat the run of a row: its path, events and entries, which are not in the table."""
         simulation = self.simulation(row)
         assert self._again is not None
-        return simulation.run(self._again.until)
+        return simulation.run(self._again[row][0].until)
 
     # Tables
 
@@ -241,7 +328,7 @@ class Runs:
         """The repeated first run of each group, failures first, as HTML elements; slow ones are
         left out.
         """
-        if self._again is None or not self._again.is_quiet:
+        if self._again is None or not all(again.is_quiet for again, _ in self._again[:1]):
             return
         left = SHOWN_S
         for group in groups[::-1][:SHOWN]:
@@ -259,8 +346,9 @@ class Runs:
 class _Again:
     """Repeats runs of a sweep."""
 
-    def __init__(self, plan: Plan, sweeper: Sweeper, until: float) -> None:
+    def __init__(self, plan: Plan, sweeper: Sweeper, until: float, more: Callable[[Any], Runs]) -> None:
         self.until = until
+        self.more = more
         self._plan = plan
         self._sweeper = sweeper
 

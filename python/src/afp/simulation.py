@@ -15,9 +15,10 @@ from ._afp import Driven, Event, Plan, Runner, World
 from .checks import flag, keys, text
 from .picture import Picture
 from .places import Place, changed, place_of
-from .result import ComponentError, Result
+from .result import ComponentError, Ending, Result
 from .seeds import seed_of
 from .snapshot import Snapshot
+from .stimuli import HOLD, Fault, Press
 from .units import moment, seconds
 from .watch import watch
 
@@ -61,9 +62,9 @@ class Simulation(Driven):
         world, entries, settings = changed(world, values, start)
         self.plan = plan
         self.world = world
-        self.seed = seed
+        self.seed = seed_of(seed)
         self._failures: list[ComponentError] = []
-        self._runner = Runner(plan, world, seed_of(seed), entries, settings, log, flag("camera", camera))
+        self._runner = Runner(plan, world, self.seed, entries, settings, log, flag("camera", camera))
 
     @classmethod
     def _of(cls, runner: Runner, plan: Plan, world: World, seed: int) -> Simulation:
@@ -80,8 +81,15 @@ class Simulation(Driven):
         """Run the plan to its end, or to `until` (seconds since the start), where it is stopped.
 
         Ctrl-C interrupts it; you can continue the simulation afterwards.
+
+        Raises:
+            RuntimeError: an earlier call has stopped the plan before `until`.
         """
-        self._runner.run(seconds("until", until), True)
+        until = seconds("until", until)
+        if self.ending == "time_limit" and until > self.time:
+            what = f"the plan was stopped at {self.time:g} s and does not continue to {until:g} s"
+            raise RuntimeError(f"{what}: run_to() does not stop it, and restore() goes back")
+        self._runner.run(until, True)
         return self.result()
 
     def run_to(self, time: float) -> bool:
@@ -177,9 +185,9 @@ class Simulation(Driven):
         return self._runner.time
 
     @property
-    def ending(self) -> str:
-        """How the plan ended: `ok`, `interrupted`, `error`; `running` before."""
-        return self._runner.ending
+    def ending(self) -> Ending:
+        """How the plan ended: `ok`, `interrupted`, `time_limit` or `error`; `running` before."""
+        return self._runner.ending  # type: ignore[return-value]
 
     @property
     def active(self) -> str | None:
@@ -242,18 +250,19 @@ class Simulation(Driven):
 
     # Stimuli
 
-    def press(self, control: str | None = None, *, at: float | None = None, hold: float = 0.2) -> None:
-        """Press a control of the robot, now or at a later time; the default is the control that
-        ends a run.
+    def press(self, press: Press | None = None) -> None:
+        """Press a control of the robot, now or at a later time: `press(afp.Press("touch", at=1.5))`.
 
-        The Carbot has the button `escape` and the bumper, `touch`.
+        The default is the control that ends a run, now.
         """
-        control = None if control is None else text("a control", control)
-        self._runner.hold(control, moment("at", at), seconds("hold", hold))
+        press = Press() if press is None else press
+        if not isinstance(press, Press):
+            raise TypeError(f'press takes an afp.Press, such as afp.Press("touch", at=1.5), not {press!r}')
+        self._runner.hold(press.control, press.at, press.hold)
 
-    def bump(self, *, at: float | None = None, hold: float = 0.2) -> None:
-        """Press the bumper, now or at a later time: `press("touch")`."""
-        self.press("touch", at=at, hold=hold)
+    def bump(self, *, at: float | None = None, hold: float = HOLD) -> None:
+        """Press the bumper, now or at a later time: `press(afp.Press("touch"))`."""
+        self.press(Press("touch", at=at, hold=hold))
 
     def fire(
         self,
@@ -281,23 +290,11 @@ class Simulation(Driven):
         element = None if element is None else text("an element", element)
         self._runner.idle(element, moment("at", at))
 
-    def fail(
-        self,
-        device: str,
-        kind: str,
-        *,
-        at: float | None = None,
-        lasting: float | None = None,
-        delay: float | None = None,
-        share: float | None = None,
-    ) -> None:
-        """Inject a fault, permanently or for `lasting` seconds: `fail("ultrasonic", "frozen")`.
-
-        `delay` is for `delayed` and `slow`, `share` for `slip` and `low`; `afp.faults()` lists all
-        pairs.
-        """
-        times = (moment("at", at), moment("lasting", lasting), moment("delay", delay))
-        self._runner.fail(text("a device", device), text("a kind", kind), *times, share)
+    def fail(self, fault: Fault) -> None:
+        """Break a device: `fail(afp.Fault("ultrasonic", "frozen", at=2.0, lasting=1.0))`."""
+        if not isinstance(fault, Fault):
+            raise TypeError(f'fail takes an afp.Fault, such as afp.Fault("wheels", "slip", share=0.3), not {fault!r}')
+        self._runner.fail(fault.device, fault.kind, fault.at, fault.lasting, fault.delay, fault.share)
 
     @property
     def errors(self) -> list[ComponentError]:

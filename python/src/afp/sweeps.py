@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import operator
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from . import components
+from . import components, drawn
 from ._afp import Plan, Runner, Sweeper, Toolbox, World
 from .fingerprint import Fingerprint, digest, fingerprint
 from .places import Place, place_of
@@ -20,11 +19,13 @@ from .progress import teller
 from .result import Result
 from .runs import Runs
 from .seeds import seed_of
-from .units import Quantity, seconds
+from .stimuli import Fault, Faults, Press, Presses
+from .units import seconds
 
 __all__ = ["Runs", "sweep"]
 
 Metric = Callable[[Result], float | None]
+Draw = Callable[[np.random.Generator], Any]
 
 MOST_RUNS = 10_000_000
 """A sweep has at most so many runs."""
@@ -34,11 +35,12 @@ def sweep(
     plan: Plan,
     worlds: Place | Iterable[Place] | None = None,
     seeds: int | Iterable[int] = 1,
-    vary: Mapping[str, Any] | None = None,
+    vary: Mapping[str | Fault | Press, Any] | None = None,
     *,
+    draw: Mapping[str, Draw] | None = None,
     until: float = 60.0,
-    press: str | Iterable[str] = (),
-    fail: str | Iterable[str] = (),
+    presses: Presses = (),
+    faults: Faults = (),
     metrics: Mapping[str, Metric] | None = None,
     on_run: Callable[[dict[str, Any]], Any] | None = None,
     jobs: int | None = None,
@@ -55,8 +57,14 @@ def sweep(
     (`[afp.cm(30), "40cm", 0.5]`, an array) or a range as on the command line (`"20cm..60cm:5cm"`).
     Each run is stopped at `until` seconds.
 
-    `press` and `fail` apply to each run, as on the command line: `"escape@1s"`,
-    `"ultrasonic.frozen@5s..7s"`, `["wheels.slip=0.3@2s", "touch.lost@1s"]`.
+    `presses` and `faults` apply to each run: `[afp.Press("escape", at=1.0)]`,
+    `[afp.Fault("ultrasonic", "frozen", at=5.0, lasting=2.0)]`. A stimulus in `vary` is tried at
+    several times: `{afp.Press("touch"): [1.0, 2.0, 3.0]}`.
+
+    `draw` maps entries, or values of the world's file, to functions of a `numpy.random.Generator`:
+    `{"world.robot.charge": lambda rng: rng.uniform(0.2, 1.0)}`. `presses` and `faults` may be such
+    functions, too. Each is called once for each seed, with a generator of its own, so that runs with
+    equal seeds have equal draws in every world and for all varied values.
 
     `metrics` adds columns: functions that take the `Result` of a run and return a number or `None`.
     `on_run` receives the row of each finished run. Both are called in the calling thread.
@@ -83,14 +91,11 @@ def sweep(
         raise TypeError(f"on_run is a function that gets the row of a run, not {on_run!r}")
     if not isinstance(vary, (Mapping, type(None))):
         raise TypeError(f"vary gives entries lists of values, such as {{'walldist': [afp.cm(30), afp.cm(40)]}}, not {vary!r}")
-    spec = Spec(
-        _worlds(worlds),
-        _seeds(seeds),
-        [(name, _values(name, given)) for name, given in (vary or {}).items()],
-        until,
-        _metrics(metrics),
-        (_stimuli("press", press), _stimuli("fail", fail)),
-    )
+    numbers = _seeds(seeds)
+    axes = [_axis(name, given) for name, given in (vary or {}).items()]
+    axes += drawn.axes(range(*numbers) if isinstance(numbers, tuple) else numbers, draw, presses, faults)
+    stimuli = (drawn.spelled(Press, presses), drawn.spelled(Fault, faults))
+    spec = Spec(_worlds(worlds), numbers, axes, until, _metrics(metrics), stimuli)
     sweeper = spec.sweeper(plan, out is not None or backend != "local")
     if out is not None:
         sweeper.open(os.fspath(out), restart)
@@ -108,7 +113,23 @@ def sweep(
         tell(-1, sweeper.total)
         if out is not None:
             sweeper.write()
-    return Runs.of(plan, sweeper, until)
+    def more(seeds: Any) -> Runs:
+        return sweep(
+            plan,
+            worlds,
+            seeds,
+            vary,
+            draw=draw,
+            until=until,
+            presses=presses,
+            faults=faults,
+            metrics=metrics,
+            jobs=jobs,
+            progress=progress,
+            backend=backend,
+        )
+
+    return Runs.of(plan, sweeper, until, more)
 
 
 @dataclass(frozen=True)
@@ -117,7 +138,7 @@ class Spec:
 
     worlds: list[World | str | None]
     seeds: tuple[int, int] | list[int]
-    vary: list[tuple[str, str | list[tuple[str, str | None]]]]
+    vary: list[drawn.Axis]
     until: float
     metrics: dict[str, Metric]
     stimuli: tuple[list[str], list[str]] = ([], [])
@@ -159,17 +180,6 @@ def _metrics(metrics: Mapping[str, Metric] | None) -> dict[str, Metric]:
         if not callable(metric):
             raise TypeError(f"the metric '{name}' is a function that gets a Result, not {metric!r}")
     return dict(metrics or {})
-
-
-def _stimuli(what: str, texts: str | Iterable[str]) -> list[str]:
-    these = [texts] if isinstance(texts, str) else list(texts) if isinstance(texts, Iterable) else [texts]
-    for text in these:
-        if not isinstance(text, str):
-            raise TypeError(f"{what} is a text as on the command line, such as '{_SUCH[what]}', or several, not {text!r}")
-    return these
-
-
-_SUCH = {"press": "escape@1s", "fail": "ultrasonic.frozen@5s..7s"}
 
 
 def _figure(name: str, value: float | None) -> float | None:
@@ -222,6 +232,13 @@ def _count(seeds: int) -> int:
     return seed_of(seeds)
 
 
+def _axis(name: str | Fault | Press, values: Any) -> drawn.Axis:
+    if isinstance(name, (Fault, Press)):
+        times = list(values) if isinstance(values, Iterable) and not isinstance(values, str) else [values]
+        return name._axis, [(name.starting(time)._point(), None) for time in times], False
+    return name, _values(name, values), False
+
+
 def _values(name: str, values: Any) -> str | list[tuple[str, str | None]]:
     """The values of an entry as strings, each with its unit: empty for a bare number, `None` for a
     string.
@@ -230,22 +247,9 @@ def _values(name: str, values: Any) -> str | list[tuple[str, str | None]]:
         return values
     each = values if isinstance(values, Iterable) else [values]
     try:
-        texts = [_text(value) for value in each]
+        texts = [drawn.text_of(value) for value in each]
     except (TypeError, ValueError) as error:
         raise type(error)(f"the values of '{name}': {error}") from None
     if not texts:
         raise ValueError(f"'{name}' has no values")
     return texts
-
-
-def _text(value: Any) -> tuple[str, str | None]:
-    if isinstance(value, (bool, np.bool_)):
-        return ("true" if value else "false", None)
-    if isinstance(value, Quantity):
-        return (repr(float(value)), value.unit)
-    if isinstance(value, str):
-        return (value, None)
-    number = operator.index(value) if hasattr(value, "__index__") else float(value)
-    if not math.isfinite(number):
-        raise ValueError(f"{number} cannot be tried")
-    return (repr(number), "")

@@ -208,7 +208,7 @@ class Stress(RuleBasedStateMachine):
     def fail(self, which: int, fault: tuple[str, str], at: Any, share: Any) -> None:
         sim = self.sim(which)
         if sim is not None:
-            self.attempt(f"fail {fault} {at!r} {share!r}", lambda: sim.fail(*fault, at=opened(at), share=opened(share)))
+            self.attempt(f"fail {fault} {at!r} {share!r}", lambda: sim.fail(afp.Fault(*fault, at=opened(at), share=opened(share))))
             self.attempt("bump", lambda: sim.bump(hold=opened(share)))
 
     @rule(which=few, entry=st.sampled_from(["number", "far", "walldist", "nix"]), to=value, at=st.one_of(st.none(), time))
@@ -345,7 +345,7 @@ class Stress(RuleBasedStateMachine):
     def sound(self) -> None:
         """Read everything that is always readable."""
         for sim in self.sims:
-            assert 0.0 <= sim.time and sim.ending in {"running", "ok", "interrupted", "error"}, sim
+            assert 0.0 <= sim.time and sim.ending in {"running", "ok", "interrupted", "time_limit", "error"}, sim
         del self.robots[:-5]
 
     def teardown(self) -> None:

@@ -47,13 +47,7 @@ impl Run {
     pub fn entry(&self, name: &str) -> PyResult<EntryId> {
         let known = self.own_entries();
         let found = (0..).map(EntryId).zip(&known).find(|(_, known)| *known == name);
-        found.map(|(number, _)| number).ok_or_else(|| {
-            let none = format!("the plan has no entry '{name}'");
-            PyKeyError::new_err(match known.is_empty() {
-                true => format!("{none}; it has none at all"),
-                false => format!("{none}; there are: {}", known.join(", ")),
-            })
-        })
+        found.map(|(number, _)| number).ok_or_else(|| unknown_entry(name, &known))
     }
 
     /// The names of the plan's own entries.
@@ -61,4 +55,13 @@ impl Run {
         let ids = (0..self.own_entries).map(TraceEntryId);
         ids.map(|id| self.names.entry(id).path.to_owned()).collect()
     }
+}
+
+/// The error for an unknown entry of a plan.
+pub fn unknown_entry(name: &str, known: &[String]) -> PyErr {
+    let none = format!("the plan has no entry '{name}'");
+    PyKeyError::new_err(match known.is_empty() {
+        true => format!("{none}; it has none at all"),
+        false => format!("{none}; there are: {}", known.join(", ")),
+    })
 }

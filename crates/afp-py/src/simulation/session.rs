@@ -355,6 +355,7 @@ impl Run {
         match self.session.ending() {
             None => "running",
             Some(Ending::Ok) => "ok",
+            Some(Ending::Interrupted) if self.stopped_by == Some("until") => "time_limit",
             Some(Ending::Interrupted) => "interrupted",
             Some(Ending::Error(_)) => "error",
         }

@@ -3,11 +3,11 @@
 use afp::load::PlanNames;
 use afp_core::trace::{Names, TraceEntryId};
 use afp_run::options::{self, Failure, Press};
-use afp_sweep::{Axis, Point, Seeds, Sweep, WorldChoice, columns};
+use afp_sweep::{Axis, Point, Seeds, Sweep, WorldChoice, columns, varies_stimuli};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::simulation::{control, fault};
+use crate::simulation::{control, fault, unknown_entry};
 use crate::value::unfit;
 use crate::world::World;
 
@@ -128,7 +128,7 @@ impl GivenValues {
     ///
     /// # Errors
     /// An invalid range, or a quantity with the wrong unit.
-    pub fn axis(self, names: &PlanNames, name: String) -> PyResult<Axis> {
+    pub fn axis(self, names: &PlanNames, known: &[String], name: String) -> PyResult<Axis> {
         let values = match self {
             GivenValues::Text(range) => {
                 let axis = afp_sweep::axis(&format!("{name}={range}"));
@@ -139,6 +139,9 @@ impl GivenValues {
         let mut ids = (0..names.entries()).map(TraceEntryId);
         let entry = ids.find(|id| names.entry(*id).path == name);
         let about = entry.map(|id| names.entry(id));
+        if !known.contains(&name) && !name.starts_with("world.") && !varies_stimuli(&name) {
+            return Err(unknown_entry(&name, known));
+        }
         let point = |(text, unit): (String, Option<String>)| {
             let text = match (unit, about) {
                 (None, _) => text,
@@ -151,6 +154,7 @@ impl GivenValues {
             };
             Ok(Point { text, si: None })
         };
-        Ok(Axis { name, points: values.into_iter().map(point).collect::<PyResult<_>>()? })
+        let points = values.into_iter().map(point).collect::<PyResult<_>>()?;
+        Ok(Axis { name, points, by_seed: false })
     }
 }

@@ -49,10 +49,9 @@ A broken device keeps its last value; no fault raises. Ground truth is only in `
 
 **Episodes.** `gymnasium.make` truncates them after 60 s (`max_episode_steps`). `reset(options=...)`
 takes `world`, `pose` (x and y in metres, heading in radians), `goal` (x, y) and `faults` for only
-this episode. Without a world each episode has a new random room. `faults` are tuples of device,
-kind and optionally a mapping with `at`, `lasting`, `delay`, `share`, as in `Simulation.fail`. Given
-to the environment, they apply in every episode. A function of a random generator can also generate
-them.
+this episode. Without a world each episode has a new random room. `faults` are `afp.Fault`, as in
+`Simulation.fail`. Given to the environment, they apply in every episode. A function of a random
+generator can also draw them.
 
 **Seeds.** `reset(seed=...)` decides everything: the same seed and actions give the same trajectory,
 bit for bit, on every machine, in a single or in a vector environment.
@@ -69,7 +68,7 @@ if own_robot is not None:
 gymnasium = need("gymnasium")
 
 from .env import CarbotEnv  # noqa: E402
-from .score import Score, evaluate, run_plan  # noqa: E402
+from .score import Score, evaluate, plan_of  # noqa: E402
 from .setting import PIXELS, RANGE, SPEED, STEP, TURN  # noqa: E402
 from .tasks import FIND_INFRARED, REACH_GOAL, ROAM, TASKS, WALL_FOLLOW, Task  # noqa: E402
 from .vector import CarbotVectorEnv  # noqa: E402
@@ -90,7 +89,7 @@ __all__ = [
     "Score",
     "Task",
     "evaluate",
-    "run_plan",
+    "plan_of",
 ]
 
 for _id, _task in TASKS.items():

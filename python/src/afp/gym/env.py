@@ -11,10 +11,13 @@ from numpy.typing import NDArray
 from .._afp import Courses, World
 from . import picture
 from .screen import Screen
-from .setting import PIXELS, STEP, Faults, Given, Setting, Start, gymnasium, steps_of
+from .setting import STEP, Faults, Given, Setting, Start, gymnasium, steps_of
 from .tasks import ROAM, Task
 
 __all__ = ["CarbotEnv"]
+
+CAMERA = (120, 160, 3)
+"""The shape of the camera's pictures."""
 
 
 class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
@@ -119,6 +122,15 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
         if self._screen is not None:
             self._screen.close()
 
+    def __getstate__(self) -> dict[str, Any]:
+        # Before the first episode there is nothing to copy, and a window is not copied.
+        courses = None if self._start is None else self._courses
+        return {**self.__dict__, "_courses": courses, "_screen": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._screen = Screen(STEP) if self.render_mode == "human" else None
+
     def _open(self) -> Courses:
         if self._courses is None:
             self._courses = self._setting.courses(1)
@@ -134,7 +146,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
             raise gymnasium.error.ResetNeeded("call reset() before render()")
         if self._view == "camera":
             seen = _camera(courses)
-            return np.zeros((PIXELS, PIXELS, 3), np.uint8) if seen is None else seen
+            return np.zeros(CAMERA, np.uint8) if seen is None else seen
         if self._background is None:
             self._background = picture.draw(self.world, courses.place(0)[1], courses.moving(0))
         pose = courses.info()[1][0].tolist()

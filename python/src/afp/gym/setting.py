@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,8 +12,9 @@ import numpy as np
 
 from .._afp import Courses, World
 from ..places import place_of
+from ..stimuli import Fault, Faults, several
 from ..tables import need
-from ..units import moment, number_in, seconds
+from ..units import number_in, seconds
 from .tasks import Task, task_of
 
 gymnasium = need("gymnasium")
@@ -34,8 +35,6 @@ PIXELS = 256
 FOREVER = 2**63
 OPTIONS = ("world", "pose", "goal", "faults")
 
-Fault = tuple[str, str] | tuple[str, str, Mapping[str, float]]
-Faults = Iterable[Fault] | Callable[[np.random.Generator], Iterable[Fault]]
 Given = World | str | os.PathLike[str] | None
 Start = tuple[
     World | None,
@@ -85,7 +84,7 @@ class Setting:
         if steps == 0:
             raise ValueError("an episode has at least one step; give a number from 1 on")
         if not callable(faults):
-            faults = tuple(faults)
+            faults = tuple(several(Fault, faults))
         # Gymnasium's -1 means no limit.
         return cls(task, world_of(world), faults, point, FOREVER if steps is None or steps < 0 else steps)
 
@@ -109,7 +108,8 @@ class Setting:
             raise ValueError(f"no option '{unknown[0]}' of reset; there are: {', '.join(OPTIONS)}")
         room, noise = (int(number) for number in rng.integers(0, 2**32, 2))
         faults = options.get("faults", self.faults)
-        broken = [_fault(fault) for fault in (faults(rng) if callable(faults) else faults)]
+        drawn = faults(rng) if callable(faults) else faults
+        broken = [(it.device, it.kind, it.delay, it.share, it.at, it.lasting) for it in several(Fault, drawn)]
         if options.get("goal") is not None and self.task.reach != "goal":
             raise ValueError(f"'{self.task.name}' has no goal to drive to: make the environment with reach=\"goal\"")
         world = world_of(options["world"]) if options.get("world") is not None else self.world
@@ -143,15 +143,3 @@ def _numbers(name: str, options: Mapping[str, Any], units: Sequence[str]) -> Any
     if len(given) != len(units):
         raise ValueError(f"'{name}' has {len(units)} numbers, not {len(given)}")
     return tuple(number_in(name, number, unit) for number, unit in zip(given, units, strict=True))
-
-
-def _fault(fault: Fault) -> tuple[str, str, float | None, float | None, float | None, float | None]:
-    if isinstance(fault, str) or len(fault) not in (2, 3):
-        raise ValueError(f"a fault is a device, a kind and perhaps a mapping, such as ('wheels', 'slip', {{'share': 0.5}}), not {fault!r}")
-    device, kind = fault[0], fault[1]
-    more = dict(fault[2]) if len(fault) == 3 else {}
-    known = {name: more.pop(name, None) for name in ("delay", "share", "at", "lasting")}
-    if more:
-        raise ValueError(f"a fault has no '{next(iter(more))}'; it has: {', '.join(known)}")
-    share = number_in("share", known["share"])
-    return device, kind, moment("delay", known["delay"]), share, moment("at", known["at"]), moment("lasting", known["lasting"])

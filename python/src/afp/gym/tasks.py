@@ -41,6 +41,9 @@ class Task:
         parts = (self.name, dict(self.reward), self.ends, self.observe, self.reach, self.fan, self.seconds, self.plan)
         return Task, parts
 
+    def __hash__(self) -> int:
+        return hash((self.name, tuple(sorted(self.reward.items())), self.ends, self.observe, self.reach, self.fan, self.seconds))
+
     def __repr__(self) -> str:
         return f"<Task {self.name}: {dict(self.reward)}, ends with {', '.join(self.ends) or 'time'}, sees {', '.join(self.observe)}>"
 

@@ -76,6 +76,7 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         """Start all episodes, or those of `options["reset_mask"]`; `seed` is the first seed, or one
         for each.
         """
+        super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
         options = dict(options or {})
         which = self._masked(options.pop("reset_mask", None))
         seeds = self._seeds(seed)
