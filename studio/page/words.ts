@@ -58,6 +58,7 @@ export const words = {
   resize: (name: string) => `Width of ${name}`,
 
   menu: "Files",
+  menuOf: (file: string) => `Files: ${file}`,
   files: "Plans in this folder",
   moreFiles: "This folder has too many files to list all: start the studio in the folder of your plans",
   newPlan: "New plan …",
@@ -129,6 +130,8 @@ export const words = {
   notRun: (errors: number) => `Nothing was run: the plan has ${count(errors, "error", "errors")}. The first is selected.`,
   notRunNoPlan: "Nothing was run: there is no plan in this file. The menu Files shows the other files.",
   noPlan: "no plan here",
+  emptySoFar: "empty: add an element",
+  notRunEmpty: "Nothing was run: the plan is empty. Drag an element from the palette into it.",
   notRunNoValue: (plan: string, name: string, type: string) => {
     const example = { length: "30 cm", angle: "90 deg", duration: "1 s", speed: "20 cm/s", int: "1", float: "1.5", bool: "true", string: '"text"' }[type];
     return `Nothing was run: ${plan} needs a value for '${name}'. Give it one here${example ? ` (\`= ${example}\`)` : ""}, or run the plan that uses it.`;
@@ -136,7 +139,7 @@ export const words = {
   notRunNotSaved: "Nothing was run: the text is not saved yet.",
   runLost: "The run has ended: the connection to it was lost.",
   runGone: "The run has ended: the page was reloaded.",
-  ended: (ending: "ok" | "interrupted" | "error") => ({ ok: "The plan has ended", interrupted: "The run was interrupted", error: "The plan ended in Error" })[ending],
+  ended: (ending: "ok" | "interrupted" | "error") => ({ ok: "The plan has ended", interrupted: "The run was interrupted", error: "The plan stopped with an error" })[ending],
   endedAt: "Show where",
   onceMore: "Repeat this run in a terminal",
   copied: "Copied",
@@ -288,13 +291,15 @@ export const words = {
   guideProgress: (done: number, all: number) => `${done} of ${all} steps done`,
   guideSteps: {
     drive: { title: "Make it drive", body: "Drag Forward from the palette into the drawing, or click it." },
-    connect: { title: "Choose what comes next", body: "The exit of the element is not connected. Click or drag it, and choose the end of the plan." },
+    connect: { title: "Choose what comes next", body: "Click the red exit below the element, and choose: end the plan." },
     run: { title: "Let it run", body: "Press Run. The active element is green." },
-    notice: { title: "Let it notice", body: "Drag CheckTouchSensor onto the element that drives. It watches while this element is active." },
-    follow: { title: "React to a bump", body: "Click the event of the new supervisor and choose: a new Forward with a negative distance drives backwards. Connect its exit, too." },
+    crate: { title: "Put something in its way", body: "Drag a crate from the world on the right to the floor in front of the robot." },
+    notice: { title: "Let it notice", body: "Drag CheckTouchSensor onto the element that drives. It watches while that element runs." },
+    react: { title: "React to a bump", body: "Click the red event of the supervisor, and choose a new Forward." },
+    follow: { title: "Drive backwards", body: "Click the new Forward, then its distance, ± and ✓. Connect its red exit, too." },
     stop: { title: "A button that always stops it", body: "Drag CheckEscapeButton onto the start of the plan. It watches during the whole plan." },
-    lead: { title: "Connect its event to the end", body: "Click each open exit and choose its target, until the bar shows: ready." },
-    again: { title: "Run it again", body: "Watch the path after the robot bumps into something." },
+    lead: { title: "Connect its event to the end", body: "Click each red exit and choose what comes next, until the bar shows: ready." },
+    again: { title: "Run it again", body: "Watch the green element when the robot bumps into something." },
     done: { title: "Your plan is complete", body: "Set values in the inspector, see the same plan as text, and open the examples in the menu Files." },
   },
 };

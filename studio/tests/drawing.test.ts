@@ -1,7 +1,6 @@
 // Drawings as values: differences, hits, keyboard navigation, bent edges, views, values, lists.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { declared, headed } from "../page/drawing/anatomy";
 import { bent, road } from "../page/drawing/bend";
 import { filtered } from "../page/drawing/choose";
 import { calledNow, changed, itemsNow, whole } from "../page/drawing/differences";
@@ -170,14 +169,6 @@ test("templates become texts, and what is between two elements leads on", () => 
     { connect: { from: "P.a", outcome: "Done", to: "wait" } },
   ]);
   assert.deepEqual(between("P", offer, edge("P.a", "P.b", [])).at(-1), { connect: { from: "P.wait", outcome: "Elapsed", to: "b" } });
-});
-
-test("ports and heads are read as the engine writes them", () => {
-  assert.deepEqual(declared("in live distance: length = 30 cm from 0 cm to 400 cm"), { name: "distance", out: false });
-  assert.deepEqual(declared("out angle: angle on WallFound"), { name: "angle", out: true });
-  assert.deepEqual(headed("supervise touch: CheckTouchSensor every 1 ms deadline 500 us {\n}"), { kind: "supervise", template: "CheckTouchSensor", every: "1 ms", deadline: "500 us" });
-  assert.deepEqual(headed("/// Drives.\n    actor go: c.Forward(distance = 3 cm) { Done -> go }"), { kind: "actor", template: "c.Forward", every: "", deadline: "" });
-  assert.equal(headed("var every: length").template, "");
 });
 
 test("a plan is first shown with where it starts, however large it is", () => {

@@ -3,17 +3,19 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Element } from "../page/drawing/shapes";
 import { facts, next, progress, STEPS, type Facts } from "../page/plan/guide";
-import { inBrowser } from "./browser";
+import { inBrowser, shows } from "./browser";
 
-const NOTHING: Facts = { actors: 0, errors: 1, watched: 0, stoppers: 0, runs: 0 };
+const NOTHING: Facts = { actors: 0, errors: 1, watched: 0, stoppers: 0, crates: 0, runs: 0 };
 
 test("each step follows from what the plan has", () => {
   const way: [Partial<Facts>, ReturnType<typeof next>][] = [
     [{}, "drive"],
     [{ actors: 1 }, "connect"],
     [{ actors: 1, errors: 0 }, "run"],
-    [{ actors: 1, errors: 0, runs: 1 }, "notice"],
-    [{ actors: 1, watched: 1, runs: 1 }, "follow"],
+    [{ actors: 1, errors: 0, runs: 1 }, "crate"],
+    [{ actors: 1, errors: 0, crates: 1, runs: 1 }, "notice"],
+    [{ actors: 1, watched: 1, runs: 1 }, "react"],
+    [{ actors: 2, watched: 1, runs: 1 }, "follow"],
     [{ actors: 2, errors: 0, watched: 1, runs: 1 }, "stop"],
     [{ actors: 2, errors: 1, watched: 1, stoppers: 1, runs: 1 }, "lead"],
     [{ actors: 2, errors: 0, watched: 1, stoppers: 1, runs: 1 }, "again"],
@@ -35,7 +37,7 @@ test("a drawing is read: elements, supervisors of an element and of the plan", (
     element("P.start", null, [piece("P", "whole"), piece("P.gap", "whole"), piece("P.escape", "exit")]),
     element("P.go", "actor", [piece("P.go", "exit"), piece("P.go.touch", "exit"), piece("P.go.touch", "whole")]),
   ]);
-  assert.deepEqual(facts({ plan: "P", elements }, 2, 1), { actors: 1, errors: 2, watched: 1, stoppers: 1, runs: 1 });
+  assert.deepEqual(facts({ plan: "P", elements }, { errors: 2, crates: 3, runs: 1 }), { actors: 1, errors: 2, watched: 1, stoppers: 1, crates: 3, runs: 1 });
 });
 
 inBrowser("the first plan: from nothing to a robot that drives, by the mouse alone", {}, async ({ page, read, isSaved }) => {
@@ -52,9 +54,11 @@ inBrowser("the first plan: from nothing to a robot that drives, by the mouse alo
   assert.match(await read("plan.afp"), /start forward[\s\S]*actor forward: Forward \{\s*ForwardSuccessful -> terminate/);
   await page.getByLabel("Speed").selectOption("null");
   await page.locator("button.run").click();
-  await page.locator(".end-card").waitFor();
+  // It drives freely, ends well, and the timeline shows the run.
+  await shows(page.locator(".end-card"), /The plan has ended/);
+  await page.locator(".bottom .timeline, .bottom .lanes, .lane").first().waitFor();
   await page.locator(".end-card").getByRole("button", { name: "OK" }).click();
-  await says("Let it notice");
+  await says("Put something in its way");
   await card.getByRole("button", { name: "Close" }).click();
   await card.waitFor({ state: "detached" });
 });

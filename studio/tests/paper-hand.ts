@@ -1,6 +1,7 @@
 // The paper's plan from an empty file, by touch and by mouse.
 import assert from "node:assert/strict";
 import type { Locator, Page } from "playwright-core";
+import { fillEntry } from "./spots";
 
 export const PLAN = "WallFollowing";
 
@@ -101,7 +102,7 @@ export class Hand {
     const start = (await this.page.locator(`.node [data-item="${PLAN}.start"] text.start`).boundingBox())!;
     await this.pointer.menuAt(start.x + start.width / 2, start.y + start.height / 2);
     await this.pointer.press(this.page.getByRole("menuitem", { name: "Add an entry" }));
-    await this.page.getByRole("dialog").getByRole("textbox").fill(line);
+    await fillEntry(this.page, line);
     await this.pointer.press(this.page.getByRole("dialog").getByRole("button", { name: "Add an entry" }));
     await this.has(line);
     await this.stands(/(\w+):/.exec(line)![1]!);

@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import type { Page } from "playwright-core";
 import { inBrowser } from "./browser";
+import { fillEntry } from "./spots";
 
 const PLAN = "WallFollowing";
 
@@ -181,7 +182,7 @@ class Hands {
   async entry(line: string): Promise<void> {
     await this.page.locator(".board").focus();
     await this.key("e");
-    await this.page.getByRole("dialog").getByRole("textbox").fill(line);
+    await fillEntry(this.page, line);
     await this.key("Enter");
     await this.has(line);
     await this.stands(/(\w+):/.exec(line)![1]!);

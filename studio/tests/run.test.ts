@@ -67,7 +67,7 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await page.getByRole("button", { name: "Continue" }).click();
   const card = page.locator(".end-card");
   await card.waitFor();
-  await shows(card, /Outer ended as it says itself, after 6\.5/);
+  await shows(card, /Outer finished normally after 6\.5/);
   await card.locator("summary").click();
   await shows(card, /afpc run \S*plan\.afp:Outer/);
   await card.getByRole("button", { name: "Show where" }).click();

@@ -15,3 +15,13 @@ export async function middle(page: Page, selector: string): Promise<Spot> {
 export const name = (item: string): string => `.node [data-item="${item}"] text.name`;
 /** An exit of an item. */
 export const exit = (item: string, label: string): string => `.node [data-item="${item}"] text:text-is("${label}")`;
+
+/** Fills the form of a new entry from a line of the text: `in walldist: length = 30 cm`. */
+export async function fillEntry(page: Page, line: string): Promise<void> {
+  const [, kind, called, type, value] = /^(\w+) (\w+): (\w+)(?: = (.*))?$/.exec(line) ?? [];
+  const form = page.getByRole("dialog");
+  await form.getByLabel("Name").fill(called!);
+  await form.getByLabel("Kind").selectOption(kind!);
+  await form.getByLabel("Type").selectOption(type!);
+  await form.getByRole("textbox", { name: "Value" }).fill(value ?? "");
+}

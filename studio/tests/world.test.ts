@@ -2,6 +2,7 @@
 // poses.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { freeStart } from "../page/world/free";
 import { extended, frame, middle, placed, placeOf, points, scaleIn, viewBox, type Path, type Point, type World } from "../page/world/geometry";
 import { dragged, nudged } from "../page/world/grab";
 import { poseOf, put, seen } from "../page/world/hand";
@@ -114,4 +115,15 @@ test("before a run things stand where the hand has put them, during one where it
   assert.deepEqual(before.map(({ id, movable }) => [id, movable]), [["0 box", false], ["drop 0", true]]);
   const during = seen(one, [{ id: "0 box", outline: BODY }, { id: "1 can 1", outline: BODY }], {}, [], shapes);
   assert.deepEqual(during.map(({ id, outline }) => [id, outline === BODY]), [["0 box", true], ["1 can 1", true]]);
+});
+
+test("a first start faces free floor, at the world's own heading if that is free", () => {
+  const square = (x: number, y: number, half: number): Point[] => [[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]];
+  const thing = (id: string, outline: Point[]) => ({ id, name: id, outline, low: false, movable: false, labelled: false, path: [] });
+  const world = (...things: ReturnType<typeof thing>[]) => ({ start: [0, 0, 0] as const, body: square(0, 0, 0.15), things: [thing("room", square(0, 0, 2.5)), ...things], patches: [], lights: [] });
+  const heading = (...things: ReturnType<typeof thing>[]): number => freeStart(world(...things))[2];
+  assert.equal(heading(), 0);
+  assert.equal(heading(thing("step", square(1, 0, 0.15))), Math.PI / 2);
+  assert.equal(heading(thing("step", square(1, 0, 0.15)), thing("table", square(0, 1, 0.3))), -Math.PI / 2);
+  assert.equal(heading(thing("cell", square(0, 0, 0.5))), 0);
 });

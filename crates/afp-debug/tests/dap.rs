@@ -286,7 +286,7 @@ plan Spin {
     clients.tick(None);
     clients.say("continue");
     clients.tick(None);
-    assert!(clients.told.contains("Spin ended in Error after 0.100 s"), "{}", clients.told);
+    assert!(clients.told.contains("Spin stopped with an error after 0.1 s"), "{}", clients.told);
 }
 
 /// Runs with or without copies.

@@ -37,13 +37,21 @@ pub fn states(template: &Template) -> impl Iterator<Item = (&str, String)> {
     template.outcomes.iter().zip(cases).map(|(state, case)| {
         let condition = condition(case, template);
         let when = if condition.is_empty() { "" } else { " when " };
-        let written = case.writes.iter().filter_map(|(port, formula)| {
-            let port = &template.outputs.get(usize::from(*port))?.name;
-            Some(format!(" {port} = {}", printed(formula.part(), &ports(template))))
-        });
+        let written = writes(case, template).map(|(port, formula)| format!(" {port} = {formula}"));
         let written = written.collect::<Vec<_>>().join(",");
         let end = if written.is_empty() { "" } else { " " };
         (&*state.name, format!("{}{when}{condition} {{{written}{end}}}", state.name))
+    })
+}
+
+/// The outputs that a state of a declared computation assigns, each with its formula.
+pub fn writes<'t>(
+    case: &'t Case,
+    template: &'t Template,
+) -> impl Iterator<Item = (&'t str, String)> {
+    case.writes.iter().filter_map(|(port, formula)| {
+        let port = &template.outputs.get(usize::from(*port))?.name;
+        Some((port.as_str(), printed(formula.part(), &ports(template))))
     })
 }
 

@@ -21,6 +21,7 @@ use afp_syntax::source::Span;
 
 pub use bodies::{Piece, plain};
 use context::{Context, Place};
+pub(crate) use values::type_names;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {

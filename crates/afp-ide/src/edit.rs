@@ -307,6 +307,11 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     result + text.get(at..).unwrap_or_default()
 }
 
+/// Whether a text of items has only supervisors, which can be added to an element.
+pub fn has_only_supervisors(text: &str) -> bool {
+    fragment::items(text, true).is_ok()
+}
+
 /// The span of an item with its comments, as removed by [`Change::Remove`].
 pub fn with_comments(file: u16, text: &str, item: &Item) -> Option<Span> {
     let root = afp_syntax::parse(text, file, &mut Diagnostics::default()).root();

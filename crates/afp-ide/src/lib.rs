@@ -7,6 +7,7 @@
 pub mod actions;
 pub mod candidates;
 pub mod completion;
+pub mod copy;
 pub mod definition;
 mod describe;
 pub mod edit;
@@ -15,6 +16,7 @@ pub mod hints;
 pub mod hover;
 pub mod lenses;
 pub mod palette;
+pub mod parts;
 pub mod references;
 pub mod selection;
 pub mod signature;

@@ -24,11 +24,13 @@ pub struct Offer {
     pub missing_use: Option<String>,
 }
 
-/// Returns all offers whose name or help contains `query`, best first: visible offers before
-/// others, prefixes of names before other matches in names before matches in help. Templates of
-/// another robot are offered only if the file uses its toolbox.
+/// Returns all offers whose name and help contain every word of `query`, best first: prefixes of
+/// names before other matches in names before matches in help, and then visible offers before
+/// others. Templates of another robot are offered only if the file uses its toolbox.
 pub fn palette(view: &View, query: &str) -> Vec<Offer> {
     let query = query.to_lowercase();
+    let words: Vec<_> = query.split_whitespace().collect();
+    let joined = words.concat();
     let is_offered = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
     let visible = view.index().visible(view.file, 0, is_offered);
     let mut ranked: Vec<(u8, Offer)> = Vec::new();
@@ -40,14 +42,14 @@ pub fn palette(view: &View, query: &str) -> Vec<Offer> {
             _ => None,
         };
         let Some(offer) = offer else { continue };
-        let name = offer.name.to_lowercase();
+        let (name, help) = (offer.name.to_lowercase(), offer.help.to_lowercase());
         let fit = match () {
-            () if name.starts_with(&query) => 0,
-            () if name.contains(&query) => 1,
-            () if offer.help.to_lowercase().contains(&query) => 2,
+            () if name.starts_with(&joined) => 0,
+            () if name.contains(&joined) => 1,
+            () if words.iter().all(|word| name.contains(word) || help.contains(word)) => 2,
             () => continue,
         };
-        ranked.push((fit + 3 * u8::from(!seen), offer));
+        ranked.push((2 * fit + u8::from(!seen), offer));
     }
     ranked.sort_by(|(a, one), (b, other)| (a, &one.name).cmp(&(b, &other.name)));
     ranked.into_iter().map(|(_, offer)| offer).collect()
@@ -113,6 +115,35 @@ mod tests {
     use afp_syntax::source::Source;
 
     const VACUUM: &str = include_str!("../../../examples/vacuum/vacuum.afp");
+
+    /// Toolboxes name other words of a template in its help.
+    #[test]
+    fn templates_are_found_by_other_words() {
+        let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+        let compiled = compile(&Source::new("p.afp", "use carbot\n"), &toolboxes, &|_: &str| {
+            Err(String::new())
+        });
+        let file = u16::try_from(compiled.plan_files.start).unwrap();
+        let view = View::new(&compiled, &toolboxes, file);
+        for (query, name) in [
+            ("rotate", "Turn"),
+            ("turn left", "Turn"),
+            ("sleep", "Wait"),
+            ("camera", "FindObject"),
+            ("if", "Compare"),
+            ("bump", "CheckTouchSensor"),
+            ("line", "CheckLine"),
+            ("touch sensor", "CheckTouchSensor"),
+        ] {
+            let found = palette(&view, query);
+            assert!(found.iter().any(|offer| offer.name == name), "{query}: {name}");
+        }
+        // A name fits better than help, also if its toolbox has to be imported.
+        for (query, name) in [("touch sensor", "CheckTouchSensor"), ("wait", "Wait")] {
+            assert_eq!(palette(&view, query)[0].name, name);
+        }
+        assert!(palette(&view, "no such thing").is_empty());
+    }
 
     /// A vacuum cleaner must not get a camera template.
     #[test]

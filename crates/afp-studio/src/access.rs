@@ -65,6 +65,11 @@ impl Secret {
         kept.take_if(works).is_some()
     }
 
+    /// Whether a request names its page. A browser does so for every socket.
+    pub fn has_origin(headers: &HeaderMap) -> bool {
+        headers.contains_key(ORIGIN)
+    }
+
     /// Whether a request is for this server, and from one of its pages.
     pub fn is_ours(&self, headers: &HeaderMap) -> bool {
         let named = |name| headers.get(name).map(|value| value.to_str().unwrap_or("?"));

@@ -91,6 +91,11 @@ impl Folder {
                 path.display()
             ));
         }
+        // Windows opens a device by such a name, whatever the ending.
+        let stem = path.file_name().and_then(|name| name.to_str()?.split('.').next());
+        if stem.is_some_and(is_device) {
+            return Err(format!("'{}' is the name of a device on Windows", path.display()));
+        }
         let outside = || format!("'{}' is outside of '{}'", path.display(), self.root.display());
         let real = match fs::canonicalize(path) {
             Ok(real) => real,
@@ -109,7 +114,12 @@ impl Folder {
 
     pub(crate) fn list(&self) -> Listed {
         let Listing { files, logs, entries, is_cut } = afp_project::list(&self.root, MOST_ENTRIES);
-        let files = files.into_iter();
+        // Links to the outside are not opened.
+        let is_link = |path: &Path| fs::symlink_metadata(path).is_ok_and(|it| it.is_symlink());
+        let is_inside = |path: &PathBuf| {
+            !is_link(path) || path.to_str().is_some_and(|it| self.inside(it).is_ok())
+        };
+        let files = files.into_iter().filter(is_inside);
         let files = files.filter_map(|path| Some((path.to_str()?.to_owned(), stamp(&path)?)));
         // The growth of a log is not a change.
         let logs = logs.into_iter();
@@ -122,6 +132,15 @@ impl Folder {
         let short = Path::new(path).strip_prefix(&self.root).unwrap_or(Path::new(path));
         short.to_string_lossy().replace('\\', "/")
     }
+}
+
+/// Whether Windows reserves a name.
+fn is_device(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    let port = |kind| {
+        name.strip_prefix(kind).is_some_and(|rest: &str| matches!(rest.as_bytes(), [b'1'..=b'9']))
+    };
+    matches!(&*name, "con" | "prn" | "aux" | "nul") || port("com") || port("lpt")
 }
 
 /// Modification time and length of a file.
@@ -211,9 +230,16 @@ mod tests {
         for fine in ["a.afp", "new.afp", "sub/new.afp.layout", "afp.toml", "sub/../a.afp"] {
             assert!(inside(fine).is_ok(), "{fine}: {:?}", inside(fine));
         }
-        for wrong in
-            ["../out.afp", "../new.afp", "sub/../../out.afp", "none/new.afp", "a.sh", "target"]
-        {
+        for wrong in [
+            "../out.afp",
+            "../new.afp",
+            "sub/../../out.afp",
+            "none/new.afp",
+            "a.sh",
+            "target",
+            "CON.afp",
+            "sub/lpt1.afp.layout",
+        ] {
             assert!(inside(wrong).is_err(), "{wrong}");
         }
         #[cfg(unix)]
@@ -226,6 +252,10 @@ mod tests {
             for wrong in ["link.afp", "dead.afp", "up/out.afp", "up/new.afp"] {
                 assert!(inside(wrong).is_err(), "{wrong}");
             }
+            std::os::unix::fs::symlink(root.join("a.afp"), root.join("same.afp")).unwrap();
+            let listed: Vec<_> = folder.list().files.into_keys().collect();
+            let names: Vec<_> = listed.iter().map(|path| folder.name(path)).collect();
+            assert_eq!(names, ["a.afp", "same.afp"], "links to the outside are not listed");
         }
     }
 

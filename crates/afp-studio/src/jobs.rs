@@ -42,6 +42,8 @@ impl Runner {
     fn begin(&mut self, id: JobId, arguments: &[String]) {
         let mut command = Command::new(&self.program);
         command.args(arguments).current_dir(&self.folder).stdin(Stdio::null());
+        // Cargo and the command line then write no colours.
+        command.env("CARGO_TERM_COLOR", "never").env("NO_COLOR", "1");
         match Group::start(command.stdout(Stdio::piped()).stderr(Stdio::piped())) {
             Ok(mut group) => {
                 let first = group.first();

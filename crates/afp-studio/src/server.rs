@@ -89,7 +89,8 @@ async fn asked_to_end() -> io::Result<()> {
 /// Rejects foreign requests and requests without a cookie, and sets the page's security policy.
 async fn guard(State(shared): State<Shared>, request: Request, next: Next) -> Response {
     let headers = request.headers();
-    if !shared.secret.is_ours(headers) {
+    let is_socket = matches!(request.uri().path(), "/lsp" | "/dap");
+    if !shared.secret.is_ours(headers) || is_socket && !Secret::has_origin(headers) {
         return (StatusCode::FORBIDDEN, "this server answers only its own page\n").into_response();
     }
     let enters = request.uri().path() == "/" && request.uri().query().is_some();

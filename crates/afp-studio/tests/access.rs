@@ -73,6 +73,8 @@ fn a_code_opens_once_and_other_pages_never() {
     let key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==";
     let without = [upgrade[1], upgrade[2], key];
     assert_eq!(status(&get(port, "/lsp", &without)), "403", "a socket needs the cookie");
+    let of_page = [&without[..], &[&cookie]].concat();
+    assert_eq!(status(&get(port, "/lsp", &of_page)), "403", "a socket needs the page's origin");
 }
 
 #[test]

@@ -38,7 +38,7 @@ export function Controls() {
       {held && <Tool icon="next" label={`${words.step} (F10)`} run={next} />}
       {held && <Tool icon="into" label={`${words.stepInto} (F11)`} run={into} />}
       {held && <Tool icon="out" label={`${words.stepOut} (Shift+F11)`} run={out} />}
-      {active.value && <Tool icon="why" label={`${words.why} (W)`} run={askWhy} />}
+      {(active.value || now === "over") && <Tool icon="why" label={`${words.why} (W)`} run={askWhy} />}
       {now === "running" && <Tool icon="pause" label={`${words.pause} (F8)`} run={pause} />}
       {active.value && <Tool icon="stop" label={`${words.stop} (Shift+F5)`} run={stop} />}
       {now !== "running" && now !== "starting" && (
@@ -103,6 +103,6 @@ export function commands(): void {
   command({ id: "back", label: words.stepBack, key: "Shift+F10", run: back, enabled: () => phase.value === "held" });
   command({ id: "stop", label: words.stop, key: "Shift+F5", run: stop, enabled: () => active.value });
   command({ id: "breakpoint", label: words.breakpoint, key: "F9", run: () => void toggleSelected() });
-  command({ id: "why", label: words.why, key: "W", where: "drawing", run: askWhy, enabled: () => active.value });
+  command({ id: "why", label: words.why, key: "W", where: "drawing", run: askWhy, enabled: () => phase.value !== "idle" });
   command({ id: "again", label: words.runAgain, key: "Ctrl+Shift+F5", run: again, enabled: () => phase.value !== "idle" });
 }

@@ -1,7 +1,7 @@
 // Whether the displayed plan can run; otherwise the reason is shown.
 import { effect } from "@preact/signals";
 import { current } from "../documents/documents";
-import { drawing, plan, trail, wanted, type Place } from "../drawing/model";
+import { drawing, isEmpty, plan, trail, wanted, type Place } from "../drawing/model";
 import type { Entry } from "../drawing/shapes";
 import { trouble } from "../panes/files";
 import { point } from "../plan/places";
@@ -31,6 +31,7 @@ export async function canRun(given: object): Promise<boolean> {
   const isHere = (): boolean => toRun().uri === uri;
   const errors = (): number => problemsOf(uri).filter((each) => severityOf(each) === "error").length;
   const count = errors();
+  if (isEmpty.peek()) return refuse(words.notRunEmpty, () => isHere() && isEmpty.value);
   if (count) {
     refuse(words.notRun(count), () => isHere() && errors() === count);
     await point(uri, problemsOf(uri)[0]!.range);

@@ -110,6 +110,7 @@ function hear(own: Dap): void {
   });
   own.on("afp/ended", (now: Ended) => dap === own && finish(now));
   own.on("stopped", ({ description }) => {
+    if (dap === own) hurry(speed.peek());
     [phase.value, why.value] = ["held", description ?? ""];
   });
   own.on("terminated", () => dap === own && phase.value !== "over" && finish(null));
@@ -213,10 +214,14 @@ export function goOn(): unknown {
   return order("continue");
 }
 
+/** A step takes no real time; afterwards the chosen speed counts again. */
+const hurry = (factor: number | null): void => void (speed.peek() !== null && !log.peek() && order("afp/speed", factor === null ? {} : { factor }));
+
 /** Makes one step; without a run, starts a stopped one. */
 function step(command: string): unknown {
   if (!active.value) return start(true);
   if (phase.value === "held") phase.value = "running";
+  hurry(null);
   return order(command);
 }
 

@@ -1,11 +1,14 @@
 // Values of entries during a run, as chips over their declarations.
 import { svg } from "../drawing/fragment";
-import { nameOf, rectOf, type Drawing, type Entry } from "../drawing/shapes";
+import { nameOf, rectOf, type Drawing, type Entry, type Point } from "../drawing/shapes";
 import { frameOf, type Frame } from "./follow";
 import type { State } from "./told";
 
-/** Maximum number of characters in a chip. */
+/** Minimum and maximum number of characters in a chip. */
+const SHORTEST = 6;
 const LONGEST = 22;
+/** Distance from the chips to the start of the plan, or to the right border. */
+const MARGIN = 34;
 /**
  * Width of a character, height of a chip, its padding, and width of a lock, in units of the plan.
  */
@@ -34,22 +37,26 @@ export function holding(frames: readonly Frame[], plan: string | null, now: Pick
   return forced ? { text: forced.value ?? text, left: Math.max(0, Math.ceil(forced.until - now.at)) } : { text, left: null };
 }
 
-const short = (value: string): string => (value.length > LONGEST ? `${value.slice(0, LONGEST - 1)}…` : value);
+const short = (value: string, longest: number): string => (value.length > longest ? `${value.slice(0, longest - 1)}…` : value);
 
 /** Chips of entries with values; `fresh` were just written. */
 export function chips(drawn: Drawing, values: ReadonlyMap<string, Held>, fresh: ReadonlySet<string>): SVGElement[] {
   const rights = drawn.entries.map(({ item }) => rectOf(drawn, { item })).map((rect) => (rect ? rect[0] + rect[2] : 0));
   const left = Math.max(...rights) + GAP;
-  return drawn.entries.flatMap((entry) => chip(drawn, entry, left, values.get(entry.item), fresh.has(entry.item)));
+  const start = drawn.elements.get(`${drawn.plan}.start`);
+  const end = start ? (start.rect[0] > left ? start.rect[0] : start.outer[0] + start.outer[2]) - MARGIN : Infinity;
+  return drawn.entries.flatMap((entry) => chip(drawn, entry, [left, end], values.get(entry.item), fresh.has(entry.item)));
 }
 
-function chip(drawn: Drawing, { item }: Entry, x: number, value: Held | undefined, fresh: boolean): SVGElement[] {
+function chip(drawn: Drawing, { item }: Entry, [x, end]: Point, value: Held | undefined, fresh: boolean): SVGElement[] {
   const rect = rectOf(drawn, { item });
   if (!rect || value === undefined) return [];
   const forced = value.left !== null;
-  const text = forced ? `${short(value.text)}, ${value.left} s` : short(value.text);
-  const middle = rect[1] + rect[3] / 2;
   const sign = forced ? LOCK : 0;
+  const left = forced ? `, ${value.left} s` : "";
+  const room = Math.floor((end - x - 2 * PAD - sign) / CHARACTER) - left.length;
+  const text = short(value.text, Math.max(SHORTEST, Math.min(LONGEST, room))) + left;
+  const middle = rect[1] + rect[3] / 2;
   const body = svg("rect", { class: `run-value${fresh ? " fresh" : ""}${forced ? " forced" : ""}`, x, y: middle - HEIGHT / 2, width: text.length * CHARACTER + 2 * PAD + sign, height: HEIGHT, rx: 4 });
   const words = svg("text", { class: "run-value-text", x: x + PAD + sign, y: middle + 4.3, "data-item": item });
   words.textContent = text;

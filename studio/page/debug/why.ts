@@ -3,7 +3,7 @@ import { effect, signal } from "@preact/signals";
 import { plan } from "../drawing/model";
 import { selected } from "../plan/selection";
 import { frameOf } from "./follow";
-import { active, ask, frames, phase, state } from "./run";
+import { ask, frames, phase, state } from "./run";
 
 export interface Edge {
   from: string;
@@ -38,9 +38,16 @@ export function pathInRun(item: string): string | null {
 
 export function askWhy(): void {
   const last = selected.peek().at(-1);
-  const path = last && active.peek() ? pathInRun(last.item) : null;
+  const path = last && phase.peek() !== "idle" ? pathInRun(last.item) : null;
   if (path) asked.value = path;
 }
+
+/** While the card is open, it follows the selection. */
+const followed = (): void => {
+  const last = selected.value.at(-1);
+  const path = last && asked.peek() ? pathInRun(last.item) : null;
+  if (path) asked.value = path;
+};
 
 export const close = (): void => {
   asked.value = "";
@@ -51,6 +58,7 @@ const PAUSE = 500;
 
 export function begin(): void {
   let last = -Infinity;
+  effect(followed);
   effect(() => {
     const [path, now, still] = [asked.value, state.value, phase.value === "held"];
     if (!path || !now) {
@@ -65,8 +73,9 @@ export function begin(): void {
       else close();
     });
   });
-  active.subscribe((runs) => {
-    if (!runs) close();
+  // The debugger still answers after the end of a run.
+  phase.subscribe((now) => {
+    if (now === "idle" || now === "starting") close();
   });
 }
 

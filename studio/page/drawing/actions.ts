@@ -104,7 +104,7 @@ export async function whatThen(from: Part, at: Point | null = below(from), place
   try {
     const targets = await fitting(from);
     if (!isMine()) return;
-    const fresh = offers.ofElements(catalog.offers.peek());
+    const fresh = offers.usedFirst(offers.ofElements(catalog.offers.peek()), found.drawn);
     const known = [...targets].map(([text, refused]) => offers.target({ text, refused }));
     const list = [...known, ...fresh.map((offer) => offers.choice(offer, words.newOne(offer.template)))];
     const chosen = await choose(start ? words.startWith : words.whatThen(name), list, at);
@@ -187,31 +187,22 @@ export async function automatic(): Promise<void> {
   await ask.place(Object.fromEntries(items.map((item) => [item, null])), words.automaticPlaces);
 }
 
-/** The selected items as text in source order, with their toolboxes and the start. */
+/** The selected items as text, with their toolboxes and the start. */
 export async function copied(): Promise<string> {
-  const chosen = new Set(selected.peek().map((part) => part.item));
-  // An item with a selected owner is copied with it.
-  const items = [...chosen].filter((item) => item.includes(".") && !(item.split(".").length > 2 && chosen.has(item.split(".").slice(0, -1).join("."))));
-  const texts = await ask.inOrder(items);
-  const templates = new Set(texts.flatMap((text) => [...text.replace(/\/\/.*/g, "").matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
-  // The palette may not be loaded yet.
-  const known = catalog.offers.peek().length ? catalog.offers.peek() : await ask.palette("");
-  const toolboxes = new Set(known.filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
-  const uses = [...toolboxes].map((name) => `use ${name}\n`).join("");
-  const start = [...(drawing.peek()?.edges.values() ?? [])].find((edge) => edge.kind === "start" && chosen.has(edge.to));
+  const items = [...new Set(selected.peek().map((part) => part.item))].filter((item) => item.includes("."));
+  const text = await ask.copied(items);
   say(words.copied(items.length));
-  return `${uses}${start ? `start ${nameOf(start.to)}\n` : ""}${texts.join("\n")}\n`;
+  return text;
 }
 
-/** Pastes items; a supervisor goes to the selected element. */
+/** Pastes items; supervisors go to the selected element. */
 export async function paste(text: string): Promise<void> {
   const at = here();
   if (!at || text.trim() === "") return;
   const part = focused();
-  const supervisors = /^(\s*(use\s|\/\/).*\n)*\s*supervise\b/.test(text);
   const rect = part && rectOf(at.drawn, { item: part.item });
-  const place: Point | null = rect && !supervisors ? [Math.round(rect[0] + 24), Math.round(rect[1] + 24)] : null;
-  await ask.paste(at.plan, supervisors && part ? ownerOf(at.drawn, part) : null, text, place);
+  const place: Point | null = rect ? [Math.round(rect[0] + 24), Math.round(rect[1] + 24)] : null;
+  await ask.paste(at.plan, part && ownerOf(at.drawn, part), text, place);
 }
 
 export const duplicate = async (): Promise<void> => paste(await copied());
@@ -243,10 +234,9 @@ export function into(part: Part | null): void {
 export async function template(): Promise<void> {
   const part = focused();
   const isMine = turn();
-  const text = part && (await ask.written(part.item).catch(() => ""));
+  const found = part && (await ask.parts(part.item).catch(() => null));
   if (!isMine()) return;
-  const kind = /^\s*(?:\/\/.*\n\s*)*(\w+)/.exec(text ?? "")?.[1];
-  const list = catalog.offers.peek().filter((offer) => offer.kind === kind);
+  const list = catalog.offers.peek().filter((offer) => offer.kind === found?.kind);
   if (!part || list.length === 0) return refuse(words.selectFirst);
   const chosen = await choose(words.whichTemplate, list.map((offer) => offers.choice(offer)), below(part));
   const offer = list.find((offer) => offers.choice(offer).id === chosen?.id);

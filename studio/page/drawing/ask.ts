@@ -1,11 +1,10 @@
 // Requests of drawing, palette and inspector to the engine, with the types of the answers.
-import { current, text } from "../documents/documents";
+import { current } from "../documents/documents";
 import { change, type WorkspaceEdit } from "../documents/edits";
-import { spanOf } from "../plan/places";
-import { offset } from "../documents/positions";
+import type { Position } from "../documents/positions";
 import { lsp } from "../server/session";
 import { refuse } from "./say";
-import type { Part, PartOf, Point } from "./shapes";
+import type { Part, Point } from "./shapes";
 import { words } from "./words";
 
 /** A change for `afp/edit`: one key, its name, with its fields. */
@@ -54,48 +53,28 @@ export const targets = async (item: string, outcome: string): Promise<Candidate[
 
 export const port = (item: string, port: string): Promise<PortAnswer | null> => ask<PortAnswer | null>("afp/candidates", { item, port });
 
-/** The source of an item or part; empty if it has none. */
-export async function written(item: string, part?: PartOf): Promise<string> {
-  const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) });
-  const whole = text(current.peek());
-  return range ? whole.slice(offset(whole, range.start), offset(whole, range.end)) : "";
+/** The parts of an item, as `afp/parts` returns them. */
+export interface Parts {
+  /** The keyword of an element or supervisor; empty for another item. */
+  kind: string;
+  template: string;
+  templateAt: Position | null;
+  ports: { name: string; out: boolean; answer: PortAnswer | null }[];
+  exits: { name: string; to: string }[];
+  timing: { every: string; deadline: string } | null;
+  help: string;
+  note: string;
+  computation: Computation | null;
+  types: string[];
 }
 
-/** The sources of items with their comments, in source order and with their blank lines. */
-export async function inOrder(items: readonly string[]): Promise<string[]> {
-  const ranges = (await Promise.all(items.map((item) => spanOf(current.peek(), { item }, true)))).filter((range) => range !== null);
-  const whole = text(current.peek());
-  const places = ranges.map(({ start, end }) => [offset(whole, start), offset(whole, end)] as const);
-  places.sort(([one], [other]) => one - other);
-  const isApart = (nth: number): boolean => nth > 0 && /\n\s*\n/.test(whole.slice(places[nth - 1]![1], places[nth]![0]));
-  return places.map(([from, to], nth) => `${isApart(nth) ? "\n" : ""}${whole.slice(from, to)}`);
+/** A computation that the file declares. The condition of the last state is null. */
+export interface Computation {
+  name: string;
+  states: { name: string; condition: string | null; writes: [output: string, formula: string][] }[];
 }
 
-/** The help text before an item; empty if it has none. */
-export async function help(item: string): Promise<string> {
-  const range = await spanOf(current.peek(), { item });
-  if (!range) return "";
-  const whole = text(current.peek());
-  const start = offset(whole, range.start);
-  const above = whole.slice(0, start).split("\n").slice(0, -1).reverse();
-  const end = above.findIndex((line) => !line.trim().startsWith("///"));
-  const lines = end < 0 ? above : above.slice(0, end);
-  // A span may begin with its help.
-  const own = whole.slice(start).split("\n");
-  const first = own.findIndex((line) => !line.trim().startsWith("///"));
-  return [...lines.reverse(), ...own.slice(0, Math.max(first, 0))].map((line) => line.trim().replace(/^\/\/\/ ?/, "")).join("\n");
-}
-
-/** The note (comment) before an item; empty if it has none. */
-export async function note(item: string): Promise<string> {
-  const range = await spanOf(current.peek(), { item });
-  if (!range) return "";
-  const lines = text(current.peek()).split("\n").slice(0, range.start.line).map((line) => line.trim()).reverse();
-  const help = lines.findIndex((line) => !line.startsWith("///"));
-  const above = help < 0 ? [] : lines.slice(help);
-  const end = above.findIndex((line) => !/^\/\/(?!\/)/.test(line));
-  return (end < 0 ? above : above.slice(0, end)).reverse().map((line) => line.replace(/^\/\/ ?/, "")).join("\n");
-}
+export const parts = (item: string): Promise<Parts | null> => ask<Parts | null>("afp/parts", { item });
 
 interface Made {
   label: string;
@@ -111,6 +90,9 @@ interface Made {
 export async function edit(changes: Change[], places: Places = {}, chosen?: Part[]): Promise<string[] | null> {
   return attempt(() => ask<Made>("afp/edit", { changes, places }), chosen);
 }
+
+/** Items as text, with the `use` lines and the start that they need. */
+export const copied = async (items: readonly string[]): Promise<string> => (await ask<{ text: string }>("afp/copy", { items })).text;
 
 /** Pastes items into a plan, or supervisors into an element. */
 export const paste = (plan: string, owner: string | null, text: string, at: Point | null): Promise<string[] | null> =>

@@ -1,5 +1,5 @@
 // The drawing pane: combines stage, pointers, keys and popups, and renders the signals.
-import { effect, untracked } from "@preact/signals";
+import { batch, effect, untracked } from "@preact/signals";
 import { render } from "preact";
 import { useRef } from "preact/hooks";
 import { discs, marks as runMarks, values } from "../debug/marks";
@@ -36,7 +36,7 @@ import { planOf, type Drawing, type Part, type Point } from "./shapes";
 import { several, toggle } from "./several";
 import { size, stage, view } from "./stage";
 import { editing } from "./value";
-import { first, STEP, toPane, zoomed, type View } from "./view";
+import { first, shown as broughtIn, STEP, toPane, zoomed, type Size, type View } from "./view";
 import { words } from "./words";
 import { ValuePopup } from "../panes/value";
 
@@ -56,7 +56,7 @@ export function mountCanvas(host: HTMLElement): () => void {
   const [below, above, dots, data, held] = [0, 1, 2, 3, 4].map(() => svg("g", { class: "run-layer", "aria-hidden": "true" })) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement, SVGGElement];
   scene.rings.before(below);
   scene.marks.before(data, held, above, dots);
-  const watch = new ResizeObserver(() => (size.value = { width: pane.clientWidth, height: pane.clientHeight }));
+  const watch = new ResizeObserver(() => resized({ width: pane.clientWidth, height: pane.clientHeight }));
   watch.observe(pane);
   const key = (event: KeyboardEvent): void => {
     if ((event.target as Element).closest("input, textarea, select")) return;
@@ -84,6 +84,17 @@ export function mountCanvas(host: HTMLElement): () => void {
     render(null, over);
     pane.remove();
   };
+}
+
+/** Follows the size of the pane. A drawing that was in sight as a whole stays so, if there is room. */
+function resized(to: Size): void {
+  const [before, drawn, now] = [size.peek(), drawing.peek(), view.peek()];
+  const isInSight = (view: View, size: Size): boolean => drawn !== null && broughtIn(view, drawn.bounds, size) === view;
+  const after = drawn ? broughtIn(now, drawn.bounds, to) : now;
+  batch(() => {
+    size.value = to;
+    if (drawn && to.width > 0 && isInSight(now, before) && isInSight(after, to)) view.value = after;
+  });
 }
 
 /** Renders changes: the drawing, its marks, the screen reader's focus. */

@@ -1,17 +1,34 @@
-// Adding entries: name, kind, type and value in one line.
-import { askLine } from "../screen/dialogs";
+// Adding an entry by a form: name, kind, type and value. `panes/newentry.tsx` shows it.
+import { signal } from "@preact/signals";
 import * as actions from "./actions";
 import * as ask from "./ask";
-import { isName } from "./rename";
-import { words } from "./words";
+import { refuse } from "./say";
 
-/** Adds an entry of a kind, from a line as in the source: `speed: length = 30 cm`. */
+/** The open form, with the types to choose from. */
+export const adding = signal<{ plan: string; types: readonly string[] } | null>(null);
+
+export interface Entry {
+  name: string;
+  kind: string;
+  /** Empty for the type of the value. */
+  type: string;
+  /** Empty for none. */
+  value: string;
+}
+
+/** Opens the form. */
 export async function add(): Promise<void> {
   const at = actions.here();
-  if (!at) return;
-  const wrong = (line: string): string | null => (isName(/^\s*(?:(?:in|out|var|const)\s+)?([^\s:=]*)/.exec(line)?.[1] ?? "") ? null : words.nameHint);
-  const line = await askLine(words.addEntry, words.entryHint, words.entryExample, words.addEntry, wrong);
-  if (line === null) return;
-  const kind = /^\s*(in|out|var|const)\s/.test(line) ? "" : "var ";
-  await ask.edit([{ add: { plan: at.plan, text: `${kind}${line.trim()}` } }]);
+  const found = at && (await ask.parts(at.plan).catch(refuse));
+  if (at && found) adding.value = { plan: at.plan, types: found.types };
+}
+
+/** Adds an entry; returns whether it was accepted. */
+export async function take({ name, kind, type, value }: Entry): Promise<boolean> {
+  const plan = adding.peek()?.plan ?? "";
+  const entry = `${plan}.${name}`;
+  // A type or a value is enough; the engine reads each of them.
+  const changes: ask.Change[] = [{ add: { plan, text: `${kind} ${name}: int` } }, { setEntryType: { entry, ty: type || null } }, { setEntryValue: { entry, value: value || null } }];
+  const order = type ? changes : [changes[0]!, changes[2]!, changes[1]!];
+  return (await ask.edit(order)) !== null;
 }

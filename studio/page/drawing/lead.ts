@@ -3,7 +3,6 @@ import { signal } from "@preact/signals";
 import { select } from "../plan/selection";
 import { pen } from "../server/session";
 import * as actions from "./actions";
-import { anatomy, choices } from "./anatomy";
 import * as ask from "./ask";
 import { choose } from "./choose";
 import { hit } from "./hit";
@@ -11,6 +10,7 @@ import { GRID } from "./lift";
 import { drawing } from "./model";
 import { refuse } from "./say";
 import { pathOf } from "./offers";
+import { choices, component } from "./parts";
 import { centre, holderOf, nameOf, planOf, rectOf, type Drawing, type Part, type Point } from "./shapes";
 import { view } from "./stage";
 import { turn } from "./turn";
@@ -86,9 +86,8 @@ async function hand(drawn: Drawing, { item }: Part, to: string): Promise<void> {
 
 /** Binds a port to an entry; for an element, asks for the port if several fit. */
 async function bind(entry: Part, onto: Part, at: Point): Promise<void> {
-  const drawn = drawing.peek();
   const isMine = turn();
-  const found = drawn && (await anatomy(drawn, onto.item).catch(() => null));
+  const found = await component(onto.item).catch(() => null);
   if (!found) return refuse(words.portHint);
   const name = nameOf(entry.item);
   const reason = (port: (typeof found.ports)[number]): string | null => {

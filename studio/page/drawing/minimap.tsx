@@ -2,7 +2,8 @@
 // view.
 import { computed } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { step } from "../plan/guide";
+import { selected } from "../plan/selection";
+import * as actions from "./actions";
 import { colours } from "./far";
 import { drawing } from "./model";
 import { paint } from "./paint";
@@ -19,11 +20,19 @@ const whole = computed(() => fitted(drawing.value?.bounds ?? [0, 0, 1, 1], MAP, 
 /** Whether a part of the drawing is out of view, and the pane is large enough. */
 const needed = computed(() => {
   const drawn = drawing.value;
-  // The card of the guide is at the same place.
-  if (!drawn?.plan || step.value !== null || size.value.width < LEAST.width || size.value.height < LEAST.height) return false;
+  if (!drawn?.plan || size.value.width < LEAST.width || size.value.height < LEAST.height) return false;
   const [x, y, width, height] = sight(view.value, size.value);
   const [left, top, wide, high] = drawn.bounds;
   return left < x || top < y || left + wide > x + width || top + high > y + height;
+});
+
+/** Whether the selection is under the map, which then moves up. */
+const covers = computed(() => {
+  const last = selected.value.at(-1);
+  const rect = last && drawing.value ? (drawing.value.elements.get(last.item)?.outer ?? actions.rectOfPart(last)) : null;
+  if (!rect) return false;
+  const [right, bottom] = toPane(view.value, [rect[0] + rect[2], rect[1] + rect[3]]);
+  return right > size.value.width - MAP.width - 24 && bottom > size.value.height - MAP.height - 24;
 });
 
 export function Minimap() {
@@ -47,7 +56,7 @@ function Map() {
     if (event.buttons & 1) go(event);
   };
   return (
-    <div class="over minimap" aria-hidden="true" onPointerDown={down} onPointerMove={move}>
+    <div class={`over minimap ${covers.value ? "up" : ""}`} aria-hidden="true" onPointerDown={down} onPointerMove={move}>
       <canvas ref={canvas} />
       <Frame />
     </div>

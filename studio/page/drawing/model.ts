@@ -13,6 +13,8 @@ export const drawing = signal<Drawing | null>(null);
 export const wanted = signal<string | null>(null);
 /** Name of the displayed plan. */
 export const plan = computed(() => drawing.value?.plan ?? null);
+/** Whether the displayed plan has nothing but its start. */
+export const isEmpty = computed(() => plan.value !== null && drawing.value!.elements.size <= 1 && drawing.value!.entries.length === 0);
 export interface Place {
   uri: string;
   plan: string;

@@ -15,7 +15,7 @@ export async function write(): Promise<void> {
   if (!part) return refuse(words.selectFirst);
   const { item } = part;
   const isMine = turn();
-  const text = await ask.note(item).catch(() => null);
+  const text = (await ask.parts(item).catch(() => null))?.note ?? null;
   if (text !== null && isMine()) noting.value = { item, text, at: actions.below({ item }) };
 }
 

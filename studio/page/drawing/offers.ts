@@ -61,6 +61,13 @@ export const choice = (offer: Offer, label = offer.template): Choice => ({
 /** Offers of elements: possible next elements and starts. */
 export const ofElements = (offers: readonly Offer[]): Offer[] => offers.filter((offer) => offer.kind !== "supervise");
 
+/** Offers in their order, but those that the plan uses most come first. */
+export function usedFirst(offers: readonly Offer[], drawing: Drawing): Offer[] {
+  const used = [...drawing.elements.values()].map((element) => element.template);
+  const count = (offer: Offer): number => used.filter((template) => template === offer.template).length;
+  return [...offers].sort((one, other) => count(other) - count(one));
+}
+
 /** A target among candidates, for a list. */
 export function target({ text, refused }: { text: string; refused: string | null }): Choice {
   const known: Record<string, [string, string]> = {

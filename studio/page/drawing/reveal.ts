@@ -8,5 +8,6 @@ import { shown } from "./view";
 /** Scrolls a part into view with the smallest move. */
 export function reveal(part: Part): void {
   const rect = drawing.peek()?.elements.get(part.item)?.outer ?? actions.rectOfPart(part);
-  if (rect) view.value = shown(view.peek(), rect, size.peek());
+  // A hidden drawing has no size.
+  if (rect && size.peek().width > 0) view.value = shown(view.peek(), rect, size.peek());
 }

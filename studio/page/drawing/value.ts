@@ -20,6 +20,15 @@ export function quantity(text: string): { number: number; unit: string } | null 
   return found ? { number: Number(found[1]), unit: found[2] ?? "" } : null;
 }
 
+/** The negative of a formula, or back. */
+export const negated = (text: string): string => (text.startsWith("-") ? text.slice(1).trim() : /^\w+$/.test(text) ? `-${text}` : `-(${text})`);
+
+/** The operations of formulas, each with its sign on a button. */
+export const OPERATIONS = [["+", "+"], ["-", "−"], ["*", "×"], ["/", "÷"]] as const;
+
+/** Whether a formula waits for its right operand. */
+export const isPending = (text: string): boolean => OPERATIONS.some(([operation]) => text.trimEnd().endsWith(operation));
+
 /** Rounds to the digits that a step needs. */
 export const rounded = (number: number): number => Number(number.toPrecision(10));
 

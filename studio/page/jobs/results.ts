@@ -169,12 +169,11 @@ export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1,
 const FIELDS = { seeds: words.seeds, vary: words.vary, until: words.until } as const;
 
 /**
- * Text of the command line without colours, with the page's fields instead of options, and without
+ * Text of the command line, with the page's fields instead of options, and without
  * advice for the command line.
  */
 export const plain = (text: string): string =>
   text
-    .replace(/\x1b\[[0-9;]*m/g, "")
     .replace(/^error: invalid value '(.*)' for '--(seeds|vary|until) <[^>]*>': /gm, (_, value, option: keyof typeof FIELDS) => words.fieldWrong(FIELDS[option], value))
     .replace(/^For more information, try '--help'\.\s*$/m, "")
     .trim();

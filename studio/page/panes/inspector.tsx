@@ -2,14 +2,14 @@
 // plan with its entries.
 import { useEffect, useRef, useState } from "preact/hooks";
 import * as actions from "../drawing/actions";
-import { anatomy, worth, type Anatomy, type Port } from "../drawing/anatomy";
 import * as ask from "../drawing/ask";
 import { offers } from "../drawing/catalog";
 import { Icon } from "../drawing/choices";
 import * as entries from "../drawing/entries";
 import { about } from "../drawing/messages";
-import { drawing } from "../drawing/model";
+import { drawing, isEmpty } from "../drawing/model";
 import { draft, putBack, written } from "../drawing/drafts";
+import { component, worth, type Component as Found, type Port } from "../drawing/parts";
 import { isName } from "../drawing/rename";
 import { refuse } from "../drawing/say";
 import { nameOf, type Drawing, type Entry, type Part } from "../drawing/shapes";
@@ -81,7 +81,7 @@ function Help({ item, drawn }: { item: string; drawn: Drawing }) {
   const [text, setText] = useState<string | null>(null);
   useEffect(() => {
     let wanted = true;
-    ask.help(item).then((found) => wanted && setText(found.replaceAll("\n", " ")), () => {});
+    ask.parts(item).then((found) => wanted && setText((found?.help ?? "").replaceAll("\n", " ")), () => {});
     return () => void (wanted = false);
   }, [item, drawn]);
   return <Line item={item} label={words.help} value={text} hint={words.helpHint} take={(text) => ask.edit([{ setDoc: { item, text } }], {}, [{ item }])} />;
@@ -103,11 +103,11 @@ function Wrong({ drawn, part }: { drawn: Drawing; part: Part }) {
 const PERIODS = ["5 ms", "10 ms", "20 ms", "50 ms", "100 ms"];
 
 function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
-  const [found, setFound] = useState<Anatomy | null>(null);
+  const [found, setFound] = useState<Found | null>(null);
   const known = offers.value;
   useEffect(() => {
     let wanted = true;
-    anatomy(drawn, part.item).then((parts) => wanted && setFound(parts), () => {});
+    component(part.item).then((parts) => wanted && setFound(parts), () => {});
     return () => void (wanted = false);
   }, [drawn, part.item, known]);
   if (!found) return null;
@@ -136,8 +136,29 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
       {timing && <Line item={item} label={words.every} value={timing.every} hint={words.unlessSaid} take={time("every")} />}
       {timing && <div class="periods" role="group" aria-label={words.periods}>{PERIODS.map((each) => <button type="button" aria-pressed={timing.every === each} onClick={() => void time("every")(each)} key={each}>{each}</button>)}</div>}
       {timing && <Line item={item} label={words.deadline} value={timing.deadline} hint={words.unlessSaid} take={time("deadline")} />}
+      {found.computation && <Computation item={item} of={found.computation} />}
       <Help item={item} drawn={drawn} />
     </>
+  );
+}
+
+/** The states of a declared computation: the condition of each, and what it assigns. */
+function Computation({ item, of: { name, states } }: { item: string; of: ask.Computation }) {
+  const change = (kind: string, fields: object) => ask.edit([{ [kind]: { computation: name, ...fields } }], {}, [{ item }]);
+  return (
+    <fieldset class="declaration">
+      <legend>{words.computation(name)}</legend>
+      {states.map(({ name: state, condition, writes }) => (
+        <section key={state} aria-label={state}>
+          <h4>{state}</h4>
+          {condition === null && <p class="value-hint">{words.otherwise}</p>}
+          {condition !== null && <Line item={`${item} ${state}`} label={words.when} value={condition} hint={words.always} take={(text) => change("setCondition", { state, condition: text || null })} />}
+          {writes.map(([output, formula]) => (
+            <Line key={output} item={`${item} ${state}`} label={`${output} =`} value={formula} hint={words.unchanged} take={(text) => change("assign", { state, output, formula: text || null })} />
+          ))}
+        </section>
+      ))}
+    </fieldset>
   );
 }
 
@@ -163,7 +184,7 @@ function PlanForm({ drawn }: { drawn: Drawing }) {
   return (
     <>
       <div class="inspector-head"><div><strong>{plan}</strong><small>plan</small></div></div>
-      <Wrong drawn={drawn} part={{ item: plan }} />
+      {!isEmpty.value && <Wrong drawn={drawn} part={{ item: plan }} />}
       <Name item={plan} />
       <Help item={plan} drawn={drawn} />
       <h3>{words.entries}<button type="button" class="tool" aria-label={words.addEntry} title={words.addEntry} onClick={() => void entries.add()}><Sign name="plus" /></button></h3>

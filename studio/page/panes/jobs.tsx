@@ -46,7 +46,7 @@ export function Jobs() {
       {built.value && <p class="sum" role="status">{built.value.ok ? words.buildDone : words.buildFailed}</p>}
       {built.value && built.value.wrong.length > 0 && <ul class="results" aria-label={words.buildErrors}>{built.value.wrong.map((one, at) => <Failed of={one} key={at} />)}</ul>}
       <Sweep />
-      <pre class="output" tabIndex={0} aria-label={words.output}>{said.value.slice(-300).map(plain).join("\n")}</pre>
+      <pre class="output" role="log" tabIndex={0} aria-label={words.output}>{said.value.slice(-300).map(plain).join("\n")}</pre>
     </div>
   );
 }

@@ -10,6 +10,7 @@ import { Icon } from "../drawing/choices";
 import { carried, grab } from "../drawing/bring";
 import { choice } from "../drawing/offers";
 import { words } from "../drawing/words";
+import * as layout from "../screen/layout";
 import { pen } from "../server/session";
 
 const typed = signal("");
@@ -54,13 +55,19 @@ function Item({ offer }: { offer: ask.Offer }) {
     <li>
       <button
         type="button" disabled={!pen.value} data-template={offer.template} aria-label={words.addTemplate(offer.template)} title={`${offer.help}${from}`}
-        onPointerDown={(event) => grab(offer, event)} onClick={() => !carried.peek() && void addAfter(offer)}
+        onPointerDown={(event) => grab(offer, event)} onClick={() => !carried.peek() && tapped(offer)}
       >
         <Icon svg={offer.icon} />
         <span>{offer.template}</span>
       </button>
     </li>
   );
+}
+
+/** Adds a template. On a narrow page, the drawing then takes the place of the palette. */
+function tapped(offer: ask.Offer): void {
+  layout.show("drawing");
+  void addAfter(offer);
 }
 
 /** The template under the pointer during a drag. */

@@ -5,7 +5,7 @@ import { useInSight } from "../drawing/choices";
 import { draft, putBack, written } from "../drawing/drafts";
 import { refuse } from "../drawing/say";
 import type { Part } from "../drawing/shapes";
-import { editing, fieldOf, quantity, slider, spelled, stepped, converted } from "../drawing/value";
+import { editing, fieldOf, isPending, negated, OPERATIONS, quantity, slider, spelled, stepped, converted } from "../drawing/value";
 import { words } from "../drawing/words";
 
 export function ValuePopup() {
@@ -100,11 +100,17 @@ export function Value({ part, out, answer, done, left }: Given) {
     event.preventDefault();
     if (text.trim()) void bind(text.trim());
   };
+  // After an operation, an entry is its operand.
+  const pick = (entry: string): void => {
+    if (isPending(text)) set(`${text.trimEnd()} ${entry}`);
+    else void bind(entry);
+  };
   const fitting = answer.candidates.filter((candidate) => !candidate.refused);
   const known = quantity(text);
   return (
     <form class="value" ref={form} onSubmit={submit} onFocusOut={leave} onKeyDown={key}>
       {!out && known && answer.step !== null && <Steps text={text} set={set} answer={answer} />}
+      {!out && answer.step !== null && <Formula text={text} set={set} answer={answer} />}
       {!out && (
         <div class="value-line">
           <input type="text" aria-label={words.formula} value={text} aria-invalid={wrong} spellcheck={false} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} />
@@ -115,7 +121,7 @@ export function Value({ part, out, answer, done, left }: Given) {
       {answer.range && <p class="value-hint">{words.range(answer.range[0], answer.range[1])}{answer.default && ` · ${words.isDefault(answer.default)}`}</p>}
       {fitting.length > 0 && (
         <div class="value-entries" role="group" aria-label={out ? words.writesInto : words.entriesThatFit}>
-          {fitting.map((candidate) => <button type="button" class="entry-chip" key={candidate.text} onClick={() => void bind(candidate.text)}>{candidate.text}</button>)}
+          {fitting.map((candidate) => <button type="button" class="entry-chip" key={candidate.text} onClick={() => pick(candidate.text)}>{candidate.text}</button>)}
         </div>
       )}
       {answer.value !== null && <button type="button" class="quiet" onClick={() => void unbind()}>{answer.default === null ? words.unset : words.useDefault}</button>}
@@ -141,7 +147,22 @@ function Steps({ text, set, answer }: Field) {
       <button type="button" aria-label={words.less} title={words.less} onClick={() => by(-1)}>−</button>
       {range ? <input type="range" aria-label={words.valueTitle} min={range.least} max={range.most} step={step} value={number} onInput={(event) => set(spelled(Number(event.currentTarget.value), unit))} /> : <output>{text}</output>}
       <button type="button" aria-label={words.more} title={words.more} onClick={() => by(1)}>+</button>
-      <button type="button" aria-label={words.sign} title={words.sign} onClick={() => set(spelled(-number, unit))}>±</button>
+    </div>
+  );
+}
+
+/** The sign and the operations of a formula, for use without a keyboard. */
+function Formula({ text, set }: Field) {
+  const known = quantity(text);
+  const flip = (): void => set(known ? spelled(-known.number, known.unit) : negated(text.trim()));
+  // A disabled button would lose the focus, and leaving the form writes.
+  const isReady = text.trim() !== "" && !isPending(text);
+  return (
+    <div class="value-steps" role="group" aria-label={words.operations}>
+      <button type="button" aria-label={words.sign} title={words.sign} aria-disabled={!isReady} onClick={() => isReady && flip()}>±</button>
+      {OPERATIONS.map(([operation, sign]) => (
+        <button type="button" key={operation} aria-label={words.operation(sign)} title={words.operation(sign)} aria-disabled={!isReady} onClick={() => isReady && set(`${text.trim()} ${operation} `)}>{sign}</button>
+      ))}
     </div>
   );
 }

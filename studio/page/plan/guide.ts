@@ -1,12 +1,16 @@
 // The guide to a first plan: the next step depends on the plan's content, so that any order works.
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { current } from "../documents/documents";
-import { ended } from "../debug/run";
+import { drops, start } from "../debug/arranged";
+import { ended, phase } from "../debug/run";
 import { drawing } from "../drawing/model";
 import type { Drawing } from "../drawing/shapes";
+import * as layout from "../screen/layout";
+import { freeStart } from "../world/free";
+import { surroundings } from "../world/surroundings";
 import { number } from "./problems";
 
-export const STEPS = ["drive", "connect", "run", "notice", "follow", "stop", "lead", "again"] as const;
+export const STEPS = ["drive", "connect", "run", "crate", "notice", "react", "follow", "stop", "lead", "again"] as const;
 export type Step = (typeof STEPS)[number];
 
 export interface Facts {
@@ -15,21 +19,25 @@ export interface Facts {
   /** Number of supervisors, of elements and of the plan. */
   watched: number;
   stoppers: number;
+  /** Number of things put into the world. */
+  crates: number;
   /** Number of ended runs. */
   runs: number;
 }
 
 /** The next step; null at the end. */
-export function next({ actors, errors, watched, stoppers, runs }: Facts): Step | null {
+export function next({ actors, errors, watched, stoppers, crates, runs }: Facts): Step | null {
   if (actors === 0) return "drive";
-  if (watched === 0) return errors ? "connect" : runs === 0 ? "run" : "notice";
+  if (watched === 0 && errors) return "connect";
+  if (watched === 0) return runs === 0 ? "run" : crates === 0 ? "crate" : "notice";
+  if (actors === 1 && errors) return "react";
   if (stoppers === 0) return errors ? "follow" : "stop";
   if (errors) return "lead";
   return runs < 2 ? "again" : null;
 }
 
 /** Derives the facts from a drawing. */
-export function facts(drawn: Pick<Drawing, "plan" | "elements">, errors: number, runs: number): Facts {
+export function facts(drawn: Pick<Drawing, "plan" | "elements">, { errors, crates, runs }: Pick<Facts, "errors" | "crates" | "runs">): Facts {
   const elements = [...drawn.elements.values()];
   const exits = elements.flatMap(({ pieces }) => pieces).filter(({ part }) => part.kind === "exit");
   const names = (item: string): number => item.split(".").length;
@@ -38,6 +46,7 @@ export function facts(drawn: Pick<Drawing, "plan" | "elements">, errors: number,
     errors,
     watched: exits.filter(({ item }) => names(item) === 3).length,
     stoppers: exits.filter(({ item }) => names(item) === 2 && !drawn.elements.has(item)).length,
+    crates,
     runs,
   };
 }
@@ -50,7 +59,7 @@ const runs = signal(0);
 /** The displayed step; null without a guide for this plan. */
 export const step = computed<Step | "done" | null>(() => {
   if (!guided.value || guided.value !== current.value || !drawing.value) return null;
-  return next(facts(drawing.value, number("error"), runs.value)) ?? "done";
+  return next(facts(drawing.value, { errors: number("error"), crates: drops.value.length, runs: runs.value })) ?? "done";
 });
 
 /** Completed steps and their total. */
@@ -70,6 +79,15 @@ export function leave(): void {
 export function begin(): void {
   guided.value = sessionStorage.getItem(KEY) ?? "";
   ended.subscribe((end) => {
-    if (end) runs.value = runs.peek() + 1;
+    if (!end) return;
+    // The first run explains itself.
+    if (step.peek() === "run") layout.show("timeline");
+    runs.value = runs.peek() + 1;
+  });
+  // Before its first run, the robot of a first plan faces free floor.
+  effect(() => {
+    if (step.value === null || runs.value > 0 || phase.value !== "idle" || !surroundings.value || start.value) return;
+    const free = freeStart(surroundings.value);
+    if (free !== surroundings.value.start) start.value = free;
   });
 }

@@ -3,7 +3,7 @@ import { batch } from "@preact/signals";
 import { current, isFailed, nameOf, saved } from "../documents/documents";
 import { Controls } from "../debug/controls";
 import { log } from "../debug/run";
-import { drawing, leave, plan, trail, wanted } from "../drawing/model";
+import { drawing, isEmpty, leave, plan, trail, wanted } from "../drawing/model";
 import { finding } from "./finder";
 import { redo, redoLabel, undo, undoLabel } from "../documents/history";
 import { Severity, Sign, type Icon } from "./icons";
@@ -16,7 +16,8 @@ import { words } from "../words";
 export function Bar() {
   return (
     <header class="bar">
-      <Menu label={words.menu} class="file" button={<FileName />}>
+      {current.value && <h1 class="hidden">{words.title(nameOf(current.value))}</h1>}
+      <Menu label={current.value ? words.menuOf(nameOf(current.value)) : words.menu} class="file" button={<FileName />}>
         {(done) => <Files done={done} />}
       </Menu>
       <Breadcrumb />
@@ -94,12 +95,13 @@ export const hasNoPlan = (): boolean => drawing.value?.uri === current.value && 
 
 function ProblemCount() {
   if (!current.value) return null;
-  const [errors, warnings] = [number("error"), number("warning")];
-  const said = [errors && words.errors(errors), warnings && words.warnings(warnings)].filter(Boolean).join(", ") || (hasNoPlan() ? words.noPlan : words.ready);
+  // A plan without elements has not gone wrong yet.
+  const [errors, warnings] = isEmpty.value ? [0, 0] : [number("error"), number("warning")];
+  const said = isEmpty.value ? words.emptySoFar : [errors && words.errors(errors), warnings && words.warnings(warnings)].filter(Boolean).join(", ") || (hasNoPlan() ? words.noPlan : words.ready);
   const toggle = (): void => (bottom.value === "problems" ? void (bottom.value = null) : show("problems"));
   return (
     <button class="count" onClick={toggle} aria-label={words.showProblems(said)} aria-expanded={bottom.value === "problems"}>
-      {errors > 0 ? <Severity of="error" /> : warnings > 0 ? <Severity of="warning" /> : !hasNoPlan() && <Sign name="check" />}
+      {errors > 0 ? <Severity of="error" /> : warnings > 0 ? <Severity of="warning" /> : !hasNoPlan() && !isEmpty.value && <Sign name="check" />}
       <span>{said}</span>
     </button>
   );

@@ -2,13 +2,11 @@
 // template references.
 import { signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
-import { current, text } from "../documents/documents";
-import { templateAt } from "../drawing/anatomy";
+import { current } from "../documents/documents";
+import * as ask from "../drawing/ask";
 import { nodes } from "./markdown";
 import { useModal } from "./modal";
 import { report } from "../panes/files";
-import { spanOf } from "../plan/places";
-import { offset, position } from "../documents/positions";
 import { lsp } from "../server/session";
 import { words } from "../words";
 
@@ -29,13 +27,10 @@ async function explain(code: string): Promise<void> {
 async function explainTemplate(item: string, template: string): Promise<void> {
   const uri = current.peek();
   try {
-    const range = await spanOf(uri, { item });
-    const whole = text(uri);
-    const from = range && offset(whole, range.start);
-    const at = from === null ? null : templateAt(whole.slice(from));
-    if (from === null || at === null) return;
+    const position = (await ask.parts(item))?.templateAt;
+    if (!position) return;
     type Answer = { contents: { value: string } };
-    const found = await lsp().request<Answer | null>("textDocument/hover", { textDocument: { uri }, position: position(whole, from + at) });
+    const found = await lsp().request<Answer | null>("textDocument/hover", { textDocument: { uri }, position });
     if (found) page.value = { title: words.about(template), text: found.contents.value };
   } catch (why) {
     report(why);

@@ -18,6 +18,7 @@ import { ForcedBar } from "../panes/forced";
 import { Guide } from "../panes/guide";
 import { Inspector } from "../panes/inspector";
 import { Jobs } from "../panes/jobs";
+import { NewEntry } from "../panes/newentry";
 import { Outline } from "../panes/outline";
 import { Palette } from "../panes/palette";
 import { Problems } from "../panes/problems";
@@ -45,6 +46,7 @@ export function Screen() {
       <Bottom />
       {current.value && <NarrowBar />}
       <Dialogs />
+      <NewEntry />
       <Book />
       <Finder />
     </div>
@@ -97,10 +99,12 @@ const Side = () => (
 function Centre() {
   return (
     <section class="pane drawing" data-pane="drawing" data-when="drawing" aria-label={words.drawing}>
-      {current.value ? <Canvas /> : <Welcome />}
-      <EndCard />
-      <WhyCard />
       <Guide />
+      <div class="sheet">
+        {current.value ? <Canvas /> : <Welcome />}
+        <EndCard />
+        <WhyCard />
+      </div>
       {!palette.value && current.value && (
         <button class="opener" onClick={() => (palette.value = true)} aria-label={words.open(words.palette)} title={words.open(words.palette)}>
           <Sign name="palette" />

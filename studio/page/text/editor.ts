@@ -81,7 +81,7 @@ const behaviour: Extension = [
   seek.seeking,
   theme,
   keymap.of([...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...defaultKeymap, indentWithTab]),
-  EditorView.contentAttributes.of({ "aria-label": words.text, spellcheck: "false" }),
+  EditorView.contentAttributes.of({ "aria-label": words.text, tabindex: "0", spellcheck: "false" }),
 ];
 
 function problem(then: Then, one: Diagnostic): Shown {

@@ -69,24 +69,30 @@ impl Run<'_> {
         let by_edge = edge.as_ref().map(|edge| format!(" by {edge}")).unwrap_or_default();
         match (self.target.state().ended(), by) {
             (Some((EndingKind::Ok, _)), _) => {
-                let by_edge = edge.map(|edge| format!(", by {edge}")).unwrap_or_default();
-                format!("{name} ended as it says itself, after {at:.3} s{by_edge}")
+                let by_edge = edge.as_deref().map(taken).unwrap_or_default();
+                format!("{name} finished normally after {at:.1} s{by_edge}")
             }
             (Some((EndingKind::Error, why)), _) => {
-                format!("{name} ended in Error after {at:.3} s: {why}")
+                format!("{name} stopped with an error after {at:.1} s: {why}")
             }
             (None, By::Plan) if self.target.is_recorded() => {
-                format!("the log of {name} ends after {at:.3} s, before the plan does")
+                format!("the log of {name} ends after {at:.1} s, before the plan does")
             }
             (_, By::Client(client)) if by_edge.is_empty() => {
-                format!("{name} was interrupted after {at:.3} s by {client}")
+                format!("{name} was interrupted after {at:.1} s by {client}")
             }
             (_, By::Until) if by_edge.is_empty() => {
-                format!("{name} was interrupted after {at:.3} s: that was its time")
+                format!("{name} was interrupted after {at:.1} s: that was its time")
             }
-            _ => format!("{name} was interrupted after {at:.3} s{by_edge}"),
+            _ => format!("{name} was interrupted after {at:.1} s{by_edge}"),
         }
     }
+}
+
+/// An edge in words: its element, and the outcome that it left by.
+fn taken(edge: &str) -> String {
+    let (element, outcome) = edge.rsplit_once('.').unwrap_or(("", edge));
+    format!(" ({element} → {outcome})")
 }
 
 /// A figure in words, if it has content.

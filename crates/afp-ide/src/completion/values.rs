@@ -249,13 +249,27 @@ pub(super) fn units(list: &mut List, expected: Option<&Expected>) {
     }
 }
 
+fn built_in_types() -> impl Iterator<Item = &'static str> {
+    ["bool", "int", "float", "string"].into_iter().chain(Dimension::names())
+}
+
+fn is_type(kind: DefinitionKind) -> bool {
+    matches!(kind, DefinitionKind::Enum | DefinitionKind::Object)
+}
+
+/// The names of the types that an entry of a plan file can have.
+pub(crate) fn type_names(view: &View) -> Vec<String> {
+    let visible = view.index().visible(view.file, 0, is_type).into_iter();
+    let visible = visible.map(|id| view.name_of(id).to_owned());
+    built_in_types().map(str::to_owned).chain(visible).collect()
+}
+
 /// Types: built-in ones, visible enums and object types; in toolboxes also generic types.
 pub(super) fn types(list: &mut List, offset: u32) {
-    for name in ["bool", "int", "float", "string"].into_iter().chain(Dimension::names()) {
+    for name in built_in_types() {
         list.add(name, CompletionKind::Type, plain(name), 1);
     }
     let view = list.view;
-    let is_type = |kind| matches!(kind, DefinitionKind::Enum | DefinitionKind::Object);
     let of_file = view.index().definitions_in(view.file).filter(|(_, known)| is_type(known.kind));
     let visible = match view.is_plan_file() {
         true => view.index().visible(view.file, offset, is_type),

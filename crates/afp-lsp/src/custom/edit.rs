@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use afp_draw::Boxes;
 use afp_draw::layout_file::Position;
-use afp_ide::edit::{Change, Given, Made, edit_all, item, path};
+use afp_ide::copy::copied;
+use afp_ide::edit::{Change, Given, Made, edit_all, has_only_supervisors, item, path};
 use afp_syntax::ast::Item as AstItem;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;
@@ -166,7 +167,24 @@ pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
     ok(whole(server, &file.into_iter().collect::<Vec<_>>()))
 }
 
-/// Items to insert into a plan, or supervisors to insert at an element.
+/// Items of a document.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Copy {
+    text_document: Document,
+    items: Vec<String>,
+}
+
+/// Returns items as text for [`paste`], with the `use` lines and the start that they need.
+pub(crate) fn copy(server: &mut Server, params: Copy) -> Answer {
+    let analysis = server.analysis(&params.text_document.uri)?;
+    let items = params.items.iter().map(|path| item(path).ok_or_else(|| no_item(path)));
+    let items = items.collect::<Result<Vec<_>, _>>()?;
+    ok(json!({ "text": copied(&analysis.view(), &items) }))
+}
+
+/// Items to insert into a plan, or supervisors to insert at an element. The `owner` counts only for
+/// supervisors.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Paste {
@@ -174,7 +192,7 @@ pub(crate) struct Paste {
     plan: String,
     owner: Option<String>,
     text: String,
-    /// The place of the first item.
+    /// The place of the first item, unless supervisors go to the element.
     at: Option<[f64; 2]>,
 }
 
@@ -184,6 +202,8 @@ pub(crate) fn paste(server: &mut Server, params: Paste) -> Answer {
     let Paste { text_document, plan, owner, text, at } = params;
     let (mut changes, rest) = uses(&text);
     let (start, rest) = start(rest);
+    let owner = owner.filter(|_| has_only_supervisors(&rest));
+    let at = at.filter(|_| owner.is_none());
     changes.push(Change::Add { plan: plan.clone(), owner, text: rest, before: None });
     let start = start.filter(|_| !server.starts(&text_document, &plan));
     changes.extend(start.map(|to| Change::SetStart { plan: plan.clone(), to }));

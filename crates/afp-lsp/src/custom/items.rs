@@ -60,16 +60,16 @@ pub(crate) fn span_of(server: &mut Server, params: SpanOf) -> Answer {
     ok(span.map(|span| server.places(&analysis).range(span)))
 }
 
-/// An entry of a document.
+/// An item of a document.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(crate) struct Uses {
-    text_document: Document,
-    item: String,
+pub(crate) struct OfItem {
+    pub(super) text_document: Document,
+    pub(super) item: String,
 }
 
 /// Lists the places in a document that read or write an entry, each once, in source order.
-pub(crate) fn uses(server: &mut Server, params: Uses) -> Answer {
+pub(crate) fn uses(server: &mut Server, params: OfItem) -> Answer {
     let analysis = server.analysis(&params.text_document.uri)?;
     let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
     let Compiled { outline, index, .. } = &analysis.compiled;

@@ -3,10 +3,12 @@
 use afp_ide::candidates::{of_exit, of_port};
 use afp_ide::edit::item;
 use afp_ide::palette::Offer;
+use afp_ide::parts;
 use serde::Deserialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::{Document, items::no_item};
+use super::Document;
+use super::items::{OfItem, no_item};
 use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 use crate::standard::completion::snippet;
@@ -31,7 +33,12 @@ pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
         let icon = icon.and_then(|(name, toolbox)| {
             server.workspace.icon(&analysis.set, toolbox, name, &mut Reads::default())
         });
-        let icon = icon.unwrap_or_else(|| afp_draw::default_icon(offer.kind).to_owned());
+        // A picture outside of a drawing needs its namespace.
+        let whole = || {
+            let icon = afp_draw::default_icon(offer.kind);
+            icon.replacen("<svg ", "<svg xmlns=\"http://www.w3.org/2000/svg\" ", 1)
+        };
+        let icon = icon.unwrap_or_else(whole);
         json!({
             "template": offer.name,
             "kind": offer.kind.keyword(),
@@ -71,4 +78,15 @@ pub(crate) fn candidates(server: &mut Server, params: Candidates) -> Answer {
         (None, Some(port)) => ok(of_port(&view, &item, port).ok_or_else(|| none(port))?),
         _ => Err(Failure::Malformed("name either 'outcome' or 'port'".to_owned())),
     }
+}
+
+/// Returns the parts of an item; `null` if it does not exist.
+pub(crate) fn parts(server: &mut Server, params: OfItem) -> Answer {
+    let analysis = server.analysis(&params.text_document.uri)?;
+    let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
+    let Some(found) = parts::parts(&analysis.view(), &item) else { return ok(Value::Null) };
+    let mut answer = json!(found);
+    answer["templateAt"] =
+        json!(found.template_span.map(|span| server.places(&analysis).range(span).start));
+    ok(answer)
 }

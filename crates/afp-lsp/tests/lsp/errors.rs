@@ -113,6 +113,8 @@ fn about_items() -> Vec<(&'static str, Value)> {
         ("afp/candidates", of("P.look", "port", "angle")),
         ("afp/spanOf", json!({ "textDocument": document, "item": "Q.ahead" })),
         ("afp/uses", json!({ "textDocument": document, "item": "P.gap" })),
+        ("afp/copy", json!({ "textDocument": document, "items": ["P.go"] })),
+        ("afp/parts", json!({ "textDocument": document, "item": "P.go" })),
         ("afp/palette", json!({ "textDocument": document, "query": "turn" })),
     ]
 }

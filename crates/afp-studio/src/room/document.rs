@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::time::Duration;
+use std::{fs, io};
 
 use crate::files::{self, Kept, Stamp};
 
@@ -44,6 +45,16 @@ pub(super) enum Look {
     Conflict(String),
     /// The reason why the file is not a text. It is not overwritten.
     Unreadable(String),
+}
+
+/// The result of a write.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Saved {
+    Written(Stamp),
+    /// The text is empty and needs no file, so the file was removed.
+    Removed,
+    /// Another program wrote first, so that the file needs a check.
+    Not,
 }
 
 /// The text to keep in a conflict.
@@ -89,8 +100,13 @@ impl Document {
 
     /// Whether the file holds this text, as far as known.
     fn is_as_kept(&self) -> bool {
-        let known = self.kept.etag.is_some() && !self.unreadable && self.theirs.is_none();
-        known && self.text == self.kept.text
+        let known = self.kept.etag.is_some() || self.needs_no_file();
+        known && !self.unreadable && self.theirs.is_none() && self.text == self.kept.text
+    }
+
+    /// Whether an empty file would say nothing: the positions of a drawing without any.
+    fn needs_no_file(&self) -> bool {
+        self.text.is_empty() && self.file.extension().is_some_and(|ending| ending == "layout")
     }
 
     pub fn is_saved(&self) -> bool {
@@ -201,25 +217,40 @@ impl Document {
         (self.kept, self.due) = (theirs, Some(now));
     }
 
-    /// Writes the text and returns its stamp, although another program may have written since.
-    /// Returns `None` if another program wrote first, so that the file needs a check.
+    /// Writes the text, although another program may write afterwards.
     ///
     /// # Errors
     /// It cannot be written; another attempt follows.
-    pub fn save(&mut self, now: Duration) -> Result<Option<Stamp>, String> {
-        match self.kept.write(&self.file, &self.text) {
+    pub fn save(&mut self, now: Duration) -> Result<Saved, String> {
+        let written = match self.needs_no_file() {
+            true => self.remove(),
+            false => self.kept.write(&self.file, &self.text),
+        };
+        match written {
             Ok(Some((kept, stamp))) => {
                 (self.kept, self.stamp, self.due) = (kept, Some(stamp), None);
-                Ok(Some(stamp))
+                Ok(Saved::Written(stamp))
             }
+            Ok(None) if self.due.is_none() => Ok(Saved::Removed),
             Ok(None) => {
                 self.stamp = None;
-                Ok(None)
+                Ok(Saved::Not)
             }
             Err(why) => {
                 self.due = Some(now + TRIES_AGAIN_AFTER);
                 Err(why)
             }
         }
+    }
+
+    /// Removes the file, if it is as known; the text is then saved.
+    fn remove(&mut self) -> Result<Option<(Kept, Stamp)>, String> {
+        if files::read(&self.file).is_ok_and(|now| now.etag == self.kept.etag) {
+            match fs::remove_file(&self.file) {
+                Err(why) if why.kind() != io::ErrorKind::NotFound => return Err(why.to_string()),
+                _ => (self.kept, self.stamp, self.due) = (Kept::default(), None, None),
+            }
+        }
+        Ok(None)
     }
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use afp_lsp::uri_of;
 use serde_json::json;
 
-use super::document::Look;
+use super::document::{Look, Saved};
 use super::{ClientId, LOOKS_EVERY, Out, Room, disputed, notification};
 
 /// The attempts to save a text at once, while another program writes the same file.
@@ -91,8 +91,9 @@ impl Room {
             return true;
         }
         let saved = match document.save(now) {
-            Ok(None) => return false,
-            Ok(Some(stamp)) => {
+            Ok(Saved::Not) => return false,
+            Ok(Saved::Removed) => Ok(()),
+            Ok(Saved::Written(stamp)) => {
                 // The room's own write is not reported as a change.
                 self.listed.files.insert(path.to_owned(), stamp);
                 Ok(())

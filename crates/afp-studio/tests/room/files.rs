@@ -150,3 +150,30 @@ fn an_open_text_without_a_file_gets_the_new_text() {
     place.pass(300);
     assert_eq!(place.on_disk(), mine);
 }
+
+/// An undone first edit once left an empty file of positions.
+#[test]
+fn positions_without_a_line_have_no_file() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let (uri, path) = (place.uri("p.afp.layout"), place.path("p.afp.layout"));
+    place.ask(1, "afp/read", json!({ "uri": uri })).unwrap();
+    let document = json!({ "uri": uri, "languageId": "afp", "version": 1, "text": "" });
+    place.tell(1, "textDocument/didOpen", json!({ "textDocument": document }));
+    let types = |place: &mut Place, version: i32, text: &str| {
+        let document = json!({ "uri": uri, "version": version });
+        let said = json!({ "textDocument": document, "contentChanges": [{ "text": text }] });
+        place.tell(1, "textDocument/didChange", said);
+        place.pass(600)
+    };
+    types(&mut place, 2, "P.go 0 96\n");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "P.go 0 96\n");
+    let told = types(&mut place, 3, "");
+    assert!(!path.exists());
+    assert!(
+        told.iter()
+            .any(|(_, said)| said["method"] == "afp/saved" && said["params"]["version"] == 3)
+    );
+    types(&mut place, 4, "P.go 0 96\n");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "P.go 0 96\n");
+}
