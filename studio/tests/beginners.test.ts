@@ -108,7 +108,7 @@ inBrowser("an entry is added by a form, and the sign and an operation of a formu
   await form.getByRole("button", { name: "flip the sign" }).click();
   assert.equal(await form.getByRole("textbox").inputValue(), "-gap");
   await form.getByRole("button", { name: "+ and an entry" }).click();
-  assert.equal(await page.locator(".board-notice").count(), 0);
+  assert.doesNotMatch((await page.locator(".board-notice").allInnerTexts()).join(), /gap/);
   await form.locator(".entry-chip", { hasText: "far" }).click();
   await form.getByRole("button", { name: "Set", exact: true }).click();
   await studio.becomes("plan.afp", /distance = -gap \+ far\)/);
@@ -212,6 +212,16 @@ inBrowser("a selection that cannot become a plan is refused before its name is a
   await said.first().waitFor();
   assert.equal(await page.locator("dialog").count(), 0);
 });
+
+inBrowser("without a server, a change of the drawing says that it waits", { "plan.afp": PLAN }, async ({ page, crash }) => {
+  await ready(page, "P.go");
+  await page.mouse.click(...(await middle(page, name("P.go"))));
+  await crash();
+  await page.locator(".banner.warning").waitFor();
+  await page.locator(".board").focus();
+  await page.keyboard.press("Delete");
+  await shows(page.locator(".board-notice"), /made after a reconnection/);
+}, { ignore: /WebSocket|ERR_/ });
 
 for (const colorScheme of ["light", "dark"] as const) {
   inBrowser(`axe finds nothing in any state of the page, ${colorScheme}`, { "plan.afp": PLAN }, async ({ page }) => {

@@ -159,13 +159,13 @@ test("quantities are read, stepped on their grid and spelled", () => {
 });
 
 test("templates become texts, and what is between two elements leads on", () => {
-  const offer = { template: "Wait", kind: "actor" as const, toolbox: "std", icon: null, help: "", ports: [], exits: ["Elapsed"], snippet: "actor ${1:wait}: s.Wait {\n    Elapsed -> $2\n\\}", missingUse: "std" };
-  assert.deepEqual(header(offer), { name: "wait", text: "actor wait: s.Wait {}", template: "s.Wait" });
-  assert.equal(header(offer, new Set(["wait", "wait2"])).text, "actor wait3: s.Wait {}");
+  const offer = { template: "Wait", name: "wait", kind: "actor" as const, toolbox: "std", icon: null, help: "", ports: [], exits: ["Elapsed"], missingUse: "std" };
+  assert.deepEqual(header(offer), { name: "wait", text: "actor wait: Wait {}" });
+  assert.equal(header(offer, new Set(["wait", "wait2"])).text, "actor wait3: Wait {}");
   const from = { item: "P.a", part: { kind: "exit", name: "Done" } };
   assert.deepEqual(added("P", null, offer, from), [
     { addUse: { toolbox: "std" } },
-    { add: { plan: "P", text: "actor wait: s.Wait {}" } },
+    { add: { plan: "P", text: "actor wait: Wait {}" } },
     { connect: { from: "P.a", outcome: "Done", to: "wait" } },
   ]);
   assert.deepEqual(between("P", offer, edge("P.a", "P.b", [])).at(-1), { connect: { from: "P.wait", outcome: "Elapsed", to: "b" } });

@@ -2,10 +2,10 @@
 // few gestures.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { inBrowser } from "./browser";
+import { inBrowser, shows } from "./browser";
 
 /** Maximum number of gestures. */
-const MOST = 25;
+const MOST = 20;
 /** Maximum number of further gestures up to the moment of a failed scenario. */
 const MORE = 10;
 
@@ -45,6 +45,19 @@ class Mouse {
 const template = (name: string): string => `[data-template=${name}]`;
 const name = (item: string): string => `.node [data-item="Plan.${item}"] text.name`;
 const open = (item: string): string => `.node [data-item="Plan.${item}"] text.open`;
+
+inBrowser("from an empty folder to a first run that ends well in five gestures", {}, async ({ page }) => {
+  const mouse = new Mouse(page);
+  await mouse.click(".card.main");
+  await mouse.click(template("Forward"));
+  await mouse.click('.node [data-item="Plan.forward"] text.nowhere');
+  await mouse.choose("end the plan");
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  await mouse.click("button.run");
+  await page.locator(".end-card").waitFor({ timeout: 30_000 });
+  await shows(page.locator(".end-card"), /finished normally/);
+  assert.equal(mouse.gestures, 5);
+});
 
 inBrowser("a first plan by the mouse alone", {}, async ({ page, becomes }) => {
   const mouse = new Mouse(page);

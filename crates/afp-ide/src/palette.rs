@@ -11,6 +11,8 @@ use afp_dsl::outline::ComponentKind;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
     pub name: String,
+    /// The usual name of a new item of it.
+    pub instance: String,
     pub kind: ComponentKind,
     /// Its toolbox; `None` for a plan and for a computation of a plan file.
     pub toolbox: Option<String>,
@@ -64,6 +66,7 @@ fn of_template(view: &View, id: DefinitionId, seen: bool) -> Option<Offer> {
     let kind = component_kind(template.kind);
     Some(Offer {
         name: template.name.clone(),
+        instance: instance_name(&template.name, &Taken::default()),
         kind,
         toolbox: toolbox.is_named().then(|| toolbox.name.clone()),
         icon: template.icon.clone(),
@@ -81,6 +84,7 @@ fn of_plan(view: &View, id: DefinitionId) -> Option<Offer> {
     let name = view.name_of(id).to_owned();
     let interrupted = plan.interruptible.then(|| "Interrupted".to_owned());
     Some(Offer {
+        instance: instance_name(&name, &Taken::default()),
         kind: ComponentKind::SubPlan,
         toolbox: None,
         icon: None,

@@ -240,5 +240,5 @@ export async function template(): Promise<void> {
   if (!part || list.length === 0) return refuse(words.selectFirst);
   const chosen = await choose(words.whichTemplate, list.map((offer) => offers.choice(offer)), below(part));
   const offer = list.find((offer) => offers.choice(offer).id === chosen?.id);
-  if (offer) await ask.edit([...offers.using(offer), { setTemplate: { component: part.item, template: offers.header(offer).template } }], {}, [{ item: part.item }]);
+  if (offer) await ask.edit([...offers.using(offer), { setTemplate: { component: part.item, template: offer.template } }], {}, [{ item: part.item }]);
 }

@@ -14,13 +14,14 @@ export type Places = Record<string, Point | null>;
 /** A template or plan for new elements. */
 export interface Offer {
   template: string;
+  /** The usual name of a new item. */
+  name: string;
   kind: "actor" | "computation" | "subplan" | "supervise";
   toolbox: string | null;
   icon: string | null;
   help: string;
   ports: string[];
   exits: string[];
-  snippet: string;
   missingUse: string | null;
 }
 

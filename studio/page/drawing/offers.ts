@@ -14,13 +14,10 @@ export function taken(drawing: Drawing): Set<string> {
  * The header of an element or supervisor, without ports and exits. Its name is free: the engine
  * would apply later references of a taken name to the new item.
  */
-export function header(offer: Offer, taken: ReadonlySet<string> = new Set()): { text: string; name: string; template: string } {
-  const found = /^(\w+) \$\{1:(\w+)\}: ([\w.]+)/.exec(offer.snippet);
-  const wished = found?.[2] ?? offer.template.charAt(0).toLowerCase() + offer.template.slice(1);
+export function header({ kind, name: wished, template }: Offer, taken: ReadonlySet<string> = new Set()): { text: string; name: string } {
   let name = wished;
   for (let nth = 2; taken.has(name); nth++) name = `${wished}${nth}`;
-  const template = found?.[3] ?? offer.template;
-  return { name, template, text: `${found?.[1] ?? offer.kind} ${name}: ${template} {}` };
+  return { name, text: `${kind} ${name}: ${template} {}` };
 }
 
 /** The change that imports the toolbox. */

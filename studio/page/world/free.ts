@@ -4,6 +4,8 @@ import { placed, type Point, type Pose, type World } from "./geometry";
 /** Free distance ahead, metres: a first plan drives less than this. */
 const AHEAD = 1.3;
 const STEP = 0.05;
+/** The body is tried a little larger than it is. */
+const LARGER = 1.1;
 /** Headings to try, in eighths of a circle: along the sides of a room first. */
 const TURNS = [0, 2, -2, 4, 1, -1, 3, -3].map((nth) => (nth * Math.PI) / 4);
 
@@ -15,8 +17,9 @@ export function freeStart(world: World): Pose {
 }
 
 function isFree(world: World, [x, y, heading]: Pose): boolean {
+  const larger = world.body.map(([u, v]): Point => [LARGER * u, LARGER * v]);
   for (let far = 0; far <= AHEAD; far += STEP) {
-    const body = placed(world.body, [x + far * Math.cos(heading), y + far * Math.sin(heading), heading]);
+    const body = placed(larger, [x + far * Math.cos(heading), y + far * Math.sin(heading), heading]);
     if (world.things.some(({ outline }) => touch(body, outline))) return false;
   }
   return true;

@@ -41,6 +41,7 @@ pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
         let icon = icon.unwrap_or_else(whole);
         json!({
             "template": offer.name,
+            "name": offer.instance,
             "kind": offer.kind.keyword(),
             "toolbox": offer.toolbox,
             "icon": icon,
