@@ -54,9 +54,12 @@ inBrowser("the first plan: from nothing to a robot that drives, by the mouse alo
   assert.match(await read("plan.afp"), /start forward[\s\S]*actor forward: Forward \{\s*ForwardSuccessful -> terminate/);
   await page.getByLabel("Speed").selectOption("null");
   await page.locator("button.run").click();
-  // It drives freely, ends well, and the timeline shows the run.
+  // It drives freely, ends well, and timeline and explanation show the run.
   await shows(page.locator(".end-card"), /The plan has ended/);
-  await page.locator(".bottom .timeline, .bottom .lanes, .lane").first().waitFor();
+  await page.locator(".lane").first().waitFor();
+  await shows(page.locator(".why-card h2"), /forward/);
+  const [end, why] = [(await page.locator(".end-card").boundingBox())!, (await page.locator(".why-card").boundingBox())!];
+  assert.ok(why.x + why.width <= end.x, JSON.stringify({ end, why }));
   await page.locator(".end-card").getByRole("button", { name: "OK" }).click();
   await says("Put something in its way");
   await card.getByRole("button", { name: "Close" }).click();

@@ -42,6 +42,9 @@ export function askWhy(): void {
   if (path) asked.value = path;
 }
 
+/** Explains an element of the run, by its path. */
+export const explain = (path: string): void => void (asked.value = path);
+
 /** While the card is open, it follows the selection. */
 const followed = (): void => {
   const last = selected.value.at(-1);

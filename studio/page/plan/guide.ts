@@ -3,6 +3,7 @@ import { computed, effect, signal } from "@preact/signals";
 import { current } from "../documents/documents";
 import { drops, start } from "../debug/arranged";
 import { ended, phase } from "../debug/run";
+import { explain } from "../debug/why";
 import { drawing } from "../drawing/model";
 import type { Drawing } from "../drawing/shapes";
 import * as layout from "../screen/layout";
@@ -80,8 +81,12 @@ export function begin(): void {
   guided.value = sessionStorage.getItem(KEY) ?? "";
   ended.subscribe((end) => {
     if (!end) return;
-    // The first run explains itself.
-    if (step.peek() === "run") layout.show("timeline");
+    // The first run explains itself, where there is room for it.
+    const element = end.by?.edge?.split(".").slice(0, -1).join(".");
+    if (step.peek() === "run" && matchMedia("(min-width: 901px)").matches) {
+      layout.show("timeline");
+      if (element) explain(element);
+    }
     runs.value = runs.peek() + 1;
   });
   // Before its first run, the robot of a first plan faces free floor.
