@@ -159,7 +159,7 @@ mod tests {
     use afp_syntax::source::Source;
 
     const PLAN: &str = "use carbot
-/// What it is for.
+/// Drives a little.
 plan P {
     var gap: length = 20 cm
     start go
@@ -208,7 +208,7 @@ computation Next {
     #[test]
     fn a_plan_and_an_entry_have_help_and_types() {
         let plan = of(Item::plan("P")).unwrap();
-        assert_eq!((plan.help.as_str(), plan.kind), ("What it is for.", ""));
+        assert_eq!((plan.help.as_str(), plan.kind), ("Drives a little.", ""));
         let entry = of(Item::inner("P", "gap")).unwrap();
         assert!(["length", "int", "bool"].iter().all(|ty| entry.types.iter().any(|it| it == ty)));
         assert_eq!(of(Item::inner("P", "none")), None);
