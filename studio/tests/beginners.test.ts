@@ -118,6 +118,7 @@ inBrowser("a declared computation is changed by a form", { "plan.afp": PLAN }, a
   const { page } = studio;
   await ready(page, "P.again");
   await page.mouse.click(...(await middle(page, name("P.again"))));
+  assert.deepEqual(await page.locator(".inspector h3").allInnerTexts(), ["Inputs", "Results", "Exits"]);
   const form = page.getByRole("group", { name: "Computation Next" });
   const condition = form.getByRole("region", { name: "Again" }).getByLabel("when");
   assert.equal(await condition.inputValue(), "value < 3");

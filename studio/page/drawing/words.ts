@@ -158,7 +158,8 @@ export const words = {
   // Inspector.
   name: "Name",
   templateOf: "Template",
-  ports: "Ports",
+  inputs: "Inputs",
+  results: "Results",
   exitsTitle: "Exits",
   timing: "Timing",
   computation: (name: string) => `Computation ${name}`,

@@ -124,8 +124,8 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
       <div class="line"><span>{words.templateOf}</span><button type="button" class="field" onClick={() => void actions.template()}>{found.template}<Sign name="down" /></button></div>
       <AllAbout item={item} template={found.template} />
       {offer && <div class="inspector-help" ref={(node) => node?.replaceChildren(nodes(offer.help))} />}
-      {found.ports.length > 0 && <h3>{words.ports}</h3>}
-      {found.ports.map((port) => <PortRow key={port.name} port={port} />)}
+      <Ports title={words.inputs} ports={found.ports.filter(({ out }) => !out)} />
+      <Ports title={words.results} ports={found.ports.filter(({ out }) => out)} />
       {found.exits.length > 0 && <h3>{words.exitsTitle}</h3>}
       {found.exits.map((exit) => (
         <button type="button" class={`row ${exit.to ? "" : "undone"}`} key={exit.name} onClick={() => { select([exit.part], "other"); void actions.whatThen(exit.part); }}>
@@ -161,6 +161,13 @@ function Computation({ item, of: { name, states } }: { item: string; of: ask.Com
     </fieldset>
   );
 }
+
+const Ports = ({ title, ports }: { title: string; ports: readonly Port[] }) => (
+  <>
+    {ports.length > 0 && <h3>{title}</h3>}
+    {ports.map((port) => <PortRow key={port.name} port={port} />)}
+  </>
+);
 
 function PortRow({ port }: { port: Port }) {
   const [open, setOpen] = useState(false);
