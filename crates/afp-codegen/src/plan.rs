@@ -5,6 +5,7 @@
 //! `afp_core` drives the result through `afp_core::rt`; the graph is not needed at run time.
 
 mod accessors;
+mod aside;
 mod bindings;
 mod components;
 mod computations;

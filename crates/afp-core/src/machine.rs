@@ -12,7 +12,7 @@
 //!              it failed           -> interrupt, follow its `Error` edge
 //!
 //!   follow:  take edges until an element is active or the plan ends
-//!              `return`            -> wake the supervisors of what is set aside, look, resume it
+//!              `return`            -> wake the supervisors, look, resume the set-aside element
 //!   enter:   start its supervisors, look, read its inputs, start it
 //! ```
 //!

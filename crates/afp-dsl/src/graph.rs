@@ -179,7 +179,7 @@ pub struct Output {
 
 impl Element {
     /// Whether it is an actor or a sub-plan, which supervisors can watch.
-    pub(crate) fn takes_time(&self) -> bool {
+    pub fn takes_time(&self) -> bool {
         !matches!(self.component, Component::Computation(_))
     }
 }

@@ -69,6 +69,8 @@ pub struct Template {
     pub doc: String,
     /// The name of its icon, without folder and extension.
     pub icon: Option<String>,
+    /// Whether an actor can be suspended and continue later.
+    pub resumable: bool,
     /// The resources that it controls exclusively.
     pub uses: Vec<String>,
     pub inputs: Vec<InPort>,

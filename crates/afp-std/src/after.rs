@@ -1,6 +1,6 @@
 //! Report once, after a time.
 
-use afp_core::{Events, Fault, Instant, Supervisor};
+use afp_core::{Duration, Events, Fault, Instant, OnReturn, Supervisor};
 
 use crate::since::Since;
 use crate::templates;
@@ -35,12 +35,17 @@ impl<E: ?Sized> Supervisor<templates::After, E> for After {
         self.over = Some(start);
         Ok(wanted.contains(ELAPSED).then_some(Event::Elapsed))
     }
+
+    fn resume(&mut self, _: &mut E, _: Instant, away: Duration) -> Result<OnReturn, Fault> {
+        self.since.shift(away);
+        self.over = self.over.map(|over| over + away);
+        Ok(OnReturn::Continues)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{After, Event, Events, Inputs, Instant, Live, Supervisor};
-    use afp_core::Duration;
+    use super::{After, Duration, Event, Events, Inputs, Instant, Live, OnReturn, Supervisor};
     use afp_core::quantity::Time;
 
     #[test]
@@ -55,6 +60,22 @@ mod tests {
         let reports = polls.map(|(ms, restart)| at(ms, restart));
         assert_eq!(reports, [false, false, true, false, false, false, true]);
         assert!(!at(9000, 8));
+    }
+
+    #[test]
+    fn a_suspension_neither_counts_nor_repeats_the_report() {
+        let mut watch: After = Supervisor::start(Inputs {}, &mut (), Instant::ZERO).unwrap();
+        let mut at = |ms, away| {
+            let now = Instant::ZERO + Duration::from_millis(ms);
+            let returned = watch.resume(&mut (), now, Duration::from_millis(away));
+            assert_eq!(returned, Ok(OnReturn::Continues));
+            let live = Live { duration: Time::from_si(2.0), restart: 0 };
+            watch.poll(live, Events::from_bits(1), &mut (), now) == Ok(Some(Event::Elapsed))
+        };
+        assert_eq!(
+            [at(0, 0), at(11_990, 10_000), at(12_000, 0), at(40_000, 20_000)],
+            [false, false, true, false]
+        );
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Limit the time of an action.
 
-use afp_core::{Events, Fault, Instant, Supervisor};
+use afp_core::{Duration, Events, Fault, Instant, OnReturn, Supervisor};
 
 use crate::templates;
 use crate::templates::check_timeout::{Event, Inputs, Live};
@@ -28,12 +28,18 @@ impl<E: ?Sized> Supervisor<templates::CheckTimeout, E> for CheckTimeout {
         let over = now >= self.until && wanted.contains(TIMED_OUT);
         Ok(over.then_some(Event::TimedOut))
     }
+
+    fn resume(&mut self, _: &mut E, _: Instant, away: Duration) -> Result<OnReturn, Fault> {
+        self.until += away;
+        Ok(OnReturn::Continues)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{CheckTimeout, Event, Events, Inputs, Instant, Live, Supervisor};
-    use afp_core::Duration;
+    use super::{
+        CheckTimeout, Duration, Event, Events, Inputs, Instant, Live, OnReturn, Supervisor,
+    };
     use afp_core::quantity::Time;
 
     fn started() -> CheckTimeout {
@@ -50,6 +56,17 @@ mod tests {
             watch.poll(Live {}, Events::from_bits(1), &mut (), at(2000)),
             Ok(Some(Event::TimedOut))
         );
+    }
+
+    #[test]
+    fn the_time_of_a_suspension_does_not_count() {
+        let mut watch = started();
+        let at = |ms| Instant::ZERO + Duration::from_millis(ms);
+        let away = Duration::from_secs(60);
+        assert_eq!(watch.resume(&mut (), at(61_000), away), Ok(OnReturn::Continues));
+        assert_eq!(watch.poll(Live {}, Events::from_bits(1), &mut (), at(61_999)), Ok(None));
+        let event = watch.poll(Live {}, Events::from_bits(1), &mut (), at(62_000));
+        assert_eq!(event, Ok(Some(Event::TimedOut)));
     }
 
     #[test]

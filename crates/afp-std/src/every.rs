@@ -1,6 +1,6 @@
 //! Report after each period.
 
-use afp_core::{Duration, Events, Fault, Instant, Supervisor};
+use afp_core::{Duration, Events, Fault, Instant, OnReturn, Supervisor};
 
 use crate::templates;
 use crate::templates::every::{Event, Inputs, Live};
@@ -35,12 +35,16 @@ impl<E: ?Sized> Supervisor<templates::Every, E> for Every {
         self.next = now + Duration::from_nanos(period - rest);
         Ok(wanted.contains(DUE).then_some(Event::Due))
     }
+
+    fn resume(&mut self, _: &mut E, _: Instant, away: Duration) -> Result<OnReturn, Fault> {
+        self.next += away;
+        Ok(OnReturn::Continues)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Event, Events, Every, Inputs, Instant, Live, Supervisor};
-    use afp_core::Duration;
+    use super::{Duration, Event, Events, Every, Inputs, Instant, Live, Supervisor};
     use afp_core::quantity::Time;
 
     #[test]

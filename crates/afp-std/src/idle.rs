@@ -1,6 +1,6 @@
 //! Do nothing until an event interrupts.
 
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 use crate::templates;
 use crate::templates::idle::{Inputs, Live, State};
@@ -19,6 +19,16 @@ impl<E: ?Sized> Actor<templates::Idle, E> for Idle {
     }
 
     fn interrupt(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+}
+
+impl<E: ?Sized> Resumable<templates::Idle, E> for Idle {
+    fn suspend(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, _: Instant, _: Duration) -> Result<(), Fault> {
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! The instant from which a supervisor counts its time.
 
-use afp_core::Instant;
+use afp_core::{Duration, Instant};
 
 /// The start of the supervisor, or the last change of a value.
 #[derive(Clone, Copy, Debug)]
@@ -20,5 +20,10 @@ impl Since {
             self.start = now;
         }
         self.start
+    }
+
+    /// Does not count the time of a suspension.
+    pub(crate) fn shift(&mut self, away: Duration) {
+        self.start += away;
     }
 }

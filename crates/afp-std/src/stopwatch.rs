@@ -1,7 +1,7 @@
 //! Report the time since the start.
 
 use afp_core::quantity::Time;
-use afp_core::{Events, Fault, Instant, Supervisor};
+use afp_core::{Duration, Events, Fault, Instant, OnReturn, Supervisor};
 
 use crate::since::Since;
 use crate::templates;
@@ -31,12 +31,16 @@ impl<E: ?Sized> Supervisor<templates::Stopwatch, E> for Stopwatch {
         let elapsed = Time::from_si(now.since(start).as_secs_f64());
         Ok(wanted.contains(TICKED).then_some(Event::Ticked { elapsed }))
     }
+
+    fn resume(&mut self, _: &mut E, _: Instant, away: Duration) -> Result<OnReturn, Fault> {
+        self.since.shift(away);
+        Ok(OnReturn::Continues)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Event, Events, Inputs, Instant, Live, Stopwatch, Supervisor, Time};
-    use afp_core::Duration;
+    use super::{Duration, Event, Events, Inputs, Instant, Live, Stopwatch, Supervisor, Time};
 
     #[test]
     fn the_time_counts_from_the_last_start() {

@@ -1,6 +1,6 @@
 //! Do nothing for a while.
 
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 use crate::templates;
 use crate::templates::wait::{Inputs, Live, State};
@@ -25,10 +25,20 @@ impl<E: ?Sized> Actor<templates::Wait, E> for Wait {
     }
 }
 
+impl<E: ?Sized> Resumable<templates::Wait, E> for Wait {
+    fn suspend(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, _: Instant, away: Duration) -> Result<(), Fault> {
+        self.until += away;
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Actor, Inputs, Instant, Live, Poll, State, Wait};
-    use afp_core::Duration;
+    use super::{Actor, Duration, Inputs, Instant, Live, Poll, Resumable, State, Wait};
     use afp_core::quantity::Time;
 
     #[test]
@@ -40,5 +50,16 @@ mod tests {
         assert_eq!(wait.poll(Live {}, &mut (), at(240)), Ok(Poll::Pending));
         assert_eq!(wait.poll(Live {}, &mut (), at(250)), Ok(Poll::Ready(State::Elapsed)));
         assert_eq!(wait.interrupt(&mut (), at(250)), Ok(()));
+    }
+
+    #[test]
+    fn ten_seconds_paused_at_four_for_a_minute_end_at_seventy() {
+        let at = |seconds| Instant::ZERO + Duration::from_secs(seconds);
+        let inputs = Inputs { duration: Time::from_si(10.0) };
+        let mut wait: Wait = Actor::start(inputs, &mut (), at(0)).unwrap();
+        assert_eq!(wait.suspend(&mut (), at(4)), Ok(()));
+        assert_eq!(wait.resume(&mut (), at(64), Duration::from_secs(60)), Ok(()));
+        assert_eq!(wait.poll(Live {}, &mut (), at(69)), Ok(Poll::Pending));
+        assert_eq!(wait.poll(Live {}, &mut (), at(70)), Ok(Poll::Ready(State::Elapsed)));
     }
 }

@@ -1,5 +1,6 @@
 //! Follows the records of a run: edges, activations, values of entries and expectations.
 
+mod aside;
 mod broken;
 mod claims;
 mod expected;
@@ -143,7 +144,7 @@ impl<'a> Watch<'a> {
             }
             Record::Diverted { element, .. } => self.ended_by_event(at, element),
             Record::Suspended { element, .. } => {
-                self.suspended(at, element);
+                self.set_aside(at, element);
                 self.ended_by_event(at, element);
             }
             Record::Returned { component, .. } => self.set_active(at, component, true),
@@ -269,19 +270,6 @@ impl<'a> Watch<'a> {
         }
         if let Some(known) = self.state.active.get_mut(id.0 as usize) {
             *known = active;
-        }
-    }
-
-    /// A set-aside element and everything inside it is not active.
-    fn suspended(&mut self, at: Instant, element: ComponentId) {
-        for id in 0..self.since.len() as u32 {
-            let owner = |id: &u32| {
-                let place = self.places.get(*id as usize)?;
-                Some(place.owner.unwrap_or(place.plan)).filter(|owner| owner != id)
-            };
-            if std::iter::successors(Some(id), owner).any(|id| id == element.0) {
-                self.set_active(at, ComponentId(id), false);
-            }
         }
     }
 

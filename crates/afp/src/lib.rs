@@ -24,9 +24,9 @@
 pub use afp_core as core;
 pub use afp_core::{
     Actor, Clock, Computation, Detail, Duration, ElementId, Ending, EntryId, Environment, Events,
-    Failure, Fault, Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Run,
-    Scheduler, SetError, StartError, StillClock, Subject, Supervisor, Text, Ticket, TypedEntry,
-    Value, ValueRef, Wake, Worker, WriteError, quantity, trace,
+    Failure, Fault, Instant, Job, NamedPlan, OnReturn, Plan, PlanState, Platform, Poll, Reading,
+    Reason, Resumable, Run, Scheduler, SetError, StartError, StillClock, Subject, Supervisor, Text,
+    Ticket, TypedEntry, Value, ValueRef, Wake, Worker, WriteError, quantity, trace,
 };
 
 mod callbacks;

@@ -3,6 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::aside::{self, Holder, Matched, on_started};
 use super::bindings::Function;
 use super::context::{ComponentNames, Context};
 use super::elements::{self, passes, results};
@@ -17,6 +18,10 @@ pub fn plan(context: &Context<'_>) -> TokenStream {
     let (start_supervisor, poll_supervisor) = (start_supervisor(context), poll_supervisor(context));
     let (start_element, poll_element) = (start_element(context), poll_element(context));
     let (interrupt, leave) = (interrupt_element(context), leave(context));
+    let aside = aside::functions(context);
+    let ends = Holder::all(context)
+        .into_iter()
+        .map(|Holder { ty, field, .. }| quote!(self.#field = #ty::None;));
     quote! {
         impl<E> Plan<E> for #ty
         where
@@ -28,10 +33,11 @@ pub fn plan(context: &Context<'_>) -> TokenStream {
             #start_element
             #poll_element
             #interrupt
+            #aside
             #leave
 
             fn end(&mut self) {
-                self.active = Active::None;
+                #(#ends)*
                 self.supervisors = Supervisors::default();
             }
         }
@@ -44,7 +50,10 @@ fn bounds(context: &Context<'_>) -> Vec<TokenStream> {
         Component::Actor(id) => {
             let paths = context.paths(id, element.generic.as_ref());
             let (marker, implementation) = (paths.marker, paths.implementation);
-            Some(quote!(#implementation: Actor<#marker, E>,))
+            match context.suspendable() && context.template(id).resumable {
+                true => Some(quote!(#implementation: Resumable<#marker, E>,)),
+                false => Some(quote!(#implementation: Actor<#marker, E>,)),
+            }
         }
         Component::SubPlan(id) => {
             let (module, ty) = context.child(id);
@@ -74,7 +83,7 @@ fn select(on: TokenStream, arms: &[TokenStream], last: TokenStream) -> TokenStre
 }
 
 /// A parameter, or `_` if it is unused.
-fn used(name: TokenStream, used: bool) -> TokenStream {
+pub(super) fn used(name: TokenStream, used: bool) -> TokenStream {
     if used { name } else { quote!(_) }
 }
 
@@ -174,16 +183,27 @@ fn start_element(context: &Context<'_>) -> TokenStream {
 
 fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -> TokenStream {
     let (number, variant) = (&names.number, &names.variant);
-    let at = at(element.span);
+    let (at, holder) = (at(element.span), Holder::of(context, names));
     match element.component {
         Component::Actor(id) => {
             let bound = elements::bound(context, element, names, id);
             let Function { scratch, call, .. } = bound.inputs();
+            let Holder { ty, field, .. } = &holder;
+            let start = match holder.handlers() {
+                false => quote!(cx.start_actor(#call).map(Active::#variant)),
+                true => quote! {
+                    match cx.start_actor(#call) {
+                        Ok(actor) => self.#field = #ty::#variant(actor),
+                        Err(fault) => return Started::Failed(fault),
+                    }
+                    return Started::Running;
+                },
+            };
             quote! {
                 #at
                 #number => {
                     #scratch
-                    cx.start_actor(#call).map(Active::#variant)
+                    #start
                 }
             }
         }
@@ -224,6 +244,7 @@ fn start_sub_plan_arm(
         }
     });
     let (place, stage) = (&names.place, stage_results(names, element));
+    let Holder { ty: holder, field, .. } = Holder::of(context, names);
     quote! {
         #at
         #number => {
@@ -232,18 +253,19 @@ fn start_sub_plan_arm(
             let mut machine = Machine::new(plan);
             let flow = cx.start_sub_plan(#place, &mut machine);
             let started = Started::sub_plan(flow, || #stage, cx);
-            self.active = Active::#variant(machine);
+            self.#field = #holder::#variant(machine);
             return started;
         }
     }
 }
 
-/// Passes a sub-plan its live inputs before its step.
-fn pass_live(
+/// Passes a sub-plan its live inputs before its step, or returns `failed`.
+pub(super) fn pass_live(
     context: &Context<'_>,
     element: &Element,
     names: &ComponentNames,
     id: PlanId,
+    failed: TokenStream,
 ) -> Option<TokenStream> {
     let inputs = elements::live_inputs(element, context.graph.plan(id));
     let writes = inputs.iter().enumerate().map(|(number, input)| {
@@ -257,7 +279,7 @@ fn pass_live(
         quote! {
             let live = match cx.noted(#function(&self.config)) {
                 Ok(live) => live,
-                Err(fault) => return Polled::Failed(fault),
+                Err(fault) => return #failed,
             };
             cx.pass_live(#place, machine, |plan, to| {
                 let mut changed = false;
@@ -269,7 +291,7 @@ fn pass_live(
 }
 
 /// Stages the results of a sub-plan.
-fn stage_results(names: &ComponentNames, element: &Element) -> TokenStream {
+pub(super) fn stage_results(names: &ComponentNames, element: &Element) -> TokenStream {
     let function = &names.outputs;
     if results(element) {
         quote!(#function(&mut self.staged, &machine.plan().config))
@@ -279,8 +301,8 @@ fn stage_results(names: &ComponentNames, element: &Element) -> TokenStream {
 }
 
 fn poll_element(context: &Context<'_>) -> TokenStream {
-    let all = context.plan.elements.iter().zip(&context.elements);
-    let arms = all.filter_map(|(element, names)| {
+    let missing = quote!(Polled::Failed(Fault::INTERNAL));
+    let Matched { body, element, any } = on_started(context, missing, |ty, element, names| {
         let (variant, at) = (&names.variant, at(element.span));
         match element.component {
             Component::Actor(id) => {
@@ -289,7 +311,7 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
                     (bound.live(), bound.outputs().call);
                 Some(quote! {
                     #at
-                    Active::#variant(actor) => {
+                    #ty::#variant(actor) => {
                         #scratch
                         let live = #call;
                         Polled::actor(cx.poll_actor(actor, live), #outputs, cx)
@@ -298,10 +320,11 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
             }
             Component::SubPlan(id) => {
                 let (place, stage) = (&names.place, stage_results(names, element));
-                let live = pass_live(context, element, names, id);
+                let failed = quote!(Polled::Failed(fault));
+                let live = pass_live(context, element, names, id, failed);
                 Some(quote! {
                     #at
-                    Active::#variant(machine) => {
+                    #ty::#variant(machine) => {
                         #live
                         let flow = cx.inside(#place, |cx| machine.step(cx));
                         Polled::sub_plan(flow, || #stage, cx)
@@ -311,53 +334,45 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
             Component::Computation(_) => None,
         }
     });
-    let arms: Vec<_> = arms.collect();
-    let cx = used(quote!(cx), !arms.is_empty());
+    let cx = used(quote!(cx), any);
     quote! {
         #[inline]
         fn poll_element<R: Run<Env = E>>(
             &mut self,
-            _: ElementId,
+            #element: ElementId,
             #cx: &mut Cx<'_, R>,
         ) -> Polled {
-            match &mut self.active {
-                Active::None => Polled::Failed(Fault::INTERNAL),
-                #(#arms)*
-            }
+            #body
         }
     }
 }
 
 fn interrupt_element(context: &Context<'_>) -> TokenStream {
-    let all = context.plan.elements.iter().zip(&context.elements);
-    let arms = all.filter_map(|(element, names)| {
+    let missing = quote!(Err(Fault::INTERNAL));
+    let Matched { body, element, any } = on_started(context, missing, |ty, element, names| {
         let (variant, at) = (&names.variant, at(element.span));
         match element.component {
             Component::Actor(_) => {
-                Some(quote!(#at Active::#variant(actor) => cx.interrupt_actor(actor),))
+                Some(quote!(#at #ty::#variant(actor) => cx.interrupt_actor(actor),))
             }
             Component::SubPlan(_) => {
                 let place = &names.place;
                 Some(quote! {
                     #at
-                    Active::#variant(machine) => cx.inside(#place, |cx| machine.interrupt(cx)),
+                    #ty::#variant(machine) => cx.inside(#place, |cx| machine.interrupt(cx)),
                 })
             }
             Component::Computation(_) => None,
         }
     });
-    let arms: Vec<_> = arms.collect();
-    let cx = used(quote!(cx), !arms.is_empty());
+    let cx = used(quote!(cx), any);
     quote! {
         fn interrupt_element<R: Run<Env = E>>(
             &mut self,
-            _: ElementId,
+            #element: ElementId,
             #cx: &mut Cx<'_, R>,
         ) -> Result<(), Fault> {
-            match &mut self.active {
-                Active::None => Err(Fault::INTERNAL),
-                #(#arms)*
-            }
+            #body
         }
     }
 }
@@ -375,11 +390,24 @@ fn leave(context: &Context<'_>) -> TokenStream {
         (!drops.is_empty()).then(|| quote!(#number => { #(#drops)* }))
     });
     let arms: Vec<_> = arms.collect();
-    let element = used(quote!(element), !arms.is_empty());
+    let element = used(quote!(element), !arms.is_empty() || context.suspends());
     let dropped = (!arms.is_empty()).then(|| quote!(match element { #(#arms)* _ => {} }));
+    let cleared = match Holder::all(context).as_slice() {
+        // A computation may run while an element is set aside.
+        holders @ [_, _] => {
+            let clears = holders.iter().map(|holder| {
+                let Holder { ty, field, .. } = holder;
+                let lasting = holder.elements(context).filter(|(element, _)| element.takes_time());
+                let numbers = lasting.map(|(_, names)| &names.number);
+                quote!(#(#numbers)|* => self.#field = #ty::None,)
+            });
+            quote!(match element { #(#clears)* _ => {} })
+        }
+        _ => quote!(self.active = Active::None;),
+    };
     quote! {
         fn leave(&mut self, #element: ElementId) {
-            self.active = Active::None;
+            #cleared
             #dropped
         }
     }

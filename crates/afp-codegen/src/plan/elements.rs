@@ -3,6 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::aside::Holder;
 use super::bindings::{Bound, converted, limited, reads_entries, tried};
 use super::context::{ComponentNames, Context};
 use crate::formula::{Formulas, is_literal};
@@ -17,7 +18,7 @@ pub fn elements(context: &Context<'_>) -> TokenStream {
         let (number, index) = (&names.number, Literal::u16_unsuffixed(index));
         quote!(const #number: ElementId = ElementId(#index);)
     });
-    let active = active(context);
+    let active = Holder::all(context).into_iter().map(|holder| active(context, &holder));
     let rows = context.rows.elements.iter().zip(&context.elements);
     let bindings = context.plan.elements.iter().zip(rows).map(|(element, (row, names))| {
         match element.component {
@@ -33,7 +34,7 @@ pub fn elements(context: &Context<'_>) -> TokenStream {
     });
     quote! {
         #(#numbers)*
-        #active
+        #(#active)*
         #(#bindings)*
     }
 }
@@ -57,9 +58,8 @@ pub fn bound<'a>(
     }
 }
 
-fn active(context: &Context<'_>) -> TokenStream {
-    let variants = context.plan.elements.iter().zip(&context.elements);
-    let variants = variants.filter_map(|(element, names)| {
+fn active(context: &Context<'_>, holder: &Holder) -> TokenStream {
+    let variants = holder.elements(context).filter_map(|(element, names)| {
         let variant = &names.variant;
         let holds = match element.component {
             Component::Actor(id) => context.paths(id, element.generic.as_ref()).implementation,
@@ -73,11 +73,16 @@ fn active(context: &Context<'_>) -> TokenStream {
         let at = at(element.span);
         Some(quote!(#note #at #variant(#holds),))
     });
-    let about = doc("", "The active element.");
+    let about = match (holder.handlers(), context.suspends()) {
+        (true, _) => "The active handler.",
+        (false, true) => "The active element, or the element that is set aside.",
+        (false, false) => "The active element.",
+    };
+    let (about, ty) = (doc("", about), &holder.ty);
     quote! {
         #about
         #[derive(Clone, Default)]
-        enum Active {
+        enum #ty {
             #[default]
             None,
             #(#variants)*

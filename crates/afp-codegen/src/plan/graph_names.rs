@@ -21,6 +21,7 @@ pub struct GraphNames {
 const TYPES: &[&str] = &[
     "A",
     "Active",
+    "Handler",
     "Clone",
     "Config",
     "Copy",

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::aside::Holder;
 use super::bindings::{limited, tried};
 use super::context::Context;
 use crate::formula::{Formulas, is_literal};
@@ -31,13 +32,15 @@ pub fn structure(context: &Context<'_>) -> TokenStream {
     let getters = (!getters.is_empty()).then(|| quote!(impl Config { #(#getters)* }));
     let [config, shadow] =
         ["The configuration.", "The values of the next commit."].map(|t| doc("", t));
+    let started = Holder::all(context).into_iter();
+    let started = started.map(|Holder { ty, field, .. }| quote!(#field: #ty,));
     quote! {
         #about
         #[derive(Clone, Default)]
         pub struct #ty {
             pub(super) config: Config,
             staged: Staged,
-            active: Active,
+            #(#started)*
             supervisors: Supervisors,
         }
 

@@ -1,7 +1,7 @@
 //! Registers the implementations of a toolbox for plans loaded at run time: all of them, or those
 //! that a platform supports.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
@@ -17,12 +17,12 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let bounds = implemented(toolbox).filter(|t| t.kind != TemplateKind::Computation);
     let bounds = bounds.map(|template| {
         let (marker, implementation) = types(core, &quote!(super), template);
-        let component = words(template.kind).component;
+        let component = implements(template);
         quote!(#implementation: #core::#component<self::#marker, E>,)
     });
     let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, &quote!(super), template);
-        let method = ident(&snake(&words(template.kind).component.to_string()));
+        let method = ident(&snake(&implements(template).to_string()));
         let (toolbox, name) = (&toolbox.name, &template.name);
         quote!(registry.#method::<self::#marker, #implementation>(#toolbox, #name);)
     });
@@ -78,6 +78,14 @@ impl Parse for Support {
     }
 }
 
+/// The trait of a template's implementation.
+fn implements(template: &Template) -> Ident {
+    match template.resumable {
+        true => ident("Resumable"),
+        false => words(template.kind).component,
+    }
+}
+
 /// The tokens before the next comma.
 fn next<T: ToTokens>(
     input: ParseStream<'_>,
@@ -101,7 +109,7 @@ pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
     };
     let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, module, template);
-        let method = ident(&snake(&words(template.kind).component.to_string()));
+        let method = ident(&snake(&implements(template).to_string()));
         let (toolbox, name) = (&toolbox.name, &template.name);
         let types = quote!(#module::templates::#marker, #implementation);
         match template.kind {
@@ -122,7 +130,10 @@ pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
     });
     quote! {{
         #[allow(unused_imports)]
-        use #core::rt::{ActorSupported as _, SupervisorSupported as _, Unsupported as _};
+        use #core::rt::{
+            ActorSupported as _, ResumableSupported as _, SupervisorSupported as _,
+            Unsupported as _,
+        };
         #[allow(unused_variables)]
         let missing: &[&'static str] = #missing;
         let registry = &mut *#registry;

@@ -2,10 +2,11 @@
 
 use core::task::Poll;
 
-use afp_types::{Text, Value, ValueRef, parse_choice};
+use afp_types::{Duration, Text, Value, ValueRef, parse_choice};
 
 use crate::component::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Events, Supervisor, SupervisorTemplate,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Events, OnReturn, Resumable,
+    Supervisor, SupervisorTemplate,
 };
 use crate::fault::{BadValue, Fault};
 use crate::rt::plan::{Cx, Fired, Polled, Started};
@@ -58,6 +59,43 @@ impl<R: Run> Cx<'_, R> {
         A: Actor<T, R::Env>,
     {
         actor.interrupt(self.env, self.now)
+    }
+
+    /// Suspends an actor.
+    ///
+    /// # Errors
+    /// The fault of the actor.
+    pub fn suspend_actor<T, A>(&mut self, actor: &mut A) -> Result<(), Fault>
+    where
+        T: ActorTemplate,
+        A: Resumable<T, R::Env>,
+    {
+        actor.suspend(self.env, self.now)
+    }
+
+    /// Continues an actor that was suspended `away` ago.
+    pub fn resume_actor<T, A>(&mut self, actor: &mut A, away: Duration) -> Started
+    where
+        T: ActorTemplate,
+        A: Resumable<T, R::Env>,
+    {
+        actor.resume(self.env, self.now, away).map_or_else(Started::Failed, |()| Started::Running)
+    }
+
+    /// Continues a supervisor that was not polled for `away`, unless it starts again.
+    ///
+    /// # Errors
+    /// The fault of the supervisor.
+    pub fn resume_supervisor<T, A>(
+        &mut self,
+        supervisor: &mut Option<A>,
+        away: Duration,
+    ) -> Result<OnReturn, Fault>
+    where
+        T: SupervisorTemplate,
+        A: Supervisor<T, R::Env>,
+    {
+        supervisor.as_mut().ok_or(Fault::INTERNAL)?.resume(self.env, self.now, away)
     }
 
     /// Starts a supervisor.

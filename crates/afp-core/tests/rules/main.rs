@@ -13,6 +13,7 @@ mod look;
 mod order;
 mod outside;
 mod panics;
+mod random;
 mod releases;
 mod resume;
 mod returns;

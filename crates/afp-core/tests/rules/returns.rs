@@ -1,4 +1,4 @@
-//! Rules 11 to 19 of `return`: going on with what was set aside.
+//! Rules 11 to 19 of `return`: continuing the element that was set aside.
 
 use afp_core::trace::Ending;
 use afp_core::{Fault, Instant};
@@ -252,7 +252,7 @@ fn rule_13_an_inner_look_may_suspend_what_is_still_suspended() {
 }
 
 #[test]
-fn rule_14_an_outer_ending_interrupts_the_inner_handler_and_what_it_set_aside() {
+fn rule_14_an_outer_ending_interrupts_the_inner_handler_and_its_set_aside_element() {
     let world = World::default().says("beep", 0, 10..11).says("button", 1, 20..21);
     let mut run = Run::started(two_handlers(), world);
     run.until(20);

@@ -217,7 +217,7 @@ fn rule_14_a_stop_request_interrupts_the_handler_first() {
 }
 
 #[test]
-fn rule_14_what_did_not_start_is_not_interrupted() {
+fn rule_14_an_element_that_did_not_start_is_not_interrupted() {
     let mut run = Run::started(paused(), World::default().says("button", 0, 0..1));
     run.scheduler.request_stop();
     run.step(15);
@@ -313,7 +313,7 @@ fn rule_16_a_failed_interrupt_ends_the_run_and_calls_nothing() {
 }
 
 #[test]
-fn rule_16_a_failed_interrupt_of_what_is_set_aside_ends_the_run() {
+fn rule_16_a_failed_interrupt_of_the_set_aside_element_ends_the_run() {
     let world = World::default()
         .says("button", 0, 10..11)
         .fails("drive", Phase::Interrupt, 20..21)

@@ -44,8 +44,8 @@ pub struct ElementSpec {
     pub kind: ElementKind,
     period: u64,
     pub states: Vec<(&'static str, &'static str)>,
-    on_error: Option<&'static str>,
-    guards: Vec<SupervisorSpec>,
+    pub on_error: Option<&'static str>,
+    pub guards: Vec<SupervisorSpec>,
     pub reads: Vec<&'static str>,
     pub live: Option<&'static str>,
     pub writes: Vec<Write>,
@@ -63,7 +63,7 @@ pub struct SupervisorSpec {
     deadline: u64,
     budget: u64,
     pub events: Vec<(&'static str, &'static str)>,
-    on_miss: Option<&'static str>,
+    pub on_miss: Option<&'static str>,
     pub live: Option<&'static str>,
     pub writes: Vec<Write>,
     /// It continues when its element returns.
@@ -169,6 +169,11 @@ impl ElementSpec {
     pub fn writes(mut self, state: &'static str, entry: &'static str, value: i64) -> Self {
         self.writes.push((state, entry, Value::Int(value)));
         self
+    }
+
+    /// The set of all states.
+    pub fn all(&self) -> Events {
+        Events::from_bits((1 << self.states.len()) - 1)
     }
 
     /// A sub-plan's `in` entry and the outer entry that it reads.
@@ -315,7 +320,7 @@ impl Spec {
         self.entries.len() as u32 + plans.map(|plan| plan.entries_below()).sum::<u32>()
     }
 
-    fn target(&self, name: &str) -> Target {
+    pub fn target(&self, name: &str) -> Target {
         match name {
             "terminate" => Target::Terminate,
             "fail" => Target::Fail(ReasonId(0)),
@@ -352,19 +357,6 @@ impl Spec {
             self.sweeps[row] = self.supervisor_rows.len() as u16;
             self.supervisor_rows.push(SupervisorRow { events, ..own });
         }
-    }
-
-    fn is_handler(&self, index: usize) -> bool {
-        let named = |to: &str| to.strip_prefix("suspend ") == Some(self.elements[index].name);
-        let guards = self.elements.iter().flat_map(|element| &element.guards);
-        let guards = guards.chain(&self.supervisors[..usize::from(self.globals)]);
-        let misses = guards.clone().filter_map(|guard| guard.on_miss);
-        let events = guards.flat_map(|guard| guard.events.iter().map(|(_, to)| *to));
-        let elements = self.elements.iter().flat_map(|element| {
-            let states = element.states.iter().map(|(_, to)| *to).chain(element.on_error);
-            states.chain(element.reactions.iter().map(|(.., to)| *to))
-        });
-        events.chain(misses).chain(elements).any(named)
     }
 
     fn optional(&self, name: Option<&str>) -> Option<Target> {
@@ -427,20 +419,6 @@ impl Spec {
             sweep: sweep_row,
             child,
         });
-    }
-
-    /// Whether an element is a computation that can reach a target through computations only.
-    fn computes(&self, index: usize, seen: &mut Vec<usize>, wanted: fn(Target) -> bool) -> bool {
-        let element = &self.elements[index];
-        if element.kind != ElementKind::Computation || seen.contains(&index) {
-            return false;
-        }
-        seen.push(index);
-        let targets = element.states.iter().map(|(_, to)| *to).chain(element.on_error);
-        targets.into_iter().any(|to| match self.target(to) {
-            Target::Element(next) => self.computes(next.index(), seen, wanted),
-            to => wanted(to),
-        })
     }
 
     /// Position of the element that owns a local supervisor.

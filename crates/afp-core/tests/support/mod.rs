@@ -5,6 +5,7 @@
 #![allow(dead_code, reason = "each test binary uses a part")]
 
 pub mod build;
+mod handlers;
 pub mod names;
 pub mod run;
 pub mod scripted;

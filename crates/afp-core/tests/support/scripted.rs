@@ -57,6 +57,11 @@ impl Scripted {
         self.entries[usize::from(self.spec.entry(entry))].clone()
     }
 
+    /// Whether no component is left.
+    pub fn is_empty(&self) -> bool {
+        self.running == [None; 2] && !self.suspended.contains(&true)
+    }
+
     pub fn spec(&self) -> &Arc<Spec> {
         &self.spec
     }
@@ -333,8 +338,7 @@ impl Plan<World> for Scripted {
             *self.place(element) = Some(element);
             return Started::Running;
         }
-        let all = Events::from_bits(u64::MAX);
-        let state = cx.env.outcome(row.name, all, cx.now).unwrap_or(0);
+        let state = cx.env.outcome(row.name, row.all(), cx.now).unwrap_or(0);
         self.stage_writes(&row.writes, row.states[usize::from(state)].0);
         match cx.env.output(row.name, cx.now) {
             Ok(()) => Started::Done(state),
@@ -366,7 +370,7 @@ impl Plan<World> for Scripted {
             return Polled::Failed(fault);
         }
         self.see(row.live, row.name, cx);
-        let Some(state) = cx.env.outcome(row.name, Events::from_bits(u64::MAX), cx.now) else {
+        let Some(state) = cx.env.outcome(row.name, row.all(), cx.now) else {
             return Polled::Pending;
         };
         self.stage_writes(&row.writes, row.states[usize::from(state)].0);

@@ -54,6 +54,8 @@ impl Clock for CostClock {
 #[derive(Default)]
 pub struct World {
     rules: Vec<Rule>,
+    /// Random answers instead of rules.
+    chance: Option<Chance>,
     /// Every call, as `5 interrupt go`.
     pub calls: Vec<String>,
     /// Records nothing.
@@ -65,7 +67,58 @@ pub struct World {
     pub ready: Instant,
 }
 
+/// Random answers: outcomes now and then, or lasting ones, and faults if wanted.
+struct Chance {
+    dice: Dice,
+    faults: bool,
+}
+
+/// A small random number generator.
+#[derive(Clone)]
+pub struct Dice(pub u64);
+
+impl Dice {
+    /// A number below `end`.
+    pub fn below(&mut self, end: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (self.0 >> 33) % end
+    }
+
+    pub fn percent(&mut self, part: u64) -> bool {
+        self.below(100) < part
+    }
+}
+
+impl Chance {
+    fn fails(&mut self, phase: Phase) -> bool {
+        let part = match phase {
+            Phase::Suspend | Phase::Resume => 50,
+            Phase::Start => 20,
+            Phase::Poll | Phase::Refresh => 5,
+            Phase::Interrupt => 1,
+            Phase::Output => 0,
+        };
+        self.faults && self.dice.below(1000) < part
+    }
+
+    fn outcome(&mut self, who: &str, wanted: Events, now: Instant) -> Option<u16> {
+        // A supervisor whose name ends so reports for stretches of time.
+        let lasting = who.ends_with('l');
+        let stretch = now.as_nanos() / 40_000_000;
+        let holds = |dice: &mut Dice, outcome: u16| match lasting {
+            true => (stretch + u64::from(outcome)).is_multiple_of(3),
+            false => dice.percent(6),
+        };
+        (0..2).filter(|n| wanted.contains(*n)).find(|n| holds(&mut self.dice, *n))
+    }
+}
+
 impl World {
+    /// A platform whose components answer at random, with faults if wanted.
+    pub fn random(dice: Dice, faults: bool) -> Self {
+        World { chance: Some(Chance { dice, faults }), ..World::default() }
+    }
+
     /// A platform that records nothing.
     pub fn quiet() -> Self {
         World { quiet: true, ..World::default() }
@@ -136,6 +189,9 @@ impl World {
         }
         let clock = &self.clock.0;
         clock.set(clock.get().max(now) + cost);
+        if self.chance.as_mut().is_some_and(|chance| chance.fails(phase)) {
+            return Err(SCRIPTED);
+        }
         result
     }
 
@@ -165,7 +221,10 @@ impl World {
     }
 
     /// The outcome of a poll: the first declared outcome that holds and is wanted.
-    pub fn outcome(&self, who: &str, wanted: Events, now: Instant) -> Option<u16> {
+    pub fn outcome(&mut self, who: &str, wanted: Events, now: Instant) -> Option<u16> {
+        if let Some(chance) = &mut self.chance {
+            return chance.outcome(who, wanted, now);
+        }
         let outcomes = self.holding(who, Phase::Poll, now).filter_map(|act| match act {
             Act::Outcome(outcome) if wanted.contains(outcome) => Some(outcome),
             _ => None,

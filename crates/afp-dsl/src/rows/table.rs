@@ -20,6 +20,11 @@ pub struct Rows {
 }
 
 impl Rows {
+    /// Whether an event of the plan sets an element aside.
+    pub fn suspends(&self) -> bool {
+        self.elements.iter().any(|row| row.handler)
+    }
+
     /// The scheduler's view of the rows; `reasons` are the texts in its own form.
     #[inline]
     pub fn table<'a, R>(&'a self, reasons: &'a [R]) -> PlanTable<'a, R> {

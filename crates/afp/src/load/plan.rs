@@ -2,6 +2,7 @@
 
 mod carry;
 mod element;
+mod entry;
 mod loader;
 mod testing;
 
@@ -9,13 +10,12 @@ use std::sync::Arc;
 
 use afp_core::rt::{
     BadValue, Committer, Cx, ElementId, Events, Fired, NamedPlan, OnReturn, Plan, Polled, Run,
-    Scale, SetAside, Slot, Started, SupervisorId, Tables, Unit, initial, int_to_float,
+    SetAside, Slot, Started, SupervisorId, Tables, Unit, initial,
 };
 use afp_core::trace::{Outcome, Sink};
 use afp_core::{Duration, Environment, Fault, PlanState, Value, ValueRef, WriteError};
-use afp_dsl::graph::{self, EntryKind, Graph};
+use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::types::Type;
-use afp_dsl::types::converter::spellings;
 
 use super::config::{Config, ObjectCell};
 use super::error::LoadError;
@@ -29,6 +29,7 @@ use super::slots::SupervisorSlot;
 use super::tables::LoadedTables;
 use carry::Carried;
 use element::ElementSlot;
+use entry::{EntryInfo, fit};
 use loader::Loader;
 
 /// A plan loaded at run time, for platform `E`.
@@ -44,28 +45,6 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
     supervisors: Vec<WatchSlot<E>>,
     /// The names of the outermost plan.
     names: PlanNames,
-}
-
-struct EntryInfo {
-    name: String,
-    kind: EntryKind,
-    /// Whether it is a live input.
-    live: bool,
-    /// Minimum and maximum.
-    range: Option<(f64, f64)>,
-    /// The accepted units of values from outside.
-    units: Vec<(String, Scale)>,
-}
-
-impl EntryInfo {
-    fn new(entry: &graph::Entry) -> Self {
-        let units = match (&entry.ty, entry.kind) {
-            (Type::Quantity(dimension), EntryKind::In | EntryKind::Var) => spellings(*dimension),
-            _ => Vec::new(),
-        };
-        let graph::Entry { name, kind, live, range, .. } = entry;
-        EntryInfo { name: name.clone(), kind: *kind, live: *live, range: *range, units }
-    }
 }
 
 struct WatchSlot<E: ?Sized + 'static> {
@@ -193,14 +172,6 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 
     pub(super) fn cell(&self, entry: u16) -> Option<&dyn ObjectCell> {
         self.config.values.cell(entry)
-    }
-}
-
-/// Converts a value to the entry's type: an `int` becomes a `float`.
-fn fit(ty: Option<&Type>, value: &Value) -> Value {
-    match (ty, value) {
-        (Some(Type::Quantity(_)), Value::Int(int)) => Value::Float(int_to_float(*int)),
-        _ => value.clone(),
     }
 }
 
