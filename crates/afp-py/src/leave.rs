@@ -27,7 +27,7 @@ const LOOK: Duration = Duration::from_millis(2);
 const OPEN: u8 = 0;
 /// Runs are called off; their components may still call Python.
 const CALLED_OFF: u8 = 1;
-/// No thread attaches any more.
+/// No thread attaches again.
 const CLOSED: u8 = 2;
 
 static PHASE: AtomicU8 = AtomicU8::new(OPEN);
@@ -99,7 +99,9 @@ fn is_last() -> bool {
 pub fn may_begin() -> PyResult<()> {
     match PHASE.load(Ordering::Acquire) {
         OPEN => Ok(()),
-        _ => Err(PyRuntimeError::new_err("Python ends: no sweep with components begins any more")),
+        _ => Err(PyRuntimeError::new_err(
+            "Python is ending, so a sweep with components cannot begin",
+        )),
     }
 }
 

@@ -1,0 +1,32 @@
+"""`python -m afp` is the command line."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+
+def run(*arguments: str, path: str) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PATH": path}
+    return subprocess.run([sys.executable, "-m", "afp", *arguments], env=environment, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the program is a shell script")
+def test_arguments_and_exit_codes_are_passed_on(tmp_path: Path) -> None:
+    program = tmp_path / "afpc"
+    program.write_text('#!/bin/sh\necho "$@"\nexit 3\n', encoding="ascii")
+    program.chmod(0o755)
+    done = run("run", "my plan.afp", path=str(tmp_path))
+    assert (done.returncode, done.stdout) == (3, "run my plan.afp\n")
+
+
+@pytest.mark.skipif(shutil.which("afpc", path=sysconfig.get_path("scripts")) is not None, reason="the command line is installed")
+def test_a_package_without_the_command_line_says_so(tmp_path: Path) -> None:
+    done = run("--version", path=str(tmp_path))
+    assert done.returncode == 2 and "built without the command line 'afpc'" in done.stderr
