@@ -215,7 +215,7 @@ impl<'a, C, N> Part<'a, C, N> {
 }
 
 macro_rules! typed {
-    ($($(#[$doc:meta])* $name:ident $kind:ident $to:ty, $computed:ident;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident $kind:ident $to:ty, $other:ident, $computed:ident;)*) => {$(
         $(#[$doc])*
         ///
         /// # Errors
@@ -228,6 +228,15 @@ macro_rules! typed {
                     Value::$kind(value) => Some(*value),
                     _ => None,
                 }),
+                _ => self.$other(source),
+            }
+        }
+
+        /// The value of a formula that is neither a literal nor an entry. It is separate, so that
+        /// the usual formulas are evaluated in place.
+        #[inline(never)]
+        fn $other<S: Source<C>>(self, source: &S) -> Result<$to, Error> {
+            match &self.root.op {
                 Op::Convert(conversion) => match self.converted(conversion, source)? {
                     Value::$kind(value) => Ok(value),
                     _ => Err(Error::Mistyped),
@@ -241,13 +250,13 @@ macro_rules! typed {
 impl<C, N> Part<'_, C, N> {
     typed! {
         /// The value of a `bool` formula.
-        bool Bool bool, not_computed;
+        bool Bool bool, other_bool, not_computed;
         /// The value of an `int` formula.
-        int Int i64, int_computed;
+        int Int i64, other_int, int_computed;
         /// The value of a `float` or quantity formula in SI units; may be infinite or NaN.
-        float Float f64, float_computed;
+        float Float f64, other_float, float_computed;
         /// The value of an enum formula, by position.
-        choice Choice u16, not_computed;
+        choice Choice u16, other_choice, not_computed;
     }
 
     /// The value of a `string` formula.

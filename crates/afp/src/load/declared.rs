@@ -99,7 +99,7 @@ impl ComputationSlot for DeclaredSlot {
     ) -> Result<u16, BadValue> {
         let Declared { checked, is_int, cases } = &*self.declared;
         let mut values = self.values.try_borrow_mut().map_err(|_| Fault::INTERNAL)?;
-        for ((port, value), is_int) in numbered(&mut *values).zip(is_int) {
+        for ((port, value), is_int) in (0..).zip(&mut *values).zip(is_int) {
             *value = match is_int {
                 true => Value::Int(input(port, || Ok(args.int(port)?))?),
                 false => input(port, || Ok(args.value(port)?))?,
@@ -113,7 +113,7 @@ impl ComputationSlot for DeclaredSlot {
             check(*number, port, value)?;
         }
         let given = Given(&values);
-        for (state, case) in numbered(cases) {
+        for (state, case) in (0..).zip(cases) {
             let failed = |why: Error| BadValue::from(why).for_state(state);
             if case.holds(&given).map_err(failed)? {
                 for (port, formula) in &case.writes {
