@@ -76,7 +76,15 @@ module.exports = grammar({
       ),
 
     _edge_target: ($) =>
-      choice(field('target', $.name), 'terminate', 'ignore', 'resume', seq('fail', optional($.string))),
+      choice(
+        field('target', $.name),
+        seq('suspend', field('target', $.name)),
+        'terminate',
+        'ignore',
+        'resume',
+        'return',
+        seq('fail', optional($.string)),
+      ),
 
     arguments: ($) => seq('(', items(choice($.bind_in, $.bind_out, $.bind_same)), ')'),
 
@@ -104,7 +112,7 @@ module.exports = grammar({
 
     variant: ($) => field('name', $.name),
 
-    template: ($) => seq(choice('actor', 'supervisor', 'computation'), field('name', $.name), braces($._part)),
+    template: ($) => seq(choice('actor', 'supervisor', 'computation'), field('name', $.name), optional('resumable'), braces($._part)),
 
     _part: ($) =>
       choice($.icon, $.uses, $.outcome, $.exclusive, $.states_of, $.in_port, $.out_port, $.template_timing),
@@ -182,8 +190,13 @@ module.exports = grammar({
 
     claim: ($) =>
       choice(
-        seq($._claimed_path, '->', choice($.path, 'terminate', 'fail', 'resume'), optional($._by)),
-        prec(-1, seq($._claimed_path, optional('active'))),
+        seq(
+          $._claimed_path,
+          '->',
+          choice($.path, seq('suspend', $.path), 'terminate', 'fail', 'resume', 'return'),
+          optional($._by),
+        ),
+        prec(-1, seq($._claimed_path, optional(choice('active', 'suspended')))),
         seq($._claimed_path, choice('==', '!=', '<', '<=', '>', '>='), $._formula),
         'running',
         seq('end', optional($._by)),

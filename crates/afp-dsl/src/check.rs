@@ -35,6 +35,7 @@ pub(crate) mod scenario;
 mod scope;
 pub(crate) mod signature;
 mod size;
+mod suspend;
 mod synonyms;
 mod tables;
 pub(crate) mod timing;

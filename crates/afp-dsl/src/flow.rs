@@ -15,6 +15,7 @@ mod lasting;
 mod recovery;
 mod resumed;
 pub(crate) mod strong;
+mod suspended;
 mod toggle;
 mod unreachable;
 mod unread;
@@ -62,6 +63,8 @@ pub(crate) struct Summary {
     pub instant: [bool; 2],
     /// A reachable edge to `fail`.
     pub fails: Option<Span>,
+    /// A reachable actor that cannot continue after an interruption.
+    pub rigid: Option<suspended::Rigid>,
     /// Whether it has only computations, so that it never takes time.
     pub timeless: bool,
     /// Number of edges per step, if loops of computations determine it and the plan never takes
@@ -80,7 +83,8 @@ pub(crate) fn sum_up(model: &Model<'_>) -> Vec<Option<Summary>> {
     in_order(model, |view| {
         let (instant, timeless) = cycles::instant_endings(view);
         let (ends, fails) = (endless::endings(view), failing::edge(view));
-        Summary { ends, fails, instant, timeless, taken: 0, unset: Default::default() }
+        let rigid = suspended::rigid(view);
+        Summary { ends, fails, instant, rigid, timeless, taken: 0, unset: Default::default() }
     })
 }
 
@@ -106,11 +110,12 @@ fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
     resumed::check(view, diags);
     recovery::check(view, diags);
     toggle::check(view, diags);
+    suspended::check(view, diags);
     let ends = endless::check(view, diags);
     let unset = assigned::check(view, diags);
     let taken = cycles::check(view, diags);
     let fails = failing::check(view, diags);
     let (instant, timeless) = cycles::instant_endings(view);
     let taken = if timeless { taken } else { 0 };
-    Summary { ends, fails, instant, timeless, taken, unset }
+    Summary { ends, fails, instant, rigid: suspended::rigid(view), timeless, taken, unset }
 }

@@ -24,7 +24,7 @@ pub use afp_types::{
 };
 pub use formula::{Formula, Node, Note, Part};
 pub use reactions::Reactions;
-pub(crate) use resume::{chain, resuming};
+pub(crate) use resume::{chain, resuming, returning};
 
 /// Target of an edge in a running plan, with the element's number.
 pub type Goal = Target<u32, ()>;

@@ -161,6 +161,10 @@ pub enum Word {
     Ignore,
     /// The target `resume`.
     Resume,
+    /// The word `suspend` before the name of a handler.
+    Suspend,
+    /// The target `return`.
+    Return,
     /// A built-in type, such as `length`.
     Type,
     /// `true` or `false`

@@ -24,6 +24,7 @@ use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
+pub(crate) use component::SUSPEND;
 pub use component::{
     Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Input, MadeFrom, Output,
     Target, TemplateUse, Times, Value,

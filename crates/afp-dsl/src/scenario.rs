@@ -223,6 +223,8 @@ pub enum Claim {
     /// A state is reached or an event is taken.
     Happens(Cause),
     Active(u32),
+    /// The element is set aside, and a handler runs.
+    Suspended(u32),
     /// A comparison of values of one type; an unset entry, or a signal without a measurement,
     /// equals nothing.
     Compare {

@@ -16,7 +16,7 @@ mod sensors;
 mod words;
 
 pub(crate) use sensors::Sensor;
-pub use words::{ENDS, REACTIONS, STATES, TYPES, ours};
+pub use words::{ENDS, REACTIONS, RETURN, RETURNS, STATES, TYPES, ours};
 pub(crate) use words::{WORDS, converted};
 
 /// Where habits are looked for, one bit each.
@@ -106,8 +106,7 @@ const NO_LIST: &str = "there are no lists: constants stand in a table";
 const TABLE: &str =
     "write 'table values(value: int) { (1) (2) }' in the file, and read it with 'Row' of 'std'";
 const COUNTS_UP: &str = "write '{event} -> set', and in the plan: 'computation set: Assign(value = {1} + 1, result => {1}) { Done -> {here} }'";
-const NO_HISTORY: &str = "a plan has no history: what is active goes on with 'resume'";
-const RESUME: &str = "lead the event, or the computation behind it, to 'resume'";
+const NO_HISTORY: &str = "a plan has no history: 'return' continues what 'suspend' has set aside";
 const NO_MESSAGES: &str = "plans send nothing: an entry holds a value, and a supervisor watches it";
 const CHANGED: &str = "write the entry with 'Assign', and watch it with 'supervise changed: Changed(value = {left}) { Changed -> {here} }'";
 const EDGE_OUTSIDE: &str = "an edge stands in the braces of the element that it leaves";
@@ -267,10 +266,12 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(BEHIND, "( NAME = .. )", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
     habit(BEHIND, "( .. ) -> NAME", ACTION, Say("write '{event} -> pause', and in the plan: 'actor pause: Wait(duration = 1 s) { Elapsed -> {2} }'")),
     habit(BEHIND, "( .. )", ACTION, Say("write '{event} -> pause', and in the plan: 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }'")),
-    habit(BEHIND, "*", NO_HISTORY, Say(RESUME)),
+    habit(BEHIND, "*", NO_HISTORY, Say(RETURN)),
+    habit(TARGET, "push|preempt|pushd NAME", "'suspend' sets the active element aside", Edit("suspend {1}")),
+    habit(TARGET, "suspend ( NAME )", "'suspend' has no brackets", Edit("suspend {1}")),
     habit(TARGET, "{ NAME }", "a target stands without braces", Edit("{1}")),
     habit(TARGET, "[ * ]", "a plan has no final state: an edge ends it", Edit("terminate")),
-    habit(BEHIND, ". history|hist|last ..", NO_HISTORY, Say(RESUME)),
+    habit(BEHIND, ". history|hist|last ..", NO_HISTORY, Say(RETURN)),
     habit(BEHIND, "/ NAME = ..", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {target} }'")),
     habit(BEHIND, "{ NAME = .. }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {target} }'")),
     habit(BEHIND, "/|{|do ..", ACTION, Say("lead it to an element that does it: 'actor pause: Wait(duration = 1 s) { Elapsed -> {target} }'")),
@@ -297,7 +298,7 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "final|final_state NAME", "a plan has no final state: an edge ends it", Say("write '-> terminate' where an edge leads to '{1}'")),
     habit(PLAN, "state|composite NAME { actor|state|initial|start ..", "elements with elements inside are a plan of their own", Say("write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file, and 'subplan {1}: {Large:1} { OK -> {here} }'")),
     habit(PLAN, "state|action|step|task|behavior|behaviour NAME { ..", "a state of a plan is an actor, made from a template", Say("write 'actor {1}: Wait(duration = 1 s) { Elapsed -> {here} }'")),
-    habit(PLAN, "history ..", NO_HISTORY, Say(RESUME)),
+    habit(PLAN, "history ..", NO_HISTORY, Say(RETURN)),
     habit(PLAN, "context|data|variables|vars|userdata|blackboard |:|= { NAME :|= .. }", "each entry is an item of its own", Say("write 'var {1}: int = {2}'")),
     habit(PLAN, "blackboard|userdata|context|data NAME : NAME", "a plan has no '{word}': an entry holds a value", Edit("var {1}: {2}")),
     habit(PLAN, "delay|timeout NAME |:|= NUM", "an entry that never changes begins with 'const'", Edit("const {1} = {2}")),

@@ -28,6 +28,7 @@ const NAMES: &[&str] = &[
     "fail",
     "ignore",
     "resume",
+    "return",
     "Error",
     "DeadlineMissed",
     "Interrupted",

@@ -66,6 +66,8 @@ type Held = ValueOf<String>;
 pub(crate) struct State {
     /// Whether each component is active, by number.
     active: Vec<bool>,
+    /// Whether each component is suspended, by number.
+    suspended: Vec<bool>,
     entries: Vec<Value>,
     /// The same values with names, for messages.
     named: Vec<Datum>,
@@ -99,6 +101,7 @@ impl<'a> Watch<'a> {
         Watch {
             state: State {
                 active: vec![false; places.len()],
+                suspended: vec![false; places.len()],
                 entries: vec![Value::Unset; units.len()],
                 named: vec![Datum::Unset; units.len()],
                 units,
@@ -148,9 +151,7 @@ impl<'a> Watch<'a> {
                 self.ended_by_event(at, element);
             }
             Record::Returned { component, .. } => self.set_active(at, component, true),
-            Record::Abandoned { element, started: true } => {
-                self.on_occurrence(at, &Occurrence::Interrupt(element.0));
-            }
+            Record::Abandoned { element, started } => self.abandoned(at, element, started),
             Record::Resumed { element, .. } => self.resumed(at, element),
             Record::Finished { element, state } => {
                 self.set_active(at, element, false);
@@ -267,6 +268,9 @@ impl<'a> Watch<'a> {
                 self.activations.push(Activation { element: id.0, from, to: at });
             }
             *since = active.then_some(at);
+        }
+        if active {
+            self.state.set_suspended(id, false);
         }
         if let Some(known) = self.state.active.get_mut(id.0 as usize) {
             *known = active;

@@ -4,17 +4,17 @@
 
 [
   "afp" "use" "as"
-  "plan" "forever" "enum" "table" "toolbox" "version" "object" "sensor" "device" "scenario"
+  "plan" "forever" "resumable" "enum" "table" "toolbox" "version" "object" "sensor" "device" "scenario"
   "actor" "computation" "supervisor" "subplan" "supervise"
   "in" "live" "out" "var" "const" "from" "to"
   "start" "on" "every" "deadline" "budget" "stop"
   "icon" "uses" "state" "states" "of" "event" "exclusive" "once" "when" "and" "press" "fault" "signal" "truth"
   "for" "world" "seed" "over" "seeds" "worlds" "set" "robot" "at" "heading" "until"
-  "expect" "never" "by" "active" "running" "end" "interrupt" "commit"
+  "expect" "never" "by" "active" "suspended" "running" "end" "interrupt" "commit"
   "always" "times" "within" "before" "after"
 ] @keyword
 
-["terminate" "fail" "ignore" "resume"] @keyword
+["terminate" "fail" "ignore" "resume" "suspend" "return"] @keyword
 
 ; Stimuli of scenarios; which there are, the grammar leaves open.
 (action name: (name) @function)

@@ -12,7 +12,7 @@ use crate::check::edges::{self, WrittenEdge};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::outline::{
     Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Findings, Input,
-    MadeFrom, Output, PlanId, Target, TemplateUse, Times, Value,
+    MadeFrom, Output, PlanId, SUSPEND, Target, TemplateUse, Times, Value,
 };
 use crate::types::Type;
 use afp_syntax::ast::{self, Bind, Frame, Name};
@@ -197,13 +197,17 @@ fn exits(kind: ComponentKind, edges: Vec<WrittenEdge>, signature: Option<&Signat
 
 /// Splits a state or event and its edge.
 fn named(edge: WrittenEdge) -> (String, Edge) {
-    let WrittenEdge { name, target, reason, span } = edge;
-    let target = match (target.map(self::target), reason) {
-        (Some(Target { text, span, to }), Some(reason)) => {
+    let WrittenEdge { name, suspends, target, reason, span } = edge;
+    let target = match (target.map(self::target), reason, suspends) {
+        (Some(Target { text, span, to }), _, Some(word)) => {
+            let text = format!("{SUSPEND}{text}");
+            Some(Target { text, span: word.to(span), to })
+        }
+        (Some(Target { text, span, to }), Some(reason), None) => {
             let text = format!("{text} {}", reason.text);
             Some(Target { text, span: span.to(reason.span), to })
         }
-        (target, _) => target,
+        (target, ..) => target,
     };
     (name.text, Edge { span, name_span: name.span, target })
 }

@@ -1,5 +1,6 @@
 //! Targets of states and events: each is connected once, to an existing element or a keyword.
 
+mod unknown_outcome;
 mod written_edge;
 
 use std::cell::{LazyCell, RefCell};
@@ -7,7 +8,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use crate::check::formula::too_long;
-use crate::check::names::{Indices, is_word, offer, unknown};
+use crate::check::names::{Indices, is_word, offer};
 use crate::check::resume;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::synonyms::{self, Leads};
@@ -16,12 +17,13 @@ use crate::index::{Recorder, Word};
 use crate::toolbox::TemplateKind;
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, list, words};
-use afp_syntax::habits::{STATES, ours};
+use afp_syntax::habits::{RETURN, RETURNS, ours};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 use afp_types::MAX_TEXT;
 
+use unknown_outcome::unknown_outcome;
 pub(crate) use written_edge::{WrittenEdge, name};
 
 /// The two edges that need no declaration.
@@ -141,6 +143,7 @@ impl<'a> Elements<'a> {
             "fail" => Word::Fail,
             "ignore" => Word::Ignore,
             "resume" => Word::Resume,
+            "return" => Word::Return,
             _ => return false,
         };
         self.record.word(to.span, word);
@@ -248,7 +251,7 @@ pub(crate) fn names_only(
             None => elements.record.unknown(name.span),
         }
         match &edge.target {
-            Some(to) if !elements.is_word(to) => {
+            Some(to) if edge.suspends.is_some() || !elements.is_word(to) => {
                 find(to, Leads::Edge, elements, diags);
             }
             _ => {}
@@ -282,49 +285,6 @@ pub(crate) fn word(name: &str) -> Option<Word> {
     })
 }
 
-/// The error for an unknown state or event, and the number of outcomes that it may stand for.
-fn unknown_outcome(origin: &Origin<'_>, missing: &[&str], name: &Name) -> (Diagnostic, usize) {
-    if is_rest(&name.text) {
-        let message =
-            message!("edges have no '{}': each state and event has an edge of its own", name.text);
-        let error = Diagnostic::new(Code::E0210, name.span, message);
-        return match missing.len() {
-            0 => (error.help("remove it: all of them have one"), 0),
-            many => (error.write(missing.join(", ")), many),
-        };
-    }
-    // 'OK' of an actor probably means its state.
-    let added = matches!(name.text.as_str(), ERROR | DEADLINE_MISSED);
-    (of_no_outcome(origin, name), usize::from(!added))
-}
-
-/// Whether the word means all remaining states in other languages.
-fn is_rest(name: &str) -> bool {
-    matches!(name, "else" | "otherwise" | "default" | "any" | "sonst" | "sinon" | "_")
-}
-
-fn of_no_outcome(origin: &Origin<'_>, name: &Name) -> Diagnostic {
-    let word = if origin.supervisor { "event" } else { "state" };
-    let message = message!("'{}' has no {} '{}'", origin.signature.name, Words(word), name.text);
-    if origin.supervisor && name.text == ERROR {
-        let help = "remove it: where a supervisor fails, its element takes the 'Error' edge; one of the plan ends that in \
-                    'Error'";
-        return Diagnostic::new(Code::E0210, name.span, message).help(help);
-    }
-    let own = &origin.signature.outcomes;
-    let meant = match (ours(STATES, &name.text), own.as_slice()) {
-        (Some("Error"), _) => Some(ERROR),
-        (Some(_), [only]) => Some(&**only),
-        (Some(ok), own) if own.iter().any(|own| **own == *ok) => Some(ok),
-        _ => None,
-    };
-    if let Some(meant) = meant.filter(|_| !origin.supervisor) {
-        return Diagnostic::new(Code::E0210, name.span, message).write(meant);
-    }
-    let known = own.iter().map(|outcome| &**outcome).chain([origin.extra()]);
-    unknown(Code::E0210, name.span, message, &name.text, known, "remove the edge")
-}
-
 fn target(
     edge: &WrittenEdge,
     origin: &Origin<'_>,
@@ -332,6 +292,16 @@ fn target(
     diags: &mut Diagnostics,
 ) -> Option<Target> {
     let to = edge.target.as_ref()?;
+    let leads = if origin.supervisor { Leads::Event } else { Leads::Edge };
+    if let Some(word) = edge.suspends {
+        elements.record.word(word, Word::Suspend);
+        let handler = find(to, Leads::Start, elements, diags).map(Target::Suspend);
+        let is_active = origin.supervisor || origin.computes();
+        if !is_active {
+            diags.push(resume::nothing_active(word.to(to.span), "suspended"));
+        }
+        return handler.filter(|_| is_active);
+    }
     elements.is_word(to);
     match to.text.as_str() {
         "terminate" => return Some(Target::Terminate),
@@ -342,9 +312,10 @@ fn target(
         "ignore" if origin.supervisor => return Some(Target::Ignore),
         "resume" if origin.supervisor || origin.computes() => return Some(Target::Resume),
         "resume" => {
-            diags.push(resume::nothing_active(to.span));
+            diags.push(resume::nothing_active(to.span, "resumed"));
             return None;
         }
+        "return" => return Some(Target::Return),
         "ignore" => {
             diags.push(
                 Diagnostic::new(Code::E0221, to.span, "only events can be ignored")
@@ -354,7 +325,6 @@ fn target(
         }
         _ => {}
     }
-    let leads = if origin.supervisor { Leads::Event } else { Leads::Edge };
     find(to, leads, elements, diags).map(Target::Element)
 }
 
@@ -396,6 +366,9 @@ pub(crate) fn find(
         let meant = synonyms::target(&to.text, leads);
         diags.push(match meant.filter(|_| words::nearest(&to.text, elements.names()).is_none()) {
             Some(word) => error.write(word),
+            None if leads != Leads::Start && ours(RETURNS, &to.text).is_some() => {
+                error.help(RETURN)
+            }
             None => offer(error, &to.text, names, none),
         });
         return None;

@@ -73,7 +73,7 @@ pub(crate) fn element(name: &Name, diags: &mut Diagnostics) {
 
 /// Whether a name is a keyword after `->`.
 pub(crate) fn is_word(name: &str) -> bool {
-    matches!(name, "terminate" | "fail" | "ignore" | "resume")
+    matches!(name, "terminate" | "fail" | "ignore" | "resume" | "suspend" | "return")
 }
 
 /// Warns of an entry that looks like a unit after a number.

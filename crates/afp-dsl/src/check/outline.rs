@@ -269,10 +269,18 @@ impl Places<'_> {
             Some(Found::Word(Word::Fail)) => Destination::Fail(()),
             Some(Found::Word(Word::Ignore)) => Destination::Ignore,
             Some(Found::Word(Word::Resume)) => Destination::Resume,
-            Some(Found::Definition(span)) => {
-                Destination::Element(find(&self.elements, span).map(ElementId::new))
+            Some(Found::Word(Word::Return)) => Destination::Return,
+            found => {
+                let element = match found {
+                    Some(Found::Definition(span)) => find(&self.elements, span),
+                    _ => None,
+                };
+                let element = element.map(ElementId::new);
+                match target.suspends() {
+                    true => Destination::Suspend(element),
+                    false => Destination::Element(element),
+                }
             }
-            _ => Destination::Element(None),
         }
     }
 

@@ -14,7 +14,7 @@ use crate::check::reactions::Watchers;
 use crate::check::resources::Users;
 use crate::check::signature::Signature;
 use crate::check::synonyms::Leads;
-use crate::check::{Context, PlanHead, Program, edges, resume, size};
+use crate::check::{Context, PlanHead, Program, edges, resume, size, suspend};
 use crate::graph::{self, Element, ElementId, Formula, Supervisor, SupervisorId};
 use crate::index::Recorder;
 use crate::outline::Component;
@@ -109,14 +109,22 @@ pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics
     }
     members.of_supervisors.extend(of_locals);
     let start = start(&head.node, &names, diags);
-    resume::check(&drawn, start, diags);
     sized(head, [head.entries.len(), elements.len(), supervisors.len()], diags);
     let reasons = names.reasons();
     members.indices = names.into_indices();
+    let all = suspend::Drawn { elements: &drawn, supervisors: &supervisors, start };
+    flow_stays(&all, &members, diags);
     match finish(context, head, (drawn, supervisors, reasons), globals, start) {
         Ok(plan) => CheckedPlan { plan: Some(plan), inputs: Vec::new(), users, members },
         Err(inputs) => CheckedPlan { plan: None, inputs, users, members },
     }
+}
+
+/// Checks the edges after which an element continues: `resume`, `suspend` and `return`.
+fn flow_stays(drawn: &suspend::Drawn<'_>, members: &Members, diags: &mut Diagnostics) {
+    resume::check(drawn.elements, drawn.start, diags);
+    let Members { globals, elements, indices: names, .. } = members;
+    suspend::check(drawn, &suspend::Written { globals, elements, names }, diags);
 }
 
 /// Checks that entries, elements and supervisors fit into the tables.

@@ -19,6 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::flow::{INTERRUPTED, OK};
 use crate::flow::{strong, toggle};
+use crate::graph::Target;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words, list};
 use afp_syntax::message;
 use afp_syntax::source::Span;
@@ -50,7 +51,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> i64 {
         }
     }
     let taken = loops.check(&sure.component, diags);
-    let lasting = Quick::of(view, |edge| {
+    let lasting = Quick::with_returns(view, |edge| {
         let cause = edge.cause;
         is_quick(view, edge)
             && holding::can_hold(view, cause)
@@ -135,6 +136,22 @@ impl<'a, 'b> Quick<'a, 'b> {
         Quick::new(view, reached.filter(|edge| takes(edge)).copied().collect())
     }
 
+    /// The same with edges to `return`, except those that events lead to: a handler takes time.
+    fn with_returns(view: &'a View<'b>, takes: impl Fn(&Edge) -> bool) -> Self {
+        let by_event = |edge: &&Edge| !matches!(edge.cause, Cause::State(..) | Cause::Error(_));
+        let back = view.back.iter().filter(|edge| !by_event(edge) && takes(edge));
+        let own = view.edges.iter().filter(|edge| view.reached[edge.from]);
+        let returns = |edge: &&Edge| {
+            by_event(edge)
+                && view.handlers.contains(&edge.from)
+                && view.computation_returns(edge.to)
+        };
+        let own = own.filter(|edge| takes(edge) && !returns(edge));
+        let mut edges: Vec<Edge> = own.chain(back).copied().collect();
+        edges.sort_by_key(|edge| edge.from);
+        Quick::new(view, edges)
+    }
+
     fn new(view: &'a View<'b>, edges: Vec<Edge>) -> Self {
         let first = strong::first(view.nodes(), edges.iter().map(|edge| edge.from));
         let component = components(view.nodes(), &edges);
@@ -172,8 +189,10 @@ impl<'a, 'b> Quick<'a, 'b> {
     /// Whether an edge for which `is_taken` is true, quick or not, leads out of a component.
     fn has_exit(&self, members: &[Node], is_taken: impl Fn(&Edge) -> bool) -> bool {
         let mut edges = members.iter().flat_map(|node| self.view.from(*node));
-        let resumes = members.iter().any(|node| self.view.resumes(*node));
-        resumes
+        let leaves = |node: &Node| {
+            [Target::Resume, Target::Return].iter().any(|to| self.view.has_edge_to(*node, *to))
+        };
+        members.iter().any(leaves)
             || edges.any(|edge| {
                 !matches!(edge.cause, Cause::Active(_))
                     && edge.possible

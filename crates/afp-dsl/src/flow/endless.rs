@@ -85,7 +85,9 @@ fn forward(view: &View<'_>) -> Vec<bool> {
 /// The nodes that can reach an ending.
 fn backward(view: &View<'_>) -> Vec<bool> {
     let mut first = vec![0u32; view.nodes() + 1];
-    for edge in view.edges.iter().filter(|edge| edge.possible) {
+    // A handler that returns can reach what the suspended element can.
+    let edges = || view.edges.iter().chain(&view.back).filter(|edge| edge.possible);
+    for edge in edges() {
         first[edge.to + 1] += 1;
     }
     for node in 0..view.nodes() {
@@ -93,7 +95,7 @@ fn backward(view: &View<'_>) -> Vec<bool> {
     }
     let mut next = first.clone();
     let mut into = vec![0usize; first[view.nodes()] as usize];
-    for edge in view.edges.iter().filter(|edge| edge.possible) {
+    for edge in edges() {
         into[next[edge.to] as usize] = edge.from;
         next[edge.to] += 1;
     }

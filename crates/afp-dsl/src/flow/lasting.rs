@@ -32,11 +32,18 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
 
 /// Whether an element is an actor without a state that no event ends. A resumed actor continues.
 pub(super) fn lasts(view: &View<'_>, node: Node, element: &Element) -> bool {
+    // A handler that only returns ends nothing.
+    let goes_on = |rest: Node| {
+        view.from(rest).iter().any(|edge| !matches!(edge.cause, Cause::Active(_)))
+            || !view.can_return(rest)
+    };
     let leads_on = |edge: &Edge| {
+        let mut rests = view.rests(edge.to).into_iter();
         matches!(edge.cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..))
-            && view.rests(edge.to).into_iter().any(|rest| rest != node)
+            && rests.any(|rest| rest != node && (!edge.suspends || goes_on(rest)))
     };
     matches!(element.component, Component::Actor(_))
         && element.states.is_empty()
         && !view.from(node).iter().chain(view.of_globals(node)).any(leads_on)
+        && !view.event_returns(node)
 }

@@ -77,7 +77,10 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
             continue;
         };
         let writes = !view.may_write(edge.cause).is_empty();
-        let goes_on = writes || view.is_once(id, event) || comes_after_a_time(view, (id, event));
+        let goes_on = writes
+            || edge.suspends
+            || view.is_once(id, event)
+            || comes_after_a_time(view, (id, event));
         if goes_on || !commands(view, element) {
             continue;
         }

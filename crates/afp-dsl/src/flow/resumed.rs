@@ -10,9 +10,14 @@ use crate::graph::{
     Component, Element, ElementId, EntryId, EntryKind, Formula, Supervisor, SupervisorId, Target,
     chain,
 };
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
+
+const GOES_ON: (&str, &str) =
+    ("goes on", "use a template whose port is 'live', or lead the event to an element");
+const SUSPENDED: (&str, &str) =
+    ("is suspended", "use a template whose port is 'live', or write to a different entry");
 
 /// Warns of resuming events without writes, and of inputs read once from entries that are written
 /// while the element continues.
@@ -30,18 +35,53 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
             // Errors of these are reported once.
             changed.extend(written(view, kept, &mut Diagnostics::default()));
         }
-        if changed.is_empty() {
+        let suspended = while_suspended(view, node);
+        if changed.is_empty() && suspended.is_empty() {
             continue;
         }
         for (formula, port) in once(view, element) {
-            frozen(view, formula, port, &element.name, &changed, diags);
+            frozen(view, formula, port, (&element.name, GOES_ON), &changed, diags);
+            let only: BTreeSet<_> = suspended.difference(&changed).copied().collect();
+            frozen(view, formula, port, (&element.name, SUSPENDED), &only, diags);
         }
         for id in &element.supervisors {
             let supervisor = view.supervisor(*id);
             for (formula, port) in of_template(view, supervisor) {
-                frozen(view, formula, port, &element.name, &changed, diags);
+                frozen(view, formula, port, (&element.name, GOES_ON), &changed, diags);
             }
         }
+    }
+}
+
+/// Entries that may be written between the suspension of an element and its continuation. Its
+/// supervisors start again after that, and read the new values.
+fn while_suspended(view: &View<'_>, node: Node) -> BTreeSet<EntryId> {
+    let mut written = BTreeSet::new();
+    for aside in view.asides.iter().filter(|aside| aside.element == node) {
+        let edge = &view.edges[aside.edge];
+        written.extend(view.may_write(edge.cause).iter().map(|output| output.entry));
+        let Some(handler) = view.element(aside.handler) else { continue };
+        let reactions = handler.reactions.iter();
+        let reactions = reactions.filter(|it| it.targets().any(|to| to == Target::Return));
+        let supervisors =
+            handler.supervisors.iter().copied().chain(reactions.map(|it| it.supervisor));
+        let of_supervisors = supervisors.flat_map(|id| &view.supervisor(id).outputs);
+        let before = chain(&view.plan.elements, target(view, edge.to)).0;
+        let after = view.from(aside.handler).iter().filter(|edge| !edge.suspends);
+        let after = after.flat_map(|edge| chain(&view.plan.elements, target(view, edge.to)).0);
+        let computed = before.into_iter().chain(after);
+        let computed = computed.flat_map(|id| &view.plan.elements[id.index()].outputs);
+        let outputs = handler.outputs.iter().chain(of_supervisors).chain(computed);
+        written.extend(outputs.map(|output| output.entry));
+    }
+    written
+}
+
+/// The node of an edge as a target; an ending is not followed.
+fn target(view: &View<'_>, node: Node) -> Target {
+    match (view.element(node), u16::try_from(node)) {
+        (Some(_), Ok(id)) => Target::Element(ElementId(id)),
+        _ => Target::Terminate,
     }
 }
 
@@ -130,21 +170,22 @@ fn frozen(
     view: &View<'_>,
     formula: &Formula,
     port: Span,
-    name: &str,
+    (name, (when, help)): (&str, (&str, &'static str)),
     changed: &BTreeSet<EntryId>,
     diags: &mut Diagnostics,
 ) {
     for (entry, span) in formula.entries().filter(|(entry, _)| changed.contains(entry)) {
         let entry = &view.plan.entries[entry.index()].name;
         let message = message!(
-            "'{}' is read once, when '{}' starts, but changes while it goes on",
+            "'{}' is read once, when '{}' starts, but changes while it {}",
             entry,
-            name
+            name,
+            Words(when)
         );
         diags.push(
             Diagnostic::new(Code::E0301, span, message)
                 .note(port, "the port is not 'live'")
-                .help("use a template whose port is 'live', or lead the event to an element"),
+                .help(help),
         );
     }
 }

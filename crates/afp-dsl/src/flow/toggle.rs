@@ -3,7 +3,7 @@
 //! A button press lasts for many polls. Some templates have a variant that reports a press once, so
 //! that each press advances by one element.
 
-use crate::flow::view::{Cause, Edge, Node, View};
+use crate::flow::view::{Aside, Cause, Edge, Node, View};
 use crate::graph::{SupervisorId, TemplateId};
 use crate::toolbox::{Template, TemplateKind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message};
@@ -16,6 +16,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         let Some(help) = once_instead(view, template) else { continue };
         let events = 0..view.model.template(template).outcomes.len() as u16;
         for event in events.filter(|event| !view.is_once(id, *event)) {
+            suspends_and_returns(view, id, event, &help, diags);
             let mut round = view.elements().filter_map(|(node, _)| {
                 let (there, to) = leads(view, node, id, event)?;
                 let (back, again) = leads(view, to, id, event)?;
@@ -38,6 +39,36 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
             );
         }
     }
+}
+
+/// Warns of an event whose handler returns by the same event.
+fn suspends_and_returns(
+    view: &View<'_>,
+    id: SupervisorId,
+    event: u16,
+    help: &Message,
+    diags: &mut Diagnostics,
+) {
+    let is_it = |cause: Cause| match cause {
+        Cause::Event(by, it) | Cause::On(_, by, Some(it)) => (by, it) == (id, event),
+        _ => false,
+    };
+    let mut back = view.back.iter().filter(|edge| is_it(edge.cause));
+    let there = |back: &Edge| {
+        let own = |it: &&Aside| it.handler == back.from && it.element == back.to;
+        view.asides.iter().filter(own).map(|it| view.edges[it.edge].cause).find(|it| is_it(*it))
+    };
+    let Some((back, there)) = back.find_map(|back| Some((back, there(back)?))) else {
+        return;
+    };
+    let (label, element) = (view.label(back.cause), view.node_name(back.to));
+    let message =
+        message!("while '{}' lasts, it suspends '{}' and returns at every poll", label, element);
+    diags.push(
+        Diagnostic::new(Code::E0317, view.span(back.cause), message)
+            .note(view.span(there), "this edge leads there")
+            .help(help.clone()),
+    );
 }
 
 /// The edge of an event while an element is active, and its target, possibly through computations.

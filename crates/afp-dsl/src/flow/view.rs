@@ -2,9 +2,10 @@
 //!
 //! In addition to the elements there are four nodes: "anywhere", which stands for all actors and
 //! sub-plans and is the origin of global events, the two endings, and `fail`. An event that some
-//! element replaces (`on`) has its own node, for the other elements. Edges to `ignore` and `resume`
-//! are omitted, since the flow stays.
+//! element replaces (`on`) has its own node, for the other elements. Edges to `ignore`, `resume`
+//! and `return` are omitted, since the flow stays or is where it was before.
 
+mod aside;
 mod counter;
 
 use std::cell::OnceCell;
@@ -18,6 +19,7 @@ use crate::toolbox::Template;
 use crate::types::Constant;
 use afp_syntax::source::Span;
 
+pub(crate) use aside::Aside;
 pub(crate) use counter::{Counter, Counters};
 
 pub(crate) type Node = usize;
@@ -42,6 +44,8 @@ pub(crate) struct Edge {
     pub to: Node,
     /// Whether it can be taken: a sub-plan's ending may be impossible.
     pub possible: bool,
+    /// Whether the active element is set aside.
+    pub suspends: bool,
 }
 
 pub(crate) struct View<'a> {
@@ -53,6 +57,14 @@ pub(crate) struct View<'a> {
     pub reached: Vec<bool>,
     /// Events, or missed deadlines, that some element replaces.
     replaced: Vec<(SupervisorId, Option<u16>)>,
+    /// The edges to `return`, with their origins.
+    returns: Vec<(Cause, Node)>,
+    /// The reachable elements that `suspend` names.
+    pub handlers: BTreeSet<Node>,
+    /// What can be set aside, by which edge.
+    pub asides: Vec<Aside>,
+    /// Edges to `return`, to each element that may continue there.
+    pub back: Vec<Edge>,
     summaries: &'a [Option<Summary>],
     first: Vec<u32>,
     /// The counters of the plan, computed on demand.
@@ -70,6 +82,10 @@ impl<'a> View<'a> {
             edges: Vec::new(),
             reached: vec![false; count],
             replaced,
+            returns: Vec::new(),
+            handlers: BTreeSet::new(),
+            asides: Vec::new(),
+            back: Vec::new(),
             summaries,
             first: Vec::with_capacity(count + 1),
             counters: OnceCell::new(),
@@ -89,6 +105,10 @@ impl<'a> View<'a> {
             view.first.push(view.edges.len() as u32);
         }
         view.reach();
+        let suspends = view.edges.iter().filter(|edge| edge.suspends && view.reached[edge.from]);
+        view.handlers = suspends.map(|edge| edge.to).collect();
+        view.asides = aside::asides(&view);
+        view.back = aside::back(&view);
         view
     }
 
@@ -123,7 +143,8 @@ impl<'a> View<'a> {
     }
 
     fn activate(&mut self, from: Node, to: Node, id: ElementId) {
-        self.edges.push(Edge { cause: Cause::Active(id), from, to, possible: true });
+        let cause = Cause::Active(id);
+        self.edges.push(Edge { cause, from, to, possible: true, suspends: false });
     }
 
     fn add_supervisor(&mut self, from: Node, id: SupervisorId) {
@@ -156,9 +177,11 @@ impl<'a> View<'a> {
             Target::Element(id) | Target::Suspend(id) => id.index(),
             Target::Terminate => self.end(ending),
             Target::Fail(_) => self.end(FAILED),
+            Target::Return if possible => return self.returns.push((cause, from)),
             Target::Ignore | Target::Resume | Target::Return => return,
         };
-        self.edges.push(Edge { cause, from, to, possible });
+        let suspends = matches!(target, Target::Suspend(_));
+        self.edges.push(Edge { cause, from, to, possible, suspends });
     }
 
     fn reach(&mut self) {
@@ -223,9 +246,13 @@ impl<'a> View<'a> {
 
     /// Whether a node is a computation with an edge to `resume`.
     pub fn resumes(&self, node: Node) -> bool {
+        self.has_edge_to(node, Target::Resume)
+    }
+
+    /// Whether a state or `Error` of an element leads to a target.
+    pub fn has_edge_to(&self, node: Node, target: Target) -> bool {
         self.element(node).is_some_and(|element| {
-            let mut targets = element.states.iter().flatten().chain(&element.on_error);
-            targets.any(|target| *target == Target::Resume)
+            element.states.iter().flatten().chain(&element.on_error).any(|to| *to == target)
         })
     }
 

@@ -57,6 +57,22 @@ impl Plan {
         own.events.iter().copied().chain(own.on_miss).chain(others)
     }
 
+    /// For each element, whether it is a handler: whether some edge suspends to it.
+    pub fn handlers(&self) -> Vec<bool> {
+        let mut handlers = vec![false; self.elements.len()];
+        let supervisors = (0..=u16::MAX).map(SupervisorId).take(self.supervisors.len());
+        let states =
+            self.elements.iter().flat_map(|it| it.states.iter().flatten().chain(&it.on_error));
+        for target in supervisors.flat_map(|id| self.targets(id)).chain(states.copied()) {
+            if let Target::Suspend(id) = target
+                && let Some(handler) = handlers.get_mut(id.index())
+            {
+                *handler = true;
+            }
+        }
+        handlers
+    }
+
     /// Targets of a supervisor's events while an element is active or being entered.
     pub fn events_at(&self, supervisor: SupervisorId, element: ElementId) -> Vec<Target> {
         let own = &self.supervisors[supervisor.index()].events;

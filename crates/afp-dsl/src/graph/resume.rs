@@ -1,5 +1,5 @@
-//! Computations that reach `resume` or `suspend` through computations only: an event that leads to one does not
-//! interrupt until the end of the chain is known.
+//! Computations that reach `resume`, `suspend` or `return` through computations only: an event that
+//! leads to one of the first two does not interrupt until the end of the chain is known.
 
 use crate::graph::{Component, Element, ElementId, Target};
 use rustc_hash::FxHashSet;
@@ -13,8 +13,21 @@ fn is_computation(element: &Element) -> bool {
     matches!(element.component, Component::Computation(_))
 }
 
-/// The elements of a plan that can resume; elements with errors are `None`.
+/// The computations of a plan that can resume or suspend; elements with errors are `None`.
 pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element>>) -> Vec<bool> {
+    reaching(elements, |target| matches!(target, Target::Resume | Target::Suspend(_)))
+}
+
+/// The computations of a plan that can return; elements with errors are `None`.
+pub(crate) fn returning<'a>(elements: impl IntoIterator<Item = Option<&'a Element>>) -> Vec<bool> {
+    reaching(elements, |target| target == Target::Return)
+}
+
+/// The computations that reach such a target through computations only.
+fn reaching<'a>(
+    elements: impl IntoIterator<Item = Option<&'a Element>>,
+    is_goal: impl Fn(Target) -> bool,
+) -> Vec<bool> {
     let elements: Vec<_> = elements.into_iter().collect();
     let mut before: Vec<Vec<usize>> = vec![Vec::new(); elements.len()];
     let mut open = Vec::new();
@@ -22,21 +35,21 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
         let Some(element) = element.filter(|element| is_computation(element)) else { continue };
         for target in targets(element) {
             match target {
-                Target::Resume | Target::Suspend(_) => open.push(index),
+                goal if is_goal(goal) => open.push(index),
                 Target::Element(id) => {
                     before.get_mut(id.index()).into_iter().for_each(|list| list.push(index));
                 }
-                Target::Terminate | Target::Fail(_) | Target::Ignore | Target::Return => {}
+                _ => {}
             }
         }
     }
-    let mut resuming = vec![false; elements.len()];
+    let mut reaching = vec![false; elements.len()];
     while let Some(index) = open.pop() {
-        if !std::mem::replace(&mut resuming[index], true) {
+        if !std::mem::replace(&mut reaching[index], true) {
             open.extend(&before[index]);
         }
     }
-    resuming
+    reaching
 }
 
 /// The computations that an edge may run before it resumes or leads elsewhere, without duplicates;

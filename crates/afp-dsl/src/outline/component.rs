@@ -191,8 +191,12 @@ pub struct Target {
 
 impl Target {
     /// The place of the name only.
-    pub(crate) fn name_span(&self) -> Span {
+    pub fn name_span(&self) -> Span {
         match self.reason() {
+            _ if self.suspends() => Span {
+                start: self.span.end - (self.text.len() - SUSPEND.len()) as u32,
+                ..self.span
+            },
             Some(reason) => Span {
                 end: self.span.start + (self.text.len() - reason.len() - 1) as u32,
                 ..self.span
@@ -203,9 +207,18 @@ impl Target {
 
     /// The text after `fail`, with quotes.
     pub fn reason(&self) -> Option<&str> {
-        self.text.split_once(' ').map(|(_, reason)| reason)
+        let parts = self.text.split_once(' ').filter(|_| !self.suspends());
+        parts.map(|(_, reason)| reason)
+    }
+
+    /// Whether `suspend` is written before the name.
+    pub fn suspends(&self) -> bool {
+        self.text.starts_with(SUSPEND)
     }
 }
+
+/// The beginning of a target that suspends, before the name of the handler.
+pub(crate) const SUSPEND: &str = "suspend ";
 
 /// The meaning of a target; `None` for an unknown element.
 pub type Destination = afp_types::Target<Option<ElementId>, ()>;

@@ -1,7 +1,8 @@
 use std::sync::Arc;
 
 use crate::graph::{
-    Component, Element, ElementId, Graph, Plan, Supervisor, SupervisorId, resuming,
+    Component, Element, ElementId, Graph, Plan, Supervisor, SupervisorId, Target, resuming,
+    returning,
 };
 use crate::rows::ids::blocks;
 use crate::rows::wanted::{elsewhere, wanted};
@@ -29,14 +30,19 @@ fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
     };
     let elsewhere = elsewhere(plan);
     let resuming = resuming(plan.elements.iter().map(Some));
-    for ((element, child), resumes) in plan.elements.iter().zip(children).zip(resuming) {
+    let returning = returning(plan.elements.iter().map(Some));
+    let handlers = plan.handlers();
+    let leads = resuming.into_iter().zip(&returning).zip(handlers);
+    for ((element, child), ((resumes, returns), handler)) in
+        plan.elements.iter().zip(children).zip(leads)
+    {
         let polled = polled(plan, &elsewhere, (rows.elements.len(), element))?;
         let sweep = append(&mut rows.sweeps, polled)?;
         let row = add_element(&mut rows, graph, element, *child)?;
-        rows.elements.push(ElementRow { resumes, sweep, ..row });
+        rows.elements.push(ElementRow { resumes, returns: *returns, handler, sweep, ..row });
     }
     for (index, supervisor) in plan.supervisors.iter().enumerate() {
-        let row = add_supervisor(&mut rows, plan, supervisor, index)?;
+        let row = add_supervisor(&mut rows, plan, (supervisor, index), &returning)?;
         rows.supervisors.push(row);
     }
     for (supervisor, there) in elsewhere {
@@ -115,11 +121,19 @@ fn polled(
 fn add_supervisor(
     rows: &mut Rows,
     plan: &Plan,
-    supervisor: &Supervisor,
-    index: usize,
+    (supervisor, index): (&Supervisor, usize),
+    returning: &[bool],
 ) -> Option<SupervisorRow> {
     let index = u16::try_from(index).ok()?;
-    let wanted_in_look = wanted(&supervisor.events, supervisor.owner)?;
+    // A handler takes time, so its own supervisors do not return in the look.
+    let returns = |target: &Target| match target {
+        Target::Return => true,
+        Target::Element(id) => returning.get(id.index()) == Some(&true),
+        _ => false,
+    };
+    let in_look = supervisor.events.iter();
+    let in_look = in_look.map(|to| if returns(to) { Target::Ignore } else { *to });
+    let wanted_in_look = wanted(&Vec::from_iter(in_look), supervisor.owner)?;
     let slot = match supervisor.owner {
         None => index,
         Some(owner) => {

@@ -39,6 +39,6 @@ pub(super) fn elsewhere(plan: &Plan) -> Vec<(SupervisorId, ElementId)> {
 
 /// The target element of an edge, unless it is a computation, during which nothing is polled.
 fn watched(plan: &Plan, target: Target) -> Option<ElementId> {
-    let Target::Element(id) = target else { return None };
+    let (Target::Element(id) | Target::Suspend(id)) = target else { return None };
     plan.elements.get(id.index()).filter(|element| element.takes_time()).map(|_| id)
 }

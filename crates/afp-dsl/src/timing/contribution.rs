@@ -61,7 +61,11 @@ fn level(view: &View<'_>, inner: &[Level]) -> Level {
     }
     level.longest_step = level.longest_step.and(&level.globals).and(&diverted);
     let first = &costs[view.start()];
-    level.entering = level.globals.times(2).and(first).and(&diverted);
+    let around = level.globals.times(2).and(&diverted);
+    level.entering = around.and(first);
+    let elements = view.elements().filter(|(_, element)| element.takes_time());
+    let any = elements.fold(Cost::ZERO, |most, (node, _)| most.or(&costs[node]));
+    level.again = around.and(&any);
     level.add_demand(view, globals);
     level
 }
@@ -149,9 +153,11 @@ fn is_error(cause: Cause) -> bool {
     matches!(cause, Cause::Error(_))
 }
 
-/// Maximum cost of entries after a node along edges of one kind.
+/// Maximum cost of entries after a node along edges of one kind; what `return` continues is entered
+/// like at its start.
 fn behind(view: &View<'_>, node: Node, costs: &[Cost], kind: fn(Cause) -> bool) -> Cost {
-    let edges = view.from(node).iter().filter(|edge| kind(edge.cause));
+    let back = view.back.iter().filter(|edge| edge.from == node);
+    let edges = view.from(node).iter().chain(back).filter(|edge| kind(edge.cause));
     edges.fold(Cost::ZERO, |most, edge| most.or(&costs[edge.to]))
 }
 

@@ -12,6 +12,8 @@ pub(super) struct Level {
     /// One poll of each global supervisor.
     pub globals: Cost,
     pub entering: Cost,
+    /// Continuing with any of its elements after a suspension.
+    pub again: Cost,
     /// Longest step while it is active, including its last but not its first.
     pub longest_step: Cost,
     /// The active element at the start of that step, and the costs of supervisors and element

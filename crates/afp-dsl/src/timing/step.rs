@@ -47,7 +47,10 @@ fn costs(
     follows: impl Fn(&Edge) -> bool,
 ) -> Vec<Cost> {
     let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
-    let edges: Vec<Edge> = reached.filter(|edge| follows(edge)).copied().collect();
+    // A handler takes time, so an event does not return in the step of its start.
+    let back = view.back.iter().filter(|edge| !matches!(edge.cause, Cause::Event(..)));
+    let mut edges: Vec<Edge> = reached.chain(back).filter(|edge| follows(edge)).copied().collect();
+    edges.sort_by_key(|edge| edge.from);
     let first = strong::first(view.nodes(), edges.iter().map(|edge| edge.from));
     let component = flow::components(view.nodes(), &edges);
     let times = flow::unwind(view, component.clone(), &mut edges.clone(), u64::MAX);
@@ -114,6 +117,10 @@ fn itself(view: &View<'_>, levels: &[Level], node: Node) -> Cost {
     let Some(element) = view.element(node) else { return Cost::ZERO };
     match element.component {
         Component::Actor(id) | Component::Computation(id) => Cost::budget(view.model.template(id)),
-        Component::SubPlan(id) => levels[id.index()].entering.clone(),
+        Component::SubPlan(id) => {
+            let level = &levels[id.index()];
+            let returns = view.asides.iter().any(|aside| aside.element == node);
+            if returns { level.entering.or(&level.again) } else { level.entering.clone() }
+        }
     }
 }

@@ -38,6 +38,8 @@ pub struct Edge {
     /// The states or events of the edge. An empty list means the only state of the element.
     pub names: Vec<Name>,
     pub arrow: Option<Span>,
+    /// The word `suspend` before the target, if written.
+    pub suspends: Option<Span>,
     pub target: Option<Name>,
     /// The text after `fail`, quotes included.
     pub reason: Option<Name>,
@@ -204,12 +206,13 @@ impl Edge {
     /// The place of the last part after its names.
     pub fn end(&self) -> Option<Span> {
         let last = self.reason.as_ref().or(self.target.as_ref());
-        last.map(|last| last.span).or(self.arrow)
+        last.map(|last| last.span).or(self.suspends).or(self.arrow)
     }
 
     /// Whether its target is a keyword such as `terminate`.
     pub fn leads_to(&self, word: &str) -> bool {
-        self.target.as_ref().is_some_and(|target| target.text == word)
+        let target = self.target.as_ref().filter(|_| self.suspends.is_none());
+        target.is_some_and(|target| target.text == word)
     }
 }
 
@@ -239,7 +242,7 @@ fn edges(node: &Node, file: u16) -> Vec<Edge> {
 
 fn edge(node: &GreenNodeData, start: u32, file: u16) -> Edge {
     let names = Vec::with_capacity(1);
-    let mut edge = Edge { names, arrow: None, target: None, reason: None };
+    let mut edge = Edge { names, arrow: None, suspends: None, target: None, reason: None };
     for (child, start) in parts(node, start) {
         match child {
             NodeOrToken::Token(token) => match kind_of(token.kind()) {
@@ -256,6 +259,10 @@ fn edge(node: &GreenNodeData, start: u32, file: u16) -> Edge {
                     let part = match kind_of(token.kind()) {
                         Kind::Name => &mut edge.target,
                         Kind::Text => &mut edge.reason,
+                        Kind::Keyword => {
+                            edge.suspends.get_or_insert(name(token, start, file).span);
+                            continue;
+                        }
                         _ => continue,
                     };
                     part.get_or_insert_with(|| name(token, start, file));

@@ -58,6 +58,8 @@ pub enum ClaimKind {
     },
     /// `path active`
     Active(Path),
+    /// `path suspended`
+    Suspended(Path),
     /// `entry == formula`
     Compare(Path, Name, Option<Formula>),
     /// `running`
@@ -226,9 +228,11 @@ impl Claim {
                 ("terminate", ClaimTarget::Terminate),
                 ("fail", ClaimTarget::Fail(())),
                 ("resume", ClaimTarget::Resume),
+                ("return", ClaimTarget::Return),
             ];
             let word = words.into_iter().find(|(word, _)| has(word)).map(|(_, target)| target);
-            let to = word.or_else(|| paths.next().map(ClaimTarget::Element));
+            let element = if has("suspend") { ClaimTarget::Suspend } else { ClaimTarget::Element };
+            let to = word.or_else(|| paths.next().map(element));
             let by = if by { paths.next() } else { None };
             return match to {
                 Some(to) => ClaimKind::Transition { from: first, to, by },
@@ -241,6 +245,7 @@ impl Claim {
         match comparison {
             Some(sign) => ClaimKind::Compare(first, sign, Formula::child_of(&self.node, self.file)),
             None if has("active") => ClaimKind::Active(first),
+            None if has("suspended") => ClaimKind::Suspended(first),
             None => ClaimKind::Fact(first),
         }
     }

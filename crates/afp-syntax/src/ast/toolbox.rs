@@ -68,6 +68,12 @@ impl Template {
         })
     }
 
+    /// The place of `resumable`, if written.
+    pub fn resumable(&self) -> Option<Span> {
+        let mut words = tokens(&self.node, Kind::Keyword, self.file).into_iter().skip(1);
+        words.find(|word| word.text == "resumable").map(|word| word.span)
+    }
+
     /// Whether it is a computation in formulas, not in Rust or Python.
     pub fn is_declared(&self) -> bool {
         let declared = |part: &Part| matches!(part, Part::Outcome(state) if state.is_declared());

@@ -93,7 +93,6 @@ pub const ENDS: &[(&str, &[&str])] = &[
             "quit",
             "halt",
             "success",
-            "return",
             "final",
             "cancel",
             "cancelled",
@@ -108,14 +107,15 @@ pub const ENDS: &[(&str, &[&str])] = &[
 ];
 pub const REACTIONS: &[(&str, &[&str])] = &[
     ("ignore", &["none", "nothing", "nop", "noop", "pass", "skip", "null", "nil"]),
-    (
-        "resume",
-        &[
-            "continue", "proceed", "go_on", "goon", "carry_on", "history", "hist", "previous",
-            "last",
-        ],
-    ),
+    ("resume", &["continue", "proceed", "go_on", "goon", "carry_on"]),
 ];
+
+/// Words for the element that was active before: `return` leads there.
+pub const RETURNS: &[(&str, &[&str])] =
+    &[("return", &["history", "hist", "previous", "last", "pop"])];
+
+/// How a plan continues with an interrupted element.
+pub const RETURN: &str = "lead an event to 'suspend pause', and an edge of 'pause' to 'return'";
 
 /// States that are called otherwise elsewhere: the only state of an element, and its failure.
 pub const STATES: &[(&str, &[&str])] = &[

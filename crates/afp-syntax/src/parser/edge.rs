@@ -149,9 +149,34 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `NAME`, or `"fail" [STRING]`
-    fn target(&mut self, brackets: usize) {
+    /// Whether `suspend` and the element that takes over are next.
+    fn at_suspend(&self) -> bool {
+        let is_pair = self.word(0) == "suspend" && self.nth(1) == Kind::Name;
+        is_pair && !self.begins_line(1) && self.arrow_at(2).is_none()
+    }
+
+    /// `suspend` without an element: reports it, and takes the word.
+    fn suspend_alone(&mut self) -> bool {
+        if self.word(0) != "suspend" || self.at_suspend() {
+            return false;
+        }
+        let error = Diagnostic::new(Code::E0109, self.next_span(), "'suspend' names no element");
+        self.error(error.help("write 'suspend' and the element that runs meanwhile"));
         self.open(Kind::Target);
+        self.keyword();
+        self.close();
+        true
+    }
+
+    /// `NAME`, `"suspend" NAME`, or `"fail" [STRING]`
+    fn target(&mut self, brackets: usize) {
+        if self.suspend_alone() {
+            return self.pass_tokens(brackets);
+        }
+        self.open(Kind::Target);
+        if self.at_suspend() {
+            self.keyword();
+        }
         let fails = self.word(0) == "fail";
         self.take_name();
         self.pass_tokens(brackets);

@@ -83,7 +83,10 @@ impl Parser<'_, '_> {
         let is_small = |word: &str| word.starts_with(|first: char| first.is_ascii_lowercase());
         let is_free = |word: &str| {
             is_small(word)
-                && !matches!(word, "and" | "or" | "terminate" | "fail" | "ignore" | "resume")
+                && !matches!(
+                    word,
+                    "and" | "or" | "terminate" | "fail" | "ignore" | "resume" | "suspend"
+                )
         };
         is_free(self.word(0)) && is_small(self.word(1)) && !self.begins_item()
     }

@@ -311,7 +311,8 @@ impl Parser<'_, '_> {
         }
         self.path();
         if self.eat(Kind::Arrow) {
-            if !["terminate", "fail", "resume"].iter().any(|word| self.eat_word(word)) {
+            let words = ["terminate", "fail", "resume", "return"];
+            if self.eat_word("suspend") || !words.iter().any(|word| self.eat_word(word)) {
                 self.path();
             }
             self.by();
@@ -321,7 +322,7 @@ impl Parser<'_, '_> {
             // '=' is read as '=='.
             self.bump_as(if self.at(Kind::Equal) { Kind::EqualEqual } else { self.nth(0) });
             self.formula();
-        } else {
+        } else if !self.eat_word("suspended") {
             self.eat_meant("active", |_| true);
         }
     }

@@ -32,6 +32,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Template);
         self.keyword();
         self.name("give the template a name");
+        self.eat_meant("resumable", |next| next == Kind::OpenBrace);
         let help = match self.on_same_line() && !self.at_end() {
             true => "a template declares what it takes with 'in', between its braces",
             false => "put the template's parts in braces",
@@ -66,7 +67,13 @@ impl Parser<'_, '_> {
 
     /// Whether a template begins: with a brace, or in a toolbox with any text.
     pub(super) fn at_template(&self) -> bool {
-        self.at_named_template() && (self.nth(2) == Kind::OpenBrace || self.is_toolbox)
+        self.at_named_template() && (self.opens_behind_name() || self.is_toolbox)
+    }
+
+    /// Whether a brace opens behind the name of a template, or behind its `resumable`.
+    fn opens_behind_name(&self) -> bool {
+        let behind = if self.word(2) == "resumable" { 3 } else { 2 };
+        self.nth(behind) == Kind::OpenBrace
     }
 
     fn at_named_template(&self) -> bool {
@@ -75,7 +82,7 @@ impl Parser<'_, '_> {
 
     /// Whether an item of a toolbox begins.
     pub(super) fn at_tool(&self) -> bool {
-        let template = self.at_named_template() && self.nth(2) == Kind::OpenBrace;
+        let template = self.at_named_template() && self.opens_behind_name();
         let object = self.word(0) == "object" && self.nth(1) == Kind::Name;
         template || object || self.at_device() || self.at_top_item()
     }

@@ -140,15 +140,14 @@ impl Pair<'_> {
         if there {
             lines.push(format!("never interrupt of {element} {soon}"));
         } else {
-            let to = match goal {
-                Goal::Element(to) | Goal::Suspend(to) => parts.name(to),
-                Goal::Fail(_) => "fail",
-                Goal::Terminate | Goal::Ignore | Goal::Resume | Goal::Return => "terminate",
-            };
-            let to = self.beside(goal, to);
+            let to =
+                goal.map(|to| self.beside(parts.name(to)), |()| ()).text(String::clone).to_string();
             lines.push(format!("expect {element} -> {to} by {name} once {soon}"));
             lines.extend(ending);
-            lines.extend(self.interrupts(at, &soon));
+            match goal {
+                Goal::Suspend(_) => lines.push(format!("expect {element} suspended {soon}")),
+                _ => lines.extend(self.interrupts(at, &soon)),
+            }
             lines.extend(self.commits(at, event, goal, &soon));
             if self.rest.halted {
                 lines.push(format!("expect halted always after {}", duration(at + wait - since)));
@@ -185,12 +184,9 @@ impl Pair<'_> {
     }
 
     /// The full name of an element in the same plan.
-    fn beside(&self, goal: Goal, name: &str) -> String {
+    fn beside(&self, name: &str) -> String {
         let path = self.parts.path(self.element);
-        match path.rsplit_once('.') {
-            Some((home, _)) if matches!(goal, Goal::Element(_)) => format!("{home}.{name}"),
-            _ => name.to_owned(),
-        }
+        path.rsplit_once('.').map_or(name.to_owned(), |(home, _)| format!("{home}.{name}"))
     }
 
     /// The ending of the outermost plan, if the sub-plans on the path only end.

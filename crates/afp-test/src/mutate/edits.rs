@@ -73,7 +73,14 @@ impl Finder<'_> {
         let targets: Vec<_> = targets.map(|target| place(&target)).collect();
         for target in &targets {
             let was = self.at(target).to_owned();
-            if let Some(is) = self.other(&goals, &was) {
+            let is = match &*was {
+                "return" => Some("terminate".to_owned()),
+                suspends if suspends.starts_with("suspend ") && words.contains(&"ignore") => {
+                    Some("ignore".to_owned())
+                }
+                _ => self.other(&goals, &was),
+            };
+            if let Some(is) = is {
                 self.add(MutantKind::Target, target.clone(), is, |text| format!("-> {text}"));
             }
         }

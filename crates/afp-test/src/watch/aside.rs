@@ -3,7 +3,7 @@
 use afp_core::Instant;
 use afp_core::trace::ComponentId;
 
-use super::Watch;
+use super::{Occurrence, State, Watch};
 
 impl Watch<'_> {
     /// A set-aside element and everything inside it is not active.
@@ -16,6 +16,23 @@ impl Watch<'_> {
             if std::iter::successors(Some(id), owner).any(|id| id == element.0) {
                 self.set_active(at, ComponentId(id), false);
             }
+        }
+        self.state.set_suspended(element, true);
+    }
+
+    /// An element that was set aside is given up.
+    pub(super) fn abandoned(&mut self, at: Instant, element: ComponentId, started: bool) {
+        self.state.set_suspended(element, false);
+        if started {
+            self.on_occurrence(at, &Occurrence::Interrupt(element.0));
+        }
+    }
+}
+
+impl State {
+    pub(super) fn set_suspended(&mut self, element: ComponentId, suspended: bool) {
+        if let Some(known) = self.suspended.get_mut(element.0 as usize) {
+            *known = suspended;
         }
     }
 }

@@ -26,6 +26,7 @@ pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
 pub(super) fn holds(claim: &Claim, state: &State) -> Option<bool> {
     match claim {
         Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),
+        Claim::Suspended(id) => Some(state.suspended.get(*id as usize) == Some(&true)),
         Claim::Running => Some(state.ending.is_none()),
         Claim::Compare { left, comparison, right } => {
             let both = state.held(left)?.zip(state.operand(right)?);

@@ -8,6 +8,8 @@ use afp_syntax::source::Span;
 
 pub(crate) struct WrittenEdge {
     pub name: Name,
+    /// The word `suspend` before the target, if written.
+    pub suspends: Option<Span>,
     pub target: Option<Name>,
     /// The text after `fail`, including quotes.
     pub reason: Option<Name>,
@@ -22,7 +24,7 @@ impl WrittenEdge {
         let mut written = Vec::with_capacity(edges.len());
         for edge in edges {
             let end = edge.end();
-            let Edge { mut names, arrow, target, reason } = edge;
+            let Edge { mut names, arrow, suspends, target, reason } = edge;
             // A foreign arrow has no span.
             let arrow = arrow.or_else(|| target.as_ref().map(|to| to.span.before()));
             let nameless = arrow.map(|span| Name { text: String::new(), span });
@@ -30,11 +32,12 @@ impl WrittenEdge {
             written.extend(names.into_iter().map(|name| WrittenEdge {
                 span: name.span,
                 name,
+                suspends,
                 target: target.clone(),
                 reason: reason.clone(),
             }));
             let span = last.span.to(end.unwrap_or(last.span));
-            written.push(WrittenEdge { span, name: last, target, reason });
+            written.push(WrittenEdge { span, name: last, suspends, target, reason });
         }
         written
     }
@@ -53,6 +56,7 @@ pub(crate) fn name(edges: &mut Vec<WrittenEdge>, signature: &Signature, diags: &
     several_states(edge, &states, signature).into_iter().for_each(|error| diags.push(error));
     let named = |state: &&str| WrittenEdge {
         name: Name { text: (*state).to_owned(), span: edge.name.span },
+        suspends: edge.suspends,
         target: edge.target.clone(),
         reason: edge.reason.clone(),
         span: edge.span,
@@ -81,7 +85,8 @@ fn several_states(
             let message =
                 message!("the edge is for one state, but '{}' has {}", signature.name, named);
             let reason = edge.reason.iter().map(|reason| format!(" {}", reason.text));
-            let target: String = std::iter::once(to.text.clone()).chain(reason).collect();
+            let word = edge.suspends.map(|_| "suspend ".to_owned());
+            let target: String = word.into_iter().chain([to.text.clone()]).chain(reason).collect();
             Some(error(message).write(format!("{{ {} -> {target} }}", states.join(", "))))
         }
     }

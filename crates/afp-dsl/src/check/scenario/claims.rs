@@ -36,6 +36,7 @@ impl Checker<'_> {
                 self.transition(&from, &to, by.as_ref(), diags)
             }
             ClaimKind::Active(path) => self.active(&path, diags),
+            ClaimKind::Suspended(path) => self.lasting(&path, diags).map(Claim::Suspended),
             ClaimKind::Compare(path, sign, value) => self.compare(&path, &sign, &value?, diags),
             ClaimKind::Running => Some(Claim::Running),
             ClaimKind::End(by) => self.end(by.as_ref(), diags),
@@ -134,10 +135,7 @@ impl Checker<'_> {
         self.joined(from, found, by.as_ref(), (from_path, to), diags)?;
         Some(Claim::Transition {
             from: self.paths.number(from),
-            to: match found {
-                Some(found) => Target::Element(self.paths.number(found)),
-                None => to.clone().map(|_| 0, |()| ()),
-            },
+            to: to.clone().map(|_| found.map_or(0, |found| self.paths.number(found)), |()| ()),
             by: by.map(|((found, outcome), _)| Cause {
                 component: self.paths.number(found),
                 outcome,

@@ -101,7 +101,9 @@ impl NameRecorder<'_> {
                 to.element().iter().for_each(|path| self.component(path));
                 by.iter().for_each(|path| self.cause(&from, &to, path));
             }
-            ClaimKind::Active(path) | ClaimKind::Interrupt(path) => self.component(&path),
+            ClaimKind::Active(path) | ClaimKind::Suspended(path) | ClaimKind::Interrupt(path) => {
+                self.component(&path)
+            }
             ClaimKind::Compare(path, _, value) => {
                 self.compared(&path.names());
                 value.iter().for_each(|value| self.operand(value));

@@ -24,6 +24,18 @@ pub(super) fn read(
     let mut template = without_parts(node, node.name()?);
     let parts = node.parts();
     let mut seen = Seen::default();
+    if let Some(span) = node.resumable() {
+        template.resumable = template.kind == TemplateKind::Actor;
+        match template.kind {
+            TemplateKind::Actor => {}
+            TemplateKind::Supervisor => {
+                misfit("resumable", "a supervisor starts again", span, diags)
+            }
+            TemplateKind::Computation => {
+                misfit("resumable", "a computation runs at once", span, diags)
+            }
+        }
+    }
     outcomes(&parts, &mut template, diags);
     let mut names = DeclaredNames::default();
     for part in &parts {

@@ -31,7 +31,10 @@ impl Ways {
         for node in (0..3).map(|ending| view.end(ending)) {
             ways.on[of(node)] = behind;
         }
-        for node in (0..view.nodes()).filter(|node| view.resumes(*node)) {
+        let leaves = |node: &Node| {
+            [Target::Resume, Target::Return].iter().any(|to| view.has_edge_to(*node, *to))
+        };
+        for node in (0..view.nodes()).filter(leaves) {
             ways.on[of(node)] = 1;
         }
         let taken = view.edges.iter().filter(|edge| is_taken(view, edge));

@@ -9,7 +9,7 @@ impl Parser<'_, '_> {
     /// `fail("why")`, `terminate()`, `home()`: reports the brackets after a target and returns
     /// their number of tokens.
     pub(in crate::parser) fn no_brackets(&mut self) -> usize {
-        let is_word = matches!(self.word(0), "terminate" | "fail" | "ignore" | "resume");
+        let is_word = matches!(self.word(0), "terminate" | "fail" | "ignore" | "resume" | "return");
         let tokens = match (self.nth(1), self.nth(2), self.nth(3)) {
             (Kind::OpenParen, Kind::CloseParen, _) => 2,
             (Kind::Colon | Kind::Comma, Kind::Text, _) if is_word => 2,
