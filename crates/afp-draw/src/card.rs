@@ -195,7 +195,11 @@ fn shown(inputs: Vec<Input>) -> Vec<Input> {
 fn look(view: &View, element: &Component) -> (Shape, Class) {
     let (shape, name) = match element.kind {
         ComponentKind::Computation => (Shape::Cut(12.0), "computation"),
+        ComponentKind::SubPlan if view.is_handler(element) => {
+            (Shape::Double(9.0), "subplan handler")
+        }
         ComponentKind::SubPlan => (Shape::Double(9.0), "subplan"),
+        ComponentKind::Actor if view.is_handler(element) => (Shape::Round(9.0), "actor handler"),
         ComponentKind::Actor | ComponentKind::Supervisor | ComponentKind::Reactions => {
             (Shape::Round(9.0), "actor")
         }

@@ -10,6 +10,7 @@ use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
 /// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed edges for
 /// events, with their exits' names. A state of a declared computation also has its condition. A resuming exit has a hollow arrow back to its own element.
+/// An edge that suspends begins with a ring, its handler is dashed, and `return` is a node.
 /// Ignored events and unconnected exits are left out.
 pub fn dot(outline: &Outline, options: &Options) -> String {
     let views = View::all(outline, options);
@@ -43,7 +44,12 @@ impl<'a> Cluster<'a, '_> {
         for element in &plan.elements {
             self.node(text, element);
         }
-        for (end, look) in [(Target::Terminate, ""), (Target::Fail(""), ", color=red")] {
+        let ends = [
+            (Target::Terminate, ""),
+            (Target::Fail(""), ", color=red"),
+            (Target::Return, ", style=dotted"),
+        ];
+        for (end, look) in ends {
             let end = Some(end);
             if self.reaches(end) {
                 let (node, label) = (quoted(&self.node_name(end)), view.target_name(end));
@@ -78,7 +84,13 @@ impl<'a> Cluster<'a, '_> {
         let view = self.view;
         let shape = match element.kind {
             ComponentKind::Computation => "shape=hexagon, style=solid",
+            ComponentKind::SubPlan if view.is_handler(element) => {
+                "shape=box, peripheries=2, style=\"rounded,dashed\""
+            }
             ComponentKind::SubPlan => "shape=box, peripheries=2",
+            ComponentKind::Actor if view.is_handler(element) => {
+                "shape=box, style=\"rounded,dashed\""
+            }
             ComponentKind::Actor | ComponentKind::Supervisor | ComponentKind::Reactions => {
                 "shape=box"
             }
@@ -111,13 +123,16 @@ impl<'a> Cluster<'a, '_> {
             ExitKind::Error => "dotted",
             ExitKind::Event | ExitKind::Missed => "dashed",
         };
+        let suspends = matches!(exit.to, Some(Target::Suspend(Ok(_))));
+        let looks = if suspends { ", dir=both, arrowtail=odot" } else { "" };
         if exit.to == Some(Target::Resume) {
             let (from, label) = (quoted(from), quoted(&format!("{label}\nresume")));
             let look = format!("label={label}, style={style}, arrowhead=empty");
             return line(text, 1, &format!("{from} -> {from} [{look}];"));
         }
         let (from, to) = (quoted(from), quoted(&self.node_name(exit.to)));
-        line(text, 1, &format!("{from} -> {to} [label={}, style={style}];", quoted(label)));
+        let label = quoted(label);
+        line(text, 1, &format!("{from} -> {to} [label={label}, style={style}{looks}];"));
     }
 
     fn element_name(&self, element: &Component) -> String {
@@ -127,7 +142,7 @@ impl<'a> Cluster<'a, '_> {
     /// The name of a target's node. Tags get names that no element can have.
     fn node_name(&self, to: To<'a>) -> String {
         match to {
-            Some(Target::Element(Ok(id))) => {
+            Some(Target::Element(Ok(id)) | Target::Suspend(Ok(id))) => {
                 self.element_name(&self.view.plan.elements[id.index()])
             }
             other => format!("{}!{}", self.prefix, self.view.target_name(other)),

@@ -133,6 +133,10 @@ pub(super) enum Tip {
     Thick,
     /// A thick line with an outlined tip: the active element continues.
     Hollow,
+    /// A thick line without a tip: a suspended element continues.
+    Hook,
+    /// No line but a ring on it: the beginning of an edge that suspends.
+    Ring,
     /// A thin line: flow of data.
     Thin,
 }

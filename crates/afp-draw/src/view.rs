@@ -93,7 +93,8 @@ impl Exit<'_> {
 pub(super) fn to(target: Option<&outline::Target>) -> To<'_> {
     let target = target?;
     let (to, text) = (target.to, target.text.as_str());
-    let is_known = to != Target::Element(None);
+    let text = text.strip_prefix("suspend ").unwrap_or(text);
+    let is_known = !matches!(to, Target::Element(None) | Target::Suspend(None));
     (is_known || !text.is_empty())
         .then(|| to.map(|id| id.ok_or(text), |()| target.reason().unwrap_or("")))
 }
@@ -288,14 +289,29 @@ impl<'a> View<'a> {
         self.usage?.entries.get(entry).copied()
     }
 
+    /// Whether some edge suspends to an element.
+    pub(super) fn is_handler(&self, element: &Component) -> bool {
+        let of_elements =
+            self.plan.elements.iter().flat_map(|each| {
+                [each].into_iter().chain(&each.supervisors).chain(&each.reactions)
+            });
+        let components = self.plan.supervisors.iter().chain(of_elements);
+        let mut exits = components.flat_map(|component| &component.exits);
+        exits.any(|exit| {
+            let target = exit.edge.as_ref().and_then(|edge| edge.target.as_ref());
+            let to =
+                target.filter(|target| target.suspends()).and_then(|it| it.to.element().copied());
+            to.flatten().is_some_and(|id| self.plan.elements[id.index()].item == element.item)
+        })
+    }
+
     /// The target of an exit, in the language's words.
-    pub(super) fn target_name(&self, to: To<'a>) -> &'a str {
-        let Some(to) = to else { return "" };
-        match to.element() {
-            Some(Ok(id)) => name(&self.plan.elements[id.index()]),
-            Some(Err(text)) => text,
-            None => to.keyword().unwrap_or_default(),
-        }
+    pub(super) fn target_name(&self, to: To<'a>) -> String {
+        let element = |id: &Result<ElementId, &'a str>| match id {
+            Ok(id) => name(&self.plan.elements[id.index()]),
+            Err(text) => *text,
+        };
+        to.map_or(String::new(), |to| to.text(element).to_string())
     }
 
     /// The template's toolbox and its icon's name.

@@ -47,8 +47,9 @@ impl<'a> Tab<'a> {
     /// The exits that lead to elements.
     fn leading(&self) -> impl Iterator<Item = (&'a Component, &Exit<'a>)> {
         let all = self.supervisors.iter();
-        all.flat_map(|(each, exits)| exits.iter().map(move |exit| (*each, exit)))
-            .filter(|(_, exit)| matches!(exit.to, Some(Target::Element(Ok(_)))))
+        all.flat_map(|(each, exits)| exits.iter().map(move |exit| (*each, exit))).filter(
+            |(_, exit)| matches!(exit.to, Some(Target::Element(Ok(_)) | Target::Suspend(Ok(_)))),
+        )
     }
 
     fn text(&self) -> String {

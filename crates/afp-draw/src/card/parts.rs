@@ -32,9 +32,16 @@ const STUB: f64 = 20.0;
 const OUT: f64 = 13.0;
 const BESIDE: f64 = 17.0;
 
-/// The text next to it, and its distance.
+/// The texts next to it and to the hook of an exit that returns, and their distance.
 const RESUME: &str = "Resume";
+const RETURN: &str = "Return";
 const APART: f64 = 6.0;
+
+/// The reach of that hook.
+const HOOK: f64 = 6.0;
+
+/// The diameter of the hollow tail of an edge that suspends.
+const TAIL: f64 = 8.0;
 
 /// The ends of flow that are not elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,12 +53,13 @@ struct Tag<'a> {
 impl<'a> Tag<'a> {
     fn of(to: To<'a>) -> Option<Tag<'a>> {
         let (text, class) = match to {
-            Some(Target::Element(Ok(_)) | Target::Suspend(Ok(_)) | Target::Resume) => return None,
+            Some(
+                Target::Element(Ok(_)) | Target::Suspend(Ok(_)) | Target::Resume | Target::Return,
+            ) => return None,
             Some(Target::Terminate) => ("Terminate", "terminate"),
             Some(Target::Fail("")) => ("Fail", "fail"),
             Some(Target::Fail(reason)) => (reason, "fail"),
             Some(Target::Ignore) => ("Ignore", "ignore"),
-            Some(Target::Return) => ("Return", "resume"),
             Some(Target::Element(Err(text)) | Target::Suspend(Err(text))) => (text, "unknown"),
             None => ("?", "nowhere"),
         };
@@ -76,6 +84,7 @@ pub(super) fn exit_width(exit: &Exit) -> f64 {
     let own = chip_width(&exit.text());
     match exit.to {
         Some(Target::Resume) => (own + BESIDE + PILL / 3.0).max(width(RESUME, CHIP_SIZE, false)),
+        Some(Target::Return) => own.max(width(RETURN, CHIP_SIZE, false)),
         to => own.max(Tag::of(to).map_or(0.0, tag_width)),
     }
 }
@@ -89,6 +98,8 @@ pub(super) fn exit_height(exit: &Exit) -> f64 {
 pub(super) fn reach_right(exit: &Exit) -> f64 {
     let beyond = match exit.to {
         Some(Target::Resume) => OUT + APART + width(RESUME, CHIP_SIZE, false),
+        Some(Target::Return) => OUT + APART + width(RETURN, CHIP_SIZE, false),
+        Some(Target::Suspend(Ok(_))) => TAIL,
         to => Tag::of(to).map_or(0.0, |tag| STUB + tag_width(tag)),
     };
     STAND_OUT + beyond
@@ -209,8 +220,17 @@ pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
         card.height = card.height.max(base + 0.2 * CHIP_SIZE);
         return;
     }
+    if exit.to == Some(Target::Return) {
+        let turn = bottom + OUT;
+        hook(card, exit, vec![(x, bottom), (x, turn), (x + HOOK, turn), (x + HOOK, turn - HOOK)]);
+        let base = turn + APART + 0.8 * CHIP_SIZE;
+        card.sketch.labels.push(Label::new((rect.x, base), RETURN, CHIP_SIZE, "resume"));
+        card.height = card.height.max(base + 0.2 * CHIP_SIZE);
+        return;
+    }
     let Some(tag) = Tag::of(exit.to) else {
-        leave(card, of, layout::Exit::Below(x, bottom), exit);
+        let tail = tail(card, exit, (x, bottom), (x, bottom + TAIL));
+        leave(card, of, layout::Exit::Below(x, bottom + tail), exit);
         return;
     };
     let points = vec![(x, bottom), (x, bottom + STUB)];
@@ -245,8 +265,16 @@ pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
         card.sketch.labels.push(Label::new(place, RESUME, CHIP_SIZE, "resume"));
         return;
     }
+    if exit.to == Some(Target::Return) {
+        let turn = right + OUT;
+        hook(card, exit, vec![(right, y), (turn, y), (turn, y - HOOK), (turn - HOOK, y - HOOK)]);
+        let place = (turn + APART, y + 0.36 * CHIP_SIZE);
+        card.sketch.labels.push(Label::new(place, RETURN, CHIP_SIZE, "resume"));
+        return;
+    }
     let Some(tag) = Tag::of(exit.to) else {
-        leave(card, of, layout::Exit::Right(right, y), exit);
+        let tail = tail(card, exit, (right, y), (right + TAIL, y));
+        leave(card, of, layout::Exit::Right(right + tail, y), exit);
         return;
     };
     let points = vec![(right, y), (right + STUB, y)];
@@ -258,6 +286,21 @@ pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
 /// Draws the arrow back of a resuming exit.
 fn back(card: &mut Card, exit: &Exit, points: Vec<(f64, f64)>) {
     card.sketch.arrows.push(Arrow { tip: Tip::Hollow, ..Arrow::flow(points, exit_class(exit)) });
+}
+
+/// Draws the small hook of an exit that returns.
+fn hook(card: &mut Card, exit: &Exit, points: Vec<(f64, f64)>) {
+    card.sketch.arrows.push(Arrow { tip: Tip::Hook, ..Arrow::flow(points, exit_class(exit)) });
+}
+
+/// Draws the hollow tail of an edge that suspends, from a place on. Returns its diameter, or 0.
+fn tail(card: &mut Card, exit: &Exit, from: (f64, f64), to: (f64, f64)) -> f64 {
+    if !matches!(exit.to, Some(Target::Suspend(_))) {
+        return 0.0;
+    }
+    let ring = Arrow { tip: Tip::Ring, ..Arrow::flow(vec![from, to], exit_class(exit)) };
+    card.sketch.arrows.push(ring);
+    TAIL
 }
 
 /// Draws the exit itself; it is hollow if it is unconnected.
@@ -274,7 +317,7 @@ pub(super) fn part(exit: &Exit) -> Part {
 
 /// Starts the flow from an exit to its element, if it has one.
 pub(super) fn leave(card: &mut Card, of: &Component, at: layout::Exit, exit: &Exit) {
-    if let Some(Target::Element(Ok(id))) = exit.to {
+    if let Some(Target::Element(Ok(id)) | Target::Suspend(Ok(id))) = exit.to {
         let (item, part, severity) = (of.item.clone(), part(exit), exit.severity);
         let class = exit_class(exit);
         card.exits.push(Leaving { item, part, severity, at, to: id.index(), class });

@@ -86,10 +86,10 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
                 let points = vec![(x, rect.bottom()), (x, rect.bottom() + STUB)];
                 card.sketch.arrows.push(Arrow::flow(points, class));
                 let (text, class) = match to {
-                    Some(Target::Element(Err(text))) => (text, "unknown"),
+                    Some(Target::Element(Err(text))) => (text.to_owned(), "unknown"),
                     other => (view.target_name(other), "nowhere"),
                 };
-                let text = if text.is_empty() { "?" } else { text };
+                let text = if text.is_empty() { "?" } else { &text };
                 let width = pill_width(text);
                 let top = rect.bottom() + STUB;
                 let tag = Rect { x: x - width / 2.0, y: top, width, height: 18.0 };

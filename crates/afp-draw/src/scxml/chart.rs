@@ -24,7 +24,10 @@ const HEAD: &str = "\
   ':stopped' is a stop from outside, ':failed' a fault that no plan can handle.
   A transition without target takes an event and does nothing: the event is ignored or resumes, or
   the supervisor's target is active already. A computation that resumes leads to the history of what
-  was active.";
+  was active.
+  'suspend' leaves the active state for that of its handler, and 'return' leads to the history of the
+  state that was left. A chart enters that state again and begins in it afresh, while the plan goes on
+  where it was; what was suspended and is given up later is left before that in the chart.";
 
 /// A document during writing.
 #[derive(Default)]
@@ -62,7 +65,7 @@ impl Chart {
             let path = scope.path(&supervisor.name);
             for exit in view.events(supervisor) {
                 let to = taken(view, scope, &exit);
-                let within = nested || matches!(exit.target, Target::Element(_));
+                let within = nested || exit.target.element().is_some();
                 self.inner_transition(&event(&path, &exit), to.as_deref(), within);
             }
             let end = scope.end(End::Error);
@@ -74,19 +77,42 @@ impl Chart {
             let mut targets = element.states.iter().flatten().chain(&element.on_error);
             targets.any(|target| *target == Target::Resume)
         };
-        if !elements().filter(computes).any(resumes) {
+        let handlers = view.plan.handlers();
+        let handled = handlers.contains(&true);
+        let resumed = elements().filter(computes).any(resumes);
+        if !resumed && !handled {
             elements().for_each(|element| self.element(view, scope, element));
             return;
         }
         elements().filter(computes).for_each(|element| self.element(view, scope, element));
-        self.open(&format!("<state id=\"{}\">", scope.acting()));
-        self.line(&format!("<history id=\"{}\" type=\"deep\">", scope.history()));
-        let acting = || elements().filter(|element| !computes(element));
-        let usual = acting().next().map(|element| scope.state(&element.name));
-        self.line(&format!("  <transition target=\"{}\"/>", usual.unwrap_or_default()));
+        let acting = |handles: bool| {
+            let own = elements().zip(&handlers).filter(move |(_, is)| **is == handles);
+            own.map(|(element, _)| element).filter(|element| !computes(element))
+        };
+        let usual = acting(false).next().map(|element| scope.state(&element.name));
+        let usual = usual.unwrap_or_default();
+        if resumed {
+            self.with_history([&scope.acting(), &scope.history()], &usual);
+        }
+        if handled {
+            acting(true).for_each(|element| self.element(view, scope, element));
+            self.with_history([&scope.flowing(), &scope.suspended()], &usual);
+        }
+        acting(false).for_each(|element| self.element(view, scope, element));
+        if handled {
+            self.close("state");
+        }
+        if resumed {
+            self.close("state");
+        }
+    }
+
+    /// Opens a state with a history of what is active in it, which is `usual` at first.
+    fn with_history(&mut self, [state, history]: [&str; 2], usual: &str) {
+        self.open(&format!("<state id=\"{state}\">"));
+        self.line(&format!("<history id=\"{history}\" type=\"deep\">"));
+        self.line(&format!("  <transition target=\"{usual}\"/>"));
         self.line("</history>");
-        acting().for_each(|element| self.element(view, scope, element));
-        self.close("state");
     }
 
     fn element(&mut self, view: &View, scope: &Scope, element: &Element) {
@@ -171,7 +197,7 @@ impl Chart {
         if matches!(element.component, Component::Computation(_)) {
             return;
         }
-        let here = |exit: &Exit| matches!(exit.target, Target::Element(id) if view.element(id).name == element.name);
+        let here = |exit: &Exit| matches!(exit.target, Target::Element(id) | Target::Suspend(id) if view.element(id).name == element.name);
         for (supervisor, exits) in view.global_events(element) {
             let path = scope.path(&supervisor.name);
             for (exit, replaced) in exits {

@@ -60,6 +60,16 @@ impl Scope {
         format!("{}-acting-history", self.id)
     }
 
+    /// The id of the state around the elements that can be suspended, in a plan with handlers.
+    pub(super) fn flowing(&self) -> String {
+        format!("{}-flowing", self.id)
+    }
+
+    /// The id of the history state for the suspended one of them.
+    pub(super) fn suspended(&self) -> String {
+        format!("{}-suspended", self.id)
+    }
+
     /// The prefix of an element's or a global supervisor's events.
     pub(super) fn path(&self, name: &str) -> String {
         format!("{}{name}", self.prefix)
@@ -84,7 +94,7 @@ pub(super) fn target<'a>(
         Target::Fail(_) => Some(scope.end(End::Error)),
         // An event that resumes does not leave the state; a computation returns to it.
         Target::Resume => matches!(end, End::Ok).then(|| scope.history()),
-        Target::Return => Some(scope.history()),
+        Target::Return => Some(scope.suspended()),
         Target::Ignore => None,
     }
 }

@@ -218,6 +218,9 @@ fn paint_frame(out: &mut String, frame: &Frame) {
     match frame.shape {
         Shape::Round(radius) | Shape::Double(radius) => {
             let rect = rect_attributes(&frame.rect, radius);
+            let dashes =
+                if class.name.ends_with("handler") { " stroke-dasharray=\"6 3\"" } else { "" };
+            let rect = format!("{rect}{dashes}");
             line(out, &format!("<rect class=\"box {class}\" {rect}{}", tail(&title, "rect")));
         }
         Shape::Leaning(radius) => {
@@ -283,7 +286,14 @@ fn paint_label(out: &mut String, label: &Label) {
 
 fn paint_arrow(out: &mut String, arrow: &Arrow) {
     let [.., before, end] = arrow.points[..] else { return };
-    let (length, half) = if arrow.is_flow() { THICK_TIP } else { THIN_TIP };
+    if arrow.tip == Tip::Ring {
+        return paint_ring(out, arrow, before, end);
+    }
+    let (length, half) = match arrow.tip {
+        Tip::Hook => (0.0, 0.0),
+        _ if arrow.is_flow() => THICK_TIP,
+        _ => THIN_TIP,
+    };
     let (dx, dy) = direction(before, end);
     let neck = (end.0 - dx * length, end.1 - dy * length);
     let mut points = arrow.points.clone();
@@ -308,12 +318,25 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
         _ => format!(" stroke-dashoffset=\"{}\"", number(-length_of(&points))),
     };
     line(out, &format!("<path class=\"{kind} {class}\"{dashes} d=\"{path}\"/>"));
+    if arrow.tip == Tip::Hook {
+        return;
+    }
     let corner = |side: f64| {
         format!("{} {}", number(neck.0 - dy * half * side), number(neck.1 + dx * half * side))
     };
     let tip = format!("M{} {}L{}L{}z", number(end.0), number(end.1), corner(1.0), corner(-1.0));
     let kind = if arrow.tip == Tip::Hollow { "flow hollow" } else { "tip" };
     line(out, &format!("<path class=\"{kind} {class}\" d=\"{tip}\"/>"));
+}
+
+/// A circle whose diameter is the line between two points.
+fn paint_ring(out: &mut String, arrow: &Arrow, from: Point, to: Point) {
+    let radius = distance(from, to) / 2.0;
+    let (left, y) = (number((from.0 + to.0) / 2.0 - radius), number((from.1 + to.1) / 2.0));
+    let (r, across, class) = (number(radius), number(2.0 * radius), arrow.class);
+    let half = |sign: &str| format!("a{r} {r} 0 1 0 {sign}{across} 0");
+    let ring = format!("M{left} {y}{}{}z", half(""), half("-"));
+    line(out, &format!("<path class=\"flow hollow {class}\" d=\"{ring}\"/>"));
 }
 
 /// A polyline with rounded corners.
