@@ -128,6 +128,8 @@ pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
         Word::Fail => "The plan ends in 'Error', for the reason behind it.",
         Word::Ignore => "The event is not taken.",
         Word::Resume => "The active element continues and reads new values with its 'live' inputs.",
+        Word::Suspend => "The active element is set aside, and the handler starts.",
+        Word::Return => "The element that was suspended continues.",
         Word::Type => "A type of the language.",
         Word::Truth => "A truth value.",
         Word::Resource => {

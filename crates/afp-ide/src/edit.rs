@@ -108,8 +108,8 @@ pub enum Change {
         #[serde(with = "wire")]
         from: Item,
         outcome: String,
-        /// An element of the plan, `terminate`, `fail`, `fail "reason"`; for an event `ignore` or `resume`, for a
-        /// computation `resume`.
+        /// An element of the plan, `terminate`, `fail`, `fail "reason"`; for an event `ignore`, `resume` or
+        /// `suspend NAME`, for a computation `resume` or `suspend NAME`, for a handler `return`.
         to: String,
     },
     /// Removes the edge of a state or event.

@@ -214,7 +214,7 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
     let kind = parent?.kind();
     Some(match (word.text(), kind) {
         ("use", _) => Place::Uses,
-        ("start", Kind::Start) => Place::Start,
+        ("start", Kind::Start) | ("suspend", Kind::Target) => Place::Start,
         ("on", Kind::Reactions) => {
             ancestor(word, &[Kind::Element]).map_or(Place::Nothing, Place::Watchers)
         }

@@ -204,6 +204,16 @@ pub(super) fn targets(list: &mut List, offset: u32, from: Origin) {
     }
     if from != Origin::Other {
         list.keyword("resume", plain("resume"), 1);
+        list.keyword("suspend", plain("suspend "), 1);
+    }
+    let Some(plan) = list.view.plan_at(offset) else { return };
+    let of_elements = plan.elements.iter().flat_map(|element| {
+        [element].into_iter().chain(&element.supervisors).chain(&element.reactions)
+    });
+    let exits = plan.supervisors.iter().chain(of_elements).flat_map(|component| &component.exits);
+    let mut targets = exits.filter_map(|exit| exit.edge.as_ref()?.target.as_ref());
+    if targets.any(|target| target.suspends()) {
+        list.keyword("return", plain("return"), 1);
     }
 }
 

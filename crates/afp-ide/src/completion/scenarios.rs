@@ -46,6 +46,8 @@ pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
             list.keyword("terminate", plain("terminate"), 1);
             list.keyword("fail", plain("fail"), 1);
             list.keyword("resume", plain("resume"), 1);
+            list.keyword("suspend", plain("suspend "), 1);
+            list.keyword("return", plain("return"), 1);
             of_plan(list, offset, |kind| is_component(kind, false));
         }
         "end by" => {

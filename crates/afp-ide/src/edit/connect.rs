@@ -25,9 +25,10 @@ pub(super) fn connect(
         braces::with_braces(buffer, from)?;
         return connect(buffer, from, outcome, to);
     }
-    let target = edge.as_ref().and_then(tree::target);
+    let target = edge.as_ref().and_then(|edge| children(edge, Kind::Target).next());
+    let target = target.and_then(|target| tree::solid_range(&target));
     let shared = edge.as_ref().and_then(|edge| tree::without_outcome(edge, outcome));
-    let leaves = shared.filter(|_| target.is_some_and(|target| target.text() != to));
+    let leaves = shared.filter(|_| target.is_some_and(|target| buffer.text()[target] != *to));
     let Some(edge) = edge.filter(|_| leaves.is_none()) else {
         let text = format!("{} -> {to}", padded(&component, outcome, buffer.text()));
         let all: Vec<_> = edges(&component).collect();
@@ -73,9 +74,22 @@ fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> 
         "resume" if tree::has_events(component) || tree::is_computation(component) => Ok(()),
         "resume" => Err(Refused::new("an element that has ended cannot be resumed")),
         "ignore" => Err(Refused::new("a state cannot lead to 'ignore'")),
+        "return" => Ok(()),
         _ if to.strip_prefix("fail ").is_some_and(is_text) => Ok(()),
+        _ if to.starts_with("suspend ") => check_suspend(plan, component, &to["suspend ".len()..]),
         _ if children(plan, Kind::Element).any(|element| tree::is_named(&element, to)) => Ok(()),
         _ => Err(Refused::new(format!("there is no element '{to}' in the plan"))),
+    }
+}
+
+/// Events and computations may suspend; the handler is an element of the plan.
+fn check_suspend(plan: &Node, component: &Node, handler: &str) -> Result<(), Refused> {
+    if !tree::has_events(component) && !tree::is_computation(component) {
+        return Err(Refused::new("what has ended cannot be suspended"));
+    }
+    match children(plan, Kind::Element).any(|element| tree::is_named(&element, handler)) {
+        true => Ok(()),
+        false => Err(Refused::new(format!("there is no element '{handler}' in the plan"))),
     }
 }
 

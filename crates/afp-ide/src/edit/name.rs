@@ -22,7 +22,7 @@ pub(super) fn check(name: &str) -> Result<(), Refused> {
 /// Checks that a word can be the name of an element.
 pub(super) fn check_element(name: &str) -> Result<(), Refused> {
     check(name)?;
-    if matches!(name, "terminate" | "fail" | "ignore" | "resume") {
+    if matches!(name, "terminate" | "fail" | "ignore" | "resume" | "suspend" | "return") {
         return Err(Refused::new(format!("'{name}' cannot be the name of an element")));
     }
     Ok(())

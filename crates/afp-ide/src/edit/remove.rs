@@ -135,7 +135,7 @@ pub(super) fn cut_edges_from(buffer: &mut TextBuffer, component: &Item, there: &
     let project = Project::alone(buffer);
     let Ok(own) = tree::find(&project.roots[0], component) else { return };
     let is_there = |name: &str| {
-        matches!(name, "terminate" | "fail" | "ignore" | "resume")
+        matches!(name, "terminate" | "fail" | "ignore" | "resume" | "return")
             || children(there, Kind::Element).any(|element| tree::is_named(&element, name))
     };
     let leads_away = |edge: &Node| {

@@ -165,6 +165,8 @@ const WORDS: &[&str] = &[
     "fail",
     "fail \"it is stuck\"",
     "resume",
+    "suspend",
+    "return",
     "in",
     "3 cm",
     "-(a + 1)",

@@ -35,6 +35,13 @@ impl Flow {
         let ways_in = ways_in(selection);
         let states = exits(selection, false);
         let events = exits(selection, true);
+        let across = ways_in.iter().chain(&states).chain(&events).find(|token| suspends(token));
+        if let Some(name) = across {
+            return Err(Refused::new(format!(
+                "'suspend {}' leads across the border of the selection, which a sub-plan cannot do",
+                name.text()
+            )));
+        }
         let firsts = one("'start' and edges lead to", &ways_in)?;
         let ok = one("states lead to", &states)?;
         let interrupted = one("events lead to", &events)?;
@@ -54,6 +61,13 @@ impl Flow {
         }
         Ok(Flow { first, ok, interrupted, ways_in, ways_out })
     }
+}
+
+/// Whether `suspend` is written before a target.
+fn suspends(target: &Token) -> bool {
+    target.parent().is_some_and(|node| {
+        node.kind() == Kind::Target && tree::tokens(&node, Kind::Keyword).next().is_some()
+    })
 }
 
 /// Computations that lead to `resume` through computations only.
@@ -105,7 +119,8 @@ fn exits(selection: &Selection, events: bool) -> Vec<Token> {
         owners.flat_map(|owner| edges(&owner).filter_map(|edge| target(&edge)).collect::<Vec<_>>());
     targets
         .filter(|token| {
-            !matches!(token.text(), "fail" | "ignore" | "resume") && !selection.is_inside(token)
+            !matches!(token.text(), "fail" | "ignore" | "resume" | "return")
+                && !selection.is_inside(token)
         })
         .collect()
 }

@@ -149,8 +149,11 @@ impl Given {
     /// The target of an edge with its assigned name, if it is an element.
     fn target(&self, plan: &str, to: String) -> String {
         match &*to {
-            "terminate" | "fail" | "ignore" | "resume" => to,
-            _ => self.name(plan, to),
+            "terminate" | "fail" | "ignore" | "resume" | "return" => to,
+            _ => match to.strip_prefix("suspend ") {
+                Some(name) => format!("suspend {}", self.name(plan, name.to_owned())),
+                None => self.name(plan, to),
+            },
         }
     }
 
