@@ -26,8 +26,8 @@ const HEAD: &str = "\
   the supervisor's target is active already. A computation that resumes leads to the history of what
   was active.
   'suspend' leaves the active state for that of its handler, and 'return' leads to the history of the
-  state that was left. A chart enters that state again and begins in it afresh, while the plan goes on
-  where it was; what was suspended and is given up later is left before that in the chart.";
+  state that was left. A chart enters that state again and starts it again, while the plan continues
+  where it was. A state that is suspended and never continues is left earlier in the chart.";
 
 /// A document during writing.
 #[derive(Default)]
@@ -107,7 +107,7 @@ impl Chart {
         }
     }
 
-    /// Opens a state with a history of what is active in it, which is `usual` at first.
+    /// Opens a state with a history of its active state, which is `usual` at first.
     fn with_history(&mut self, [state, history]: [&str; 2], usual: &str) {
         self.open(&format!("<state id=\"{state}\">"));
         self.line(&format!("<history id=\"{history}\" type=\"deep\">"));

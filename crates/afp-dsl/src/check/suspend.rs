@@ -1,6 +1,6 @@
 //! Handlers: the elements that `suspend` names, and the edges that `return` from them.
 //!
-//! A handler is reached by `suspend` alone. Otherwise the path to it would decide whether anything
+//! Only `suspend` leads to a handler. Otherwise the path to it would decide whether anything
 //! is set aside, and `return` would lead nowhere on some paths.
 
 use crate::check::names::Indices;

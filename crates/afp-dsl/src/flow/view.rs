@@ -61,7 +61,7 @@ pub(crate) struct View<'a> {
     returns: Vec<(Cause, Node)>,
     /// The reachable elements that `suspend` names.
     pub handlers: BTreeSet<Node>,
-    /// What can be set aside, by which edge.
+    /// The elements that can be set aside, each with its edge.
     pub asides: Vec<Aside>,
     /// Edges to `return`, to each element that may continue there.
     pub back: Vec<Edge>,

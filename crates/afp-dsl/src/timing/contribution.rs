@@ -153,8 +153,8 @@ fn is_error(cause: Cause) -> bool {
     matches!(cause, Cause::Error(_))
 }
 
-/// Maximum cost of entries after a node along edges of one kind; what `return` continues is entered
-/// like at its start.
+/// Maximum cost of entries after a node along edges of one kind. An element that `return` continues
+/// costs as much as at its start.
 fn behind(view: &View<'_>, node: Node, costs: &[Cost], kind: fn(Cause) -> bool) -> Cost {
     let back = view.back.iter().filter(|edge| edge.from == node);
     let edges = view.from(node).iter().chain(back).filter(|edge| kind(edge.cause));

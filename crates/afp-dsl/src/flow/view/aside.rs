@@ -1,4 +1,4 @@
-//! What can be set aside by `suspend`, and where `return` continues.
+//! The elements that `suspend` can set aside, and that `return` continues.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,7 +29,7 @@ pub(super) fn asides(view: &View<'_>) -> Vec<Aside> {
             found.extend(handlers.map(|handler| Aside { edge, element, handler }));
         }
     }
-    // A handler that suspends is replaced, and what was set aside stays.
+    // A handler that suspends is replaced, and the suspended element stays.
     let mut open: Vec<Aside> = found.iter().copied().collect();
     let next: Vec<Aside> = open.extract_if(.., |it| view.handlers.contains(&it.element)).collect();
     let mut known: BTreeSet<Aside> = BTreeSet::new();
