@@ -3,6 +3,7 @@
 //! Each function takes any bytes of a fuzzer and panics if a property does not hold. The same
 //! functions run over the corpora in `cargo test`.
 
+mod controller;
 mod debugger;
 mod edits;
 mod frames;
@@ -10,6 +11,7 @@ mod messages;
 mod names;
 mod text;
 
+pub use controller::controller;
 pub use debugger::debugger;
 pub use edits::edits;
 pub use frames::frames;
@@ -27,6 +29,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("edits", edits),
     ("messages", messages),
     ("debugger", debugger),
+    ("controller", controller),
     ("frames", frames),
     ("settings", settings),
     ("layout", layout),

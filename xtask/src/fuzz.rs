@@ -23,6 +23,7 @@ const SEEDS: &[(&str, &[&str])] = &[
     ("scenario", &["plans/tests"]),
     ("messages", &[]),
     ("debugger", &[]),
+    ("controller", &[]),
     ("frames", &[]),
 ];
 

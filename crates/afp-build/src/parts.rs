@@ -31,6 +31,21 @@ impl<'a> Parts<'a> {
         Ok(parts)
     }
 
+    /// The parts that a plan needs on the hardware robot. A project may have no simulated robot.
+    ///
+    /// # Errors
+    /// Those of [`Parts::of_plans`]; the project has no hardware robot, or it has no crate.
+    pub fn of_plan_on_hardware(own: &'a OwnToolboxes, graph: &Graph) -> Result<Self, RunError> {
+        let robot = own.project.robot_for_hardware()?;
+        let mut parts = Parts::new(&own.project, robot.clone());
+        parts.add(robot.as_ref(), own.used_by(graph)?)?;
+        parts.hardware = own.project.hardware()?;
+        match parts.hardware {
+            Some(_) => Ok(parts),
+            None => Err(no_hardware(&own.project)),
+        }
+    }
+
     /// The robot of a project.
     ///
     /// # Errors
@@ -52,18 +67,6 @@ impl<'a> Parts<'a> {
 
     fn new(project: &'a ProjectFile, robot: Option<RobotLink>) -> Self {
         Parts { project, robot, hardware: None, toolboxes: Vec::new() }
-    }
-
-    /// Adds the hardware robot.
-    ///
-    /// # Errors
-    /// The project has none, or it has no crate.
-    pub fn with_hardware(mut self) -> Result<Self, RunError> {
-        self.hardware = self.project.hardware()?;
-        match self.hardware {
-            Some(_) => Ok(self),
-            None => Err(no_hardware(self.project)),
-        }
     }
 
     /// Adds the toolboxes of a plan for a robot.
@@ -136,8 +139,12 @@ impl<'a> Parts<'a> {
 pub fn no_hardware(project: &ProjectFile) -> RunError {
     match &project.project.robot {
         None => RunError::usage(
-            "the Carbot itself is not in this release: its plans run in simulation",
-            "a robot of your own has 'hardware' in '[robot]' of its afp.toml",
+            "the project has no real robot: its plans run in simulation",
+            "describe the robot's parts in afp.toml: '[robot]' with 'profile = \"carbot\"'",
+        ),
+        Some(robot) if robot.profile.is_some() => RunError::usage(
+            "built programs do not drive a robot with a profile",
+            "use 'afpc run --robot hardware' instead",
         ),
         Some(_) => RunError::usage(
             format!(

@@ -18,8 +18,7 @@ pub struct LinkOptions {
     pub origin: Origin,
     /// The path of the robot's type; the Carbot if `None`.
     pub robot: Option<String>,
-    /// The path of the hardware robot's type, for the command line; in addition to a simulated
-    /// robot of the project.
+    /// The path of the hardware robot's type, for the command line.
     pub hardware: Option<String>,
     /// The toolboxes: the name in `use`, and the path of the module with `templates`.
     pub toolboxes: Vec<(String, String)>,
@@ -116,7 +115,7 @@ fn profile<'l>(
 fn dependencies(options: &LinkOptions, ours: Dependency) -> Vec<Dependency> {
     let mut dependencies = options.dependencies.clone();
     dependencies.push(ours);
-    if options.robot.is_some() {
+    if options.robot.is_some() || options.hardware.is_some() {
         let built_in = ["afp-carbot", "afp-std"];
         dependencies.extend(built_in.map(|name| Dependency::ours(name, &options.origin)));
     }
@@ -190,7 +189,13 @@ fn program(options: &LinkOptions, declared: &[&Toolbox]) -> Result<String, Strin
             let opener = quote!(let hardware = afpc::hardware::<#sim, #ty, _>(#made););
             (opener, quote!(Some((#name, &hardware))))
         }
-        _ => (TokenStream::new(), quote!(None)),
+        (None, Some(name)) => {
+            let ty = tokens(name)?;
+            let made = register.on(Some(name))?;
+            let opener = quote!(let hardware = afpc::only_hardware::<#ty, _>(#made););
+            (opener, quote!(Some((#name, &hardware))))
+        }
+        (_, None) => (TokenStream::new(), quote!(None)),
     };
     Ok(file(quote! {
         #![doc = #about]
@@ -268,6 +273,24 @@ mod tests {
             let said = format!("[profile.release.package.{package}]\nopt-level = {level}\n");
             assert!(workspace.contains(&said), "'{said}' is not in Cargo.toml");
         }
+    }
+
+    #[test]
+    fn a_robot_without_a_simulation_is_linked_as_hardware() {
+        let options = LinkOptions {
+            package: "afp-runner".to_owned(),
+            origin: Origin::Version("0.1.0".to_owned()),
+            robot: None,
+            hardware: Some("arm::Board".to_owned()),
+            toolboxes: Vec::new(),
+            dependencies: Vec::new(),
+            features: Vec::new(),
+        };
+        let files = runner_files(&options, &[]).expect("the path is that of a type");
+        let (manifest, program) = (&files[0].1, &files[1].1);
+        assert!(manifest.contains("afp-carbot") && manifest.contains("afp-std"), "{manifest}");
+        assert!(program.contains("afpc::only_hardware::<arm::Board, _>"), "{program}");
+        assert!(program.contains("own_robot: None"), "{program}");
     }
 
     #[test]

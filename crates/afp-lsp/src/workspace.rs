@@ -185,6 +185,9 @@ impl Workspace {
         if let Some(name) = project.robot.as_ref().and_then(|robot| robot.toolbox.as_ref()) {
             toolboxes.set_robot(name);
         }
+        if let Some(profile) = project.profile() {
+            toolboxes.set_lacks(profile.lacks().into_iter().map(str::to_owned));
+        }
         if let Some(text) = own {
             toolboxes.add(Source::new(path, text), "own");
         }

@@ -8,9 +8,8 @@ use afp_output::read_text_file;
 
 use crate::krate::{self, CrateLink, HardwareLink, RobotLink};
 use crate::path::{NAME, shown};
-use crate::project::{Project, Toolbox};
+use crate::project::{Crate, Project, Robot, Toolbox};
 use crate::read::read;
-use crate::realtime::Realtime;
 
 /// A valid project file; empty if there is none.
 #[derive(Clone, Debug)]
@@ -127,36 +126,57 @@ impl ProjectFile {
         if mistakes.is_empty() { Ok(files) } else { Err(self.wrong(mistakes)) }
     }
 
-    /// The project's robot with its crate; `None` for the Carbot.
+    /// The project's simulated robot with its crate; `None` for the Carbot and for profiles, which
+    /// are built in.
     ///
     /// # Errors
-    /// The crate is missing on this machine, or differs from the file's entry.
+    /// There is only the real robot. The crate is missing on this machine, or differs from the
+    /// file's entry.
     pub fn robot(&self) -> Result<Option<RobotLink>, ProjectError> {
-        let Some(robot) = &self.project.robot else { return Ok(None) };
+        let Some(robot) = self.own_robot() else { return Ok(None) };
+        let (krate, file) = self.crate_of(robot);
+        let linked = krate::link_robot(&self.folder, robot, &krate, &file);
+        linked.map(Some).map_err(|mistake| self.wrong(vec![mistake]))
+    }
+
+    /// The robot for runs on hardware, as [`ProjectFile::robot`]; `None` too if there is no
+    /// simulated robot.
+    ///
+    /// # Errors
+    /// Those of [`ProjectFile::robot`] except the first.
+    pub fn robot_for_hardware(&self) -> Result<Option<RobotLink>, ProjectError> {
+        match self.own_robot() {
+            Some(robot) if robot.sim.is_none() => Ok(None),
+            _ => self.robot(),
+        }
+    }
+
+    /// The robot that the project's Rust implements.
+    fn own_robot(&self) -> Option<&Robot> {
+        self.project.robot.as_ref().filter(|robot| robot.profile.is_none())
+    }
+
+    /// The default crate of a robot, and the file in whose surroundings it is.
+    fn crate_of(&self, robot: &Robot) -> (Crate, PathBuf) {
         let toolboxes = &self.project.toolboxes;
         let is_of_robot = |toolbox: &&Toolbox| robot.toolbox.as_ref() == Some(&toolbox.name);
         let toolbox = toolboxes.iter().find(is_of_robot);
         let krate = robot.krate.as_ref().or_else(|| toolbox.map(|toolbox| &toolbox.krate));
-        let krate = krate.cloned().unwrap_or_default();
         let file = toolbox.map_or_else(|| self.path(), |toolbox| self.folder.join(&toolbox.path));
-        let linked = krate::link_robot(&self.folder, robot, &krate, &file);
-        linked.map(Some).map_err(|mistake| self.wrong(vec![mistake]))
+        (krate.cloned().unwrap_or_default(), file)
     }
 
     /// The hardware robot with its crate; `None` if there is only a simulated one.
     ///
     /// # Errors
-    /// As [`ProjectFile::robot`].
+    /// The crate is missing on this machine, or differs from the file's entry.
     pub fn hardware(&self) -> Result<Option<HardwareLink>, ProjectError> {
-        let hardware = self.project.robot.as_ref().and_then(|robot| robot.hardware.as_ref());
-        let (Some(hardware), Some(robot)) = (hardware, self.robot()?) else { return Ok(None) };
-        let linked = krate::link_hardware(&self.folder, hardware, robot.krate);
+        let Some(robot) = self.own_robot() else { return Ok(None) };
+        let Some(hardware) = &robot.hardware else { return Ok(None) };
+        let (krate, file) = self.crate_of(robot);
+        let linked = krate::link_hardware(&self.folder, hardware, &krate, &file);
         let mut linked = linked.map_err(|mistake| self.wrong(vec![mistake]))?;
-        let realtime = self.project.robot.iter().flat_map(|robot| &robot.realtime);
-        let named = |(name, value): &(String, String)| {
-            (format!("{}{name}", Realtime::PREFIX), value.clone())
-        };
-        linked.settings.extend(realtime.map(named));
+        linked.settings.extend(robot.of_control_loop());
         Ok(Some(linked))
     }
 

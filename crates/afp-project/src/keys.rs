@@ -1,18 +1,7 @@
 //! The keys of a project file, table by table, for reader and editors.
 
-/// A key of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Key {
-    pub name: &'static str,
-    /// A description in one sentence.
-    pub help: &'static str,
-    /// An example value.
-    pub example: &'static str,
-}
-
-const fn key(name: &'static str, help: &'static str, example: &'static str) -> Key {
-    Key { name, help, example }
-}
+use crate::key::{Key, key};
+use crate::profile::PROFILES;
 
 pub(crate) const PROJECT: &[Key] = &[
     key("run", "How the plans of the project run.", "[run]"),
@@ -47,6 +36,7 @@ pub(crate) const TOOLBOX: &[Key] = &[
 
 /// `[robot]`
 pub(crate) const ROBOT: &[Key] = &[
+    key("profile", "A robot made of parts from a shop, without Rust.", "profile = \"carbot\""),
     key(
         "toolbox",
         "The one of '[toolboxes]' that declares the robot's devices.",
@@ -116,6 +106,11 @@ pub(crate) const TARGET: &[Key] = &[
 
 /// The keys of a table, given by its path; empty for free names or an unknown table.
 pub fn keys(table: &[&str]) -> Vec<Key> {
+    let of_profile = match table {
+        ["robot"] => of_profiles(""),
+        ["robot", section] => of_profiles(section),
+        _ => Vec::new(),
+    };
     let lists: &[&[Key]] = match table {
         [] => &[PROJECT],
         ["run"] => &[RUN],
@@ -130,7 +125,18 @@ pub fn keys(table: &[&str]) -> Vec<Key> {
         ["target", _] => &[TARGET],
         _ => &[],
     };
-    lists.concat()
+    [lists.concat(), of_profile].concat()
+}
+
+/// The keys of a section of any profile; for `[robot]` itself also the sections.
+fn of_profiles(name: &str) -> Vec<Key> {
+    let sections = || PROFILES.iter().flat_map(|profile| profile.sections);
+    let own = sections().filter(|section| section.key.name == name);
+    let mut keys: Vec<Key> = own.flat_map(|it| it.settings).map(|setting| setting.key).collect();
+    if name.is_empty() {
+        keys.extend(sections().map(|section| section.key).filter(|key| !key.name.is_empty()));
+    }
+    keys
 }
 
 /// The only table that has a key with this name, if it occurs once in a file.

@@ -101,29 +101,37 @@ pub(crate) fn link_robot(
     file: &Path,
 ) -> Result<RobotLink, Mistake> {
     let wrong = |(message, help)| Mistake { span: Some(robot.span.clone()), message, help };
+    let sim = robot.sim.clone().ok_or_else(|| {
+        wrong((
+            "'[robot]' has no 'sim', so that plans run only on the robot itself".to_owned(),
+            "add '--robot hardware', or name the simulated robot: 'sim = \"Vacuum\"'".to_owned(),
+        ))
+    })?;
     let what = format!("'{}'", shown(file).display());
     let krate = find(folder, krate, "robot", (&what, file)).map_err(wrong)?;
-    Ok(RobotLink { toolbox: robot.toolbox.clone(), krate, sim: robot.sim.clone() })
+    Ok(RobotLink { toolbox: robot.toolbox.clone(), krate, sim })
 }
 
-/// Finds the hardware robot's crate for the project in `folder`; `krate` is the simulated robot's.
+/// Finds the hardware robot's crate for the project in `folder`. By default it is that of the
+/// toolbox or the project, `krate`; `file` is the toolbox file, or else the project file.
 ///
 /// # Errors
 /// As [`link`].
 pub(crate) fn link_hardware(
     folder: &Path,
     hardware: &Hardware,
-    krate: CrateLink,
+    krate: &Crate,
+    file: &Path,
 ) -> Result<HardwareLink, Mistake> {
     let Hardware { ty, settings, span, .. } = hardware;
     let wrong = |(message, help)| Mistake { span: Some(span.clone()), message, help };
     let project = folder.join(NAME);
+    let around = format!("'{}'", shown(file).display());
     let krate = match &hardware.krate {
-        Some(own) => {
-            find(folder, own, "hardware", ("the project file", &project)).map_err(wrong)?
-        }
-        None => krate,
+        Some(own) => find(folder, own, "hardware", ("the project file", &project)),
+        None => find(folder, krate, "robot", (&around, file)),
     };
+    let krate = krate.map_err(wrong)?;
     Ok(HardwareLink { krate, ty: ty.clone(), settings: settings.clone() })
 }
 

@@ -28,9 +28,11 @@
 //! ```
 
 mod file;
+mod key;
 mod keys;
 mod krate;
 mod path;
+mod profile;
 mod project;
 mod read;
 mod realtime;
@@ -40,9 +42,11 @@ mod tree;
 
 pub use afp_excerpt::Mistake;
 pub use file::{ProjectError, ProjectFile, ToolboxFile};
-pub use keys::{Key, keys};
+pub use key::Key;
+pub use keys::keys;
 pub use krate::{CrateLink, HardwareLink, RobotLink};
 pub use path::shown;
+pub use profile::{Of, PROFILES, Profile, ProfileRobot, Section, Setting};
 pub use project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
 pub use realtime::Realtime;

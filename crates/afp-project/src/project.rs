@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use crate::profile::ProfileRobot;
+use crate::realtime::Realtime;
+
 /// The content of `afp.toml`. Paths are relative to the file's folder.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Project {
@@ -18,6 +21,13 @@ pub struct Project {
     pub toolboxes: Vec<Toolbox>,
     /// The targets, in the order of the file.
     pub targets: Vec<Target>,
+}
+
+impl Project {
+    /// The profile of the robot, if it is made of parts.
+    pub fn profile(&self) -> Option<&ProfileRobot> {
+        self.robot.as_ref()?.profile.as_ref()
+    }
 }
 
 /// The origin of a crate.
@@ -45,21 +55,41 @@ pub struct Toolbox {
 }
 
 /// The robot of the project.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Robot {
+    /// The profile of a robot made of parts; it then has neither crate nor toolbox of its own.
+    pub profile: Option<ProfileRobot>,
     /// The toolbox with its devices.
     pub toolbox: Option<String>,
-    /// The type that implements `afp_session::Simulated`, relative to its crate's root.
-    pub sim: String,
+    /// The type that implements `afp_session::Simulated`, relative to its crate's root; `None` if
+    /// there is only the real robot.
+    pub sim: Option<String>,
     /// Its crate; defaults to the toolbox's, then to the crate around the project file.
     pub krate: Option<Crate>,
-    /// The hardware robot, in addition to the simulated one.
+    /// The hardware robot.
     pub hardware: Option<Hardware>,
     /// Settings of the control loop: names of [`Realtime`](crate::Realtime) and values, in the
     /// order of the file.
     pub realtime: Vec<(String, String)>,
     /// Byte range of the heading.
     pub span: Range<usize>,
+}
+
+impl Robot {
+    /// The settings of the control loop with their prefix.
+    pub(crate) fn of_control_loop(&self) -> impl Iterator<Item = (String, String)> {
+        let named = |(name, value): &(String, String)| {
+            (format!("{}{name}", Realtime::PREFIX), value.clone())
+        };
+        self.realtime.iter().map(named)
+    }
+
+    /// The settings of the real robot of a profile: its values, and those of the control loop with
+    /// their prefix.
+    pub fn profile_settings(&self) -> Option<Vec<(String, String)>> {
+        let values = &self.profile.as_ref()?.values;
+        Some(values.iter().cloned().chain(self.of_control_loop()).collect())
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,7 @@
 //! Parses a project file and reports all errors at once.
 
+mod profile;
+
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -8,7 +10,8 @@ use afp_excerpt::hidden::hidden;
 use afp_excerpt::words::instead;
 use toml_edit::{Document, Item, TableLike, Value};
 
-use crate::keys::{self, Key};
+use crate::key::Key;
+use crate::keys;
 use crate::project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
 use crate::realtime::Realtime;
 use crate::time::duration;
@@ -139,23 +142,37 @@ impl Reader {
 
     fn robot(&mut self, robot: &Pair<'_>, toolboxes: &[Toolbox]) -> Option<Robot> {
         let before = self.mistakes.len();
-        let (mut toolbox, mut sim, mut krate) = (None, None, None);
-        let (mut hardware, mut realtime) = (None, Vec::new());
-        for pair in self.table(robot, "a heading '[robot]'") {
+        let mut read = Robot { span: robot.span.clone(), ..Robot::default() };
+        let mut pairs = self.table(robot, "a heading '[robot]'");
+        if let Some(at) = pairs.iter().position(|pair| pair.key == "profile") {
+            let named = pairs.remove(at);
+            let profile = self.profile(&named)?;
+            if let Some(at) = pairs.iter().position(|pair| pair.key == "realtime") {
+                read.realtime = self.realtime(&pairs.remove(at));
+            }
+            read.profile = Some(self.profile_robot((&named, profile), pairs));
+            return Some(read);
+        }
+        for pair in pairs {
             match pair.key {
-                "toolbox" => toolbox = self.known_toolbox(&pair, toolboxes),
-                "sim" => sim = self.type_path(&pair),
-                "crate" => krate = Some(self.krate(&pair)),
-                "hardware" => hardware = self.hardware(&pair),
-                "realtime" => realtime = self.realtime(&pair),
+                "toolbox" => read.toolbox = self.known_toolbox(&pair, toolboxes),
+                "sim" => read.sim = self.type_path(&pair),
+                "crate" => read.krate = Some(self.krate(&pair)),
+                "hardware" => read.hardware = self.hardware(&pair),
+                "realtime" => read.realtime = self.realtime(&pair),
+                key if keys::keys(&["robot"]).iter().any(|known| known.name == key) => {
+                    let message = format!("'{key}' is a key of robots with a 'profile'");
+                    self.wrong(pair.span, message, "write 'profile = \"carbot\"'");
+                }
                 _ => self.unknown(&pair, "'[robot]'", keys::ROBOT),
             }
         }
-        if sim.is_none() && self.mistakes.len() == before {
-            let help = "write 'sim = \"Vacuum\"', the Rust type that implements 'Simulated'";
+        if read.sim.is_none() && read.hardware.is_none() && self.mistakes.len() == before {
+            let help = "write 'sim = \"Vacuum\"', the Rust type that implements 'Simulated', or \
+                        'profile = \"carbot\"' for a robot from parts";
             self.wrong(robot.span.clone(), "'[robot]' has no 'sim'".to_owned(), help);
         }
-        Some(Robot { toolbox, sim: sim?, krate, hardware, realtime, span: robot.span.clone() })
+        Some(read)
     }
 
     fn hardware(&mut self, hardware: &Pair<'_>) -> Option<Hardware> {

@@ -82,26 +82,26 @@ pub const RANDOM: &str = "random:";
 
 /// Finds the world of a plan: the requested file (a world, a map `.yaml` or `random:SEED`), else
 /// `[run] world` of `afp.toml`, else `worlds/<plan file>.toml` beside the plan's folder, else the
-/// built-in room.
+/// built-in room. A robot with a profile has the measures of the project in it.
 ///
 /// # Errors
-/// The requested file does not exist; the world is wrong.
+/// The requested file does not exist; the world or the project file is wrong.
 pub fn find(
     asked: Option<&Path>,
     plan: &Path,
     robot: &dyn AnyRobot,
 ) -> Result<LoadedWorld, RunError> {
-    if let Some(path) = asked {
-        return load(path, robot);
-    }
     let file = ProjectFile::of_plan(plan)?;
-    if let Some(path) = &file.project.world {
-        return load(&shown(&file.folder.join(path)), robot);
-    }
     let beside = beside(plan);
-    match beside.is_file() {
-        true => load(&tidy(&beside), robot),
-        false => parse(robot.default_world().to_owned(), None, "", robot),
+    let world = match (asked, &file.project.world) {
+        (Some(path), _) => load(path, robot),
+        (None, Some(path)) => load(&shown(&file.folder.join(path)), robot),
+        (None, None) if beside.is_file() => load(&tidy(&beside), robot),
+        (None, None) => parse(robot.default_world().to_owned(), None, "", robot),
+    }?;
+    match file.project.profile() {
+        Some(profile) => world.with(&profile.in_world(), robot),
+        None => Ok(world),
     }
 }
 

@@ -66,7 +66,7 @@ pub use not_set::{NotSet, refusal, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Next, Observer, Open, Sampling, View};
 pub use opened::Opened;
 #[cfg(feature = "load")]
-pub use opened::{Opener, hardware};
+pub use opened::{Opener, hardware, only_hardware};
 pub use queue::{QueueReader, QueueWriter, queue};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};

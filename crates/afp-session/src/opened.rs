@@ -71,6 +71,16 @@ where
     Kind::<H, F> { robot: std::marker::PhantomData, register }
 }
 
+/// Like [`hardware`], without a simulated robot.
+#[cfg(feature = "load")]
+pub const fn only_hardware<H, F>(register: F) -> impl Opener
+where
+    H: Hardware,
+    F: Fn(&mut Registry<H>) + Sync,
+{
+    Kind::<H, F> { robot: std::marker::PhantomData, register }
+}
+
 #[cfg(feature = "load")]
 impl<H: Hardware, F: Fn(&mut Registry<H>) + Sync> Opener for Kind<H, F> {
     fn open(&self, plan: &Graph, settings: &Settings) -> Result<Opened, SessionError> {

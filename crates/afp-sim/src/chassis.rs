@@ -12,6 +12,35 @@ pub(crate) const MASS: f64 = 4.7;
 /// The number of corners of a circle in pictures.
 const CORNERS: u32 = 32;
 
+/// The measures in which robots made of parts differ from the Carbot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measures {
+    /// Half the length and half the width of the body, in metres.
+    pub half: [f64; 2],
+    /// The driven wheels' distance ahead of the turning centre and to its sides, in metres. Wheels
+    /// ahead of it steer.
+    pub wheels: [f64; 2],
+    /// The top speed of a wheel's rim, in metres a second.
+    pub fastest: f64,
+    /// The distance from the turning centre ahead to the range sensor, in metres.
+    pub sonar: f64,
+}
+
+impl Measures {
+    /// The Carbot's measures.
+    pub const CARBOT: Measures = Measures {
+        half: [HALF_LENGTH, HALF_WIDTH],
+        wheels: [0.13, 0.14],
+        fastest: 0.31,
+        sonar: 0.10,
+    };
+
+    /// The chassis. Only its outline differs from the Carbot's.
+    pub(crate) fn chassis(&self) -> Chassis {
+        Chassis { shape: Footprint::Box(self.half), ..Chassis::CARBOT }
+    }
+}
+
 /// A robot's body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chassis {

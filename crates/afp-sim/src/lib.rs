@@ -28,7 +28,7 @@ pub mod world;
 
 pub use afp_carbot::table::{Defect, Fault};
 pub use afp_platform::VirtualClock;
-pub use chassis::{HALF_LENGTH, HALF_WIDTH};
+pub use chassis::{HALF_LENGTH, HALF_WIDTH, Measures};
 pub use film::Film;
 #[cfg(feature = "load")]
 pub use load::carbot;

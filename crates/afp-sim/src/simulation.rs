@@ -17,7 +17,7 @@ mod wall;
 pub use bare::Bare;
 pub use snapshot::{Snapshot, Sonar};
 
-use crate::chassis::Chassis;
+use crate::chassis::Measures;
 use crate::devices::sonar;
 use crate::scene::Scene;
 use crate::stage::{DT, STEP, Stage};
@@ -49,6 +49,7 @@ type SimulatedFlow = FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>
 #[derive(Clone)]
 pub struct Simulation {
     stage: Stage,
+    measures: Measures,
     start: Pose,
     now: Instant,
     steps: u64,
@@ -89,13 +90,15 @@ impl Simulation {
     /// # Errors
     /// An obstacle without an area; [`World::parse`] rejects it.
     pub fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
-        let stage = Stage::new(world, Chassis::CARBOT)?;
+        let measures = world.measures;
+        let stage = Stage::new(world, measures.chassis())?;
         Ok(Simulation {
             stage,
             start: world.start,
             now: Instant::ZERO,
             steps: 0,
-            drive: Drive::new(),
+            drive: Drive::new(&measures),
+            measures,
             sensors: Sensors::new(world, seed),
             bump: None,
             trail: Trail::new(),
@@ -187,6 +190,7 @@ impl Simulation {
             motion: (f64::from(body.linvel().length()), f64::from(body.angvel())),
             asked: self.drive.asked(),
             stage: &self.stage,
+            measures: self.measures,
             left_map: self.left_map,
             pictures: [
                 self.sensors.exposed_before.as_ref(),

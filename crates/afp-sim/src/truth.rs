@@ -2,7 +2,7 @@
 //!
 //! No device trait exposes it, so templates cannot read it.
 
-use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
+use crate::chassis::Measures;
 use crate::devices::camera::{self, Exposure};
 use crate::stage::{Collision, Stage};
 use afp_core::Instant;
@@ -17,6 +17,7 @@ use std::f64::consts::FRAC_PI_2;
 pub struct Truth<'a> {
     pub(crate) now: Instant,
     pub(crate) stage: &'a Stage,
+    pub(crate) measures: Measures,
     pub(crate) left_map: Option<Instant>,
     /// Metres and radians a second.
     pub(crate) motion: (f64, f64),
@@ -89,9 +90,8 @@ impl<'a> Truth<'a> {
     /// Distance from the body's right side to the nearest obstacle that is high enough for the
     /// range sensor, in metres; `None` in an empty world.
     pub fn right_side_gap(&self) -> Option<f64> {
-        let y = -HALF_WIDTH as f32;
-        let side =
-            Segment::new(Vector::new(-HALF_LENGTH as f32, y), Vector::new(HALF_LENGTH as f32, y));
+        let [x, y] = self.measures.half.map(|half| half as f32);
+        let side = Segment::new(Vector::new(-x, -y), Vector::new(x, -y));
         let gaps = self.stage.obstacles.iter().zip(&self.stage.shapes).filter_map(
             |(obstacle, (at, shape))| {
                 let high = self.stage.chassis.hears(obstacle.height);
@@ -107,8 +107,9 @@ impl<'a> Truth<'a> {
     /// where the nearest place is the corner behind the robot.
     pub fn right_side_wall(&self) -> Option<f64> {
         let gap = self.right_side_gap()?;
-        let most = HALF_WIDTH + BESIDE * gap;
+        let [length, width] = self.measures.half;
+        let most = width + BESIDE * gap;
         let is_near = |ahead: f64| self.stage.ray(ahead, -FRAC_PI_2, most).is_some();
-        [-HALF_LENGTH, 0.0, HALF_LENGTH].into_iter().any(is_near).then_some(gap)
+        [-length, 0.0, length].into_iter().any(is_near).then_some(gap)
     }
 }

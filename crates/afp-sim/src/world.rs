@@ -28,7 +28,7 @@ pub(crate) use outline::isometry;
 pub(crate) use session::shape;
 pub use world_of::{Body, NoTables, OwnTables, WorldOf};
 
-use crate::chassis::Chassis;
+use crate::chassis::{Chassis, Measures};
 use crate::truth::Pose;
 use rapier2d::parry::query;
 
@@ -41,6 +41,8 @@ pub struct World {
     pub start: Pose,
     /// The battery's charge at the start, above 0 up to 1.
     pub charge: f64,
+    /// The robot's measures: the Carbot's, unless the file has others.
+    pub measures: Measures,
     /// The appearance of the floor outside of patches.
     pub floor: Look,
     /// All obstacles, in the order of the file: walls, boxes, polygons.
@@ -123,7 +125,9 @@ impl World {
     /// The first error and its place: invalid TOML, an unknown or missing key, an invalid value, a
     /// robot that starts inside an obstacle or beyond the map.
     pub fn parse(text: &str) -> Result<World, WorldError> {
-        World::parse_for(&Chassis::CARBOT, text)
+        let (world, _) = file::read::<NoTables>(text)?;
+        let chassis = world.measures.chassis();
+        world.with_room_for(&chassis, text)
     }
 
     /// Like [`World::parse`], for a robot with another body.
@@ -137,11 +141,21 @@ impl World {
     /// Like [`World::parse_for`], for files with tables of only that robot.
     fn parse_with<O: OwnTables>(robot: &Chassis, text: &str) -> Result<(World, O), WorldError> {
         let (world, own) = file::read(text)?;
-        match world.no_start(robot, world.start) {
+        if world.measures != Measures::CARBOT {
+            let why = "this robot has measures of its own";
+            return Err(at_key(text, &["robot"], why.to_owned())
+                .with_help("write only 'pose_m_deg' and 'charge' here"));
+        }
+        Ok((world.with_room_for(robot, text)?, own))
+    }
+
+    /// The world, if the robot can start in it.
+    fn with_room_for(self, robot: &Chassis, text: &str) -> Result<World, WorldError> {
+        match self.no_start(robot, self.start) {
             Some(why) => Err(at_key(text, &["robot", "pose_m_deg"], why).with_help(
                 "choose another place for it, metres and degrees: 'pose_m_deg = [1.0, 2.0, 90]'",
             )),
-            None => Ok((world, own)),
+            None => Ok(self),
         }
     }
 
@@ -163,7 +177,7 @@ impl World {
 
     /// The first obstacle that overlaps a robot at this pose, at the start.
     pub fn obstacle_at(&self, pose: Pose) -> Option<&Obstacle> {
-        self.obstacle_in_way_of(&Chassis::CARBOT, pose)
+        self.obstacle_in_way_of(&self.measures.chassis(), pose)
     }
 
     /// Like [`World::obstacle_at`], for a robot with another body.

@@ -81,6 +81,9 @@ impl OwnToolboxes {
         if let Some(name) = self.of_robot() {
             toolboxes.set_robot(name);
         }
+        if let Some(profile) = self.project.project.profile() {
+            toolboxes.set_lacks(profile.lacks().into_iter().map(str::to_owned));
+        }
         match misnamed.is_empty() || toolboxes.diagnostics().has_errors() {
             true => Ok(toolboxes),
             false => Err(self.project.wrong(misnamed)),

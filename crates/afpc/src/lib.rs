@@ -12,6 +12,7 @@ mod no_plan;
 mod picture;
 mod plan_file;
 mod reader;
+mod real;
 mod runner;
 mod targets;
 mod toolchain;
@@ -21,7 +22,7 @@ use std::process::ExitCode;
 use afp_build::Parts;
 use afp_session::{Loader, Opener};
 
-pub use afp_session::{hardware, simulated};
+pub use afp_session::{hardware, only_hardware, simulated};
 pub use afp_sim::carbot;
 
 /// The names that runners use of the lower crates.
@@ -73,7 +74,7 @@ impl Linked<'_> {
 
     /// Whether a part of a project is linked in.
     fn is_runner(&self) -> bool {
-        self.own_robot.is_some() || !self.toolboxes.is_empty()
+        self.own_robot.is_some() || self.hardware.is_some() || !self.toolboxes.is_empty()
     }
 }
 

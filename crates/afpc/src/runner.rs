@@ -36,13 +36,11 @@ pub fn become_one_for<'a>(
 /// # Errors
 /// Those of [`become_one_for`], and a project without a hardware robot.
 pub fn become_one_with_hardware(
-    (own, graph): (&OwnToolboxes, &Graph),
+    own: &OwnToolboxes,
+    graph: &Graph,
     linked: &Linked<'_>,
 ) -> Result<(), NoPlan> {
-    match Parts::of_plans([(own, graph)])? {
-        None => Ok(()),
-        Some(parts) => become_one(parts.with_hardware()?, linked),
-    }
+    become_one(Parts::of_plan_on_hardware(own, graph)?, linked)
 }
 
 /// Whether this program has the robot and the toolboxes of a plan.

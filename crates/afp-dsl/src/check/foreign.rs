@@ -1,11 +1,11 @@
-//! Templates of other robots.
+//! Templates of other robots, and templates for missing parts of this robot.
 //!
 //! A robot has the devices of its toolbox. These may include devices of another robot's toolbox, by
 //! name; the robot then supports that toolbox's templates for them.
 
 use crate::check::signature::Signature;
 use crate::gather::Toolboxes;
-use crate::toolbox::{Device, DeviceKind, TemplateKind, Toolbox};
+use crate::toolbox::{Device, DeviceKind, Template, TemplateKind, Toolbox};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 use afp_syntax::source::Span;
@@ -23,7 +23,7 @@ pub(crate) fn check(
     };
     let Some(robot) = toolboxes.said_robot().filter(|_| toolboxes.is_of_another_robot(toolbox))
     else {
-        return;
+        return missing_part(toolboxes, (template, toolbox), used, diags);
     };
     let lacks = |device: &&Device| robot.devices.iter().all(|own| own.name != device.name);
     let commanded = |device: &&Device| template.uses.contains(&device.name);
@@ -70,6 +70,24 @@ pub(crate) fn check(
     diags.push(diagnostic.note(robot.span, "the toolbox of the robot that plans run on"));
 }
 
+/// Reports a template that commands a device of the robot's toolbox that this robot does not have.
+fn missing_part(
+    toolboxes: &Toolboxes,
+    (template, toolbox): (&Template, &Toolbox),
+    used: Span,
+    diags: &mut Diagnostics,
+) {
+    let commanded = toolbox.devices.iter().filter(|device| template.uses.contains(&device.name));
+    let Some(device) = commanded.into_iter().find(|device| toolboxes.lacks(&device.name)) else {
+        return;
+    };
+    let message =
+        message!("'{}' commands '{}', which the robot does not have", template.name, device.name);
+    let help = "use another template, or describe the part in '[robot]' of afp.toml";
+    let diagnostic = Diagnostic::new(Code::E0518, used, message).help(help);
+    diags.push(diagnostic.note(device.span, "declared here"));
+}
+
 fn sensors(toolbox: &Toolbox) -> impl Iterator<Item = &Device> {
     toolbox.devices.iter().filter(|device| device.kind == DeviceKind::Sensor)
 }
@@ -100,6 +118,18 @@ mod tests {
             compiled.sources.text(it.span).to_owned()
         });
         told.collect()
+    }
+
+    #[test]
+    fn a_missing_part_of_the_robot_is_reported_at_its_templates() {
+        let mut toolboxes: Toolboxes = [("crane.afp", CRANE, "crane")].into_iter().collect();
+        for (lacks, expected) in [("arm", vec!["Grip"]), ("eye", vec![])] {
+            toolboxes.set_lacks([lacks.to_owned()]);
+            let plan = Source::new("p.afp", PLAN);
+            let compiled = compile_plan(&plan, &toolboxes, &Texts::default(), None);
+            let told = compiled.diags.iter().map(|it| compiled.sources.text(it.span).to_owned());
+            assert_eq!(told.collect::<Vec<_>>(), expected, "{lacks}");
+        }
     }
 
     #[test]

@@ -16,6 +16,8 @@ pub struct Toolboxes {
     list: Vec<Arc<Toolbox>>,
     broken: Vec<Name>,
     robot: Option<String>,
+    /// Devices that the robot does not have although its toolbox declares them.
+    lacks: Vec<String>,
     sources: Sources,
     diags: Diagnostics,
     meanings: Meanings,
@@ -62,6 +64,16 @@ impl Toolboxes {
     /// plans.
     pub fn set_robot(&mut self, toolbox: &str) {
         self.robot = Some(toolbox.to_owned());
+    }
+
+    /// Sets the devices that the robot does not have although its toolbox declares them.
+    pub fn set_lacks(&mut self, devices: impl IntoIterator<Item = String>) {
+        self.lacks = devices.into_iter().collect();
+    }
+
+    /// Whether the robot does not have a device that its toolbox declares.
+    pub(crate) fn lacks(&self, device: &str) -> bool {
+        self.lacks.iter().any(|lacking| lacking == device)
     }
 
     /// The toolbox set by [`Self::set_robot`].

@@ -154,3 +154,15 @@ fn a_robot_without_a_crate_is_reported_at_its_heading() {
     assert!(text.contains("cannot read the manifest"), "{text}");
     assert!(text.contains("afp.toml:1:2"), "{text}");
 }
+
+#[test]
+fn a_robot_without_a_simulation_has_only_hardware() {
+    let text = "[robot]\nhardware = { type = 'Board', settings = { port = 'x' } }";
+    let folder = project(&[("afp.toml", text), ("Cargo.toml", "[package]\nname = \"arm\"\n")]);
+    let project = find(folder.path());
+    let hardware = project.hardware().unwrap().unwrap();
+    assert_eq!(hardware.rust_type(), "arm::Board");
+    assert_eq!(project.robot_for_hardware().unwrap(), None);
+    let why = project.robot().unwrap_err().to_string();
+    assert!(why.contains("no 'sim'") && why.contains("--robot hardware"), "{why}");
+}

@@ -108,9 +108,9 @@ fn a_robot_is_read_with_its_toolbox_above_or_below() {
     let vacuum = Some("vacuum".to_owned());
     let text =
         "[robot]\ntoolbox = 'vacuum'\nsim = 'sim::Vacuum'\n[toolboxes]\nvacuum.path = 'v.afp'";
-    assert_eq!(of(text), (vacuum, "sim::Vacuum".to_owned(), None));
+    assert_eq!(of(text), (vacuum, Some("sim::Vacuum".to_owned()), None));
     let text = "[robot]\nsim = 'Toy'\ncrate = { path = 'toy' }";
-    assert_eq!(of(text), (None, "Toy".to_owned(), Some(Origin::Path("toy".to_owned()))));
+    assert_eq!(of(text), (None, Some("Toy".to_owned()), Some(Origin::Path("toy".to_owned()))));
     assert_eq!(read("[run]").0.robot, None);
 }
 
@@ -174,4 +174,60 @@ fn characters_that_hide_something_are_named() {
     assert_eq!(wrong("# a comment\u{2028}[run]\n"), [separator.to_string()]);
     assert_eq!(wrong("[run]\nworld = 'a\u{202e}b'\n"), ["\u{202e}"]);
     assert_eq!(wrong("[run]\r\nworld = 'a'\r\n"), <[&str; 0]>::default());
+}
+
+/// A robot from parts, without the last lines of its tables.
+const PARTS: &str = "\
+[robot]
+profile = 'carbot'
+realtime.stall = '50 ms'
+[robot.body]
+length = '24 cm'
+width = '18 cm'
+[robot.drive]
+track = '14 cm'
+wheel_diameter = '65 mm'
+ticks = 1440
+fastest = '50 cm/s'
+";
+
+#[test]
+fn a_profile_describes_a_robot_with_defaults_and_what_it_lacks() {
+    let (project, mistakes) = read(&format!("{PARTS}[robot.bumper]\n"));
+    assert_eq!(mistakes, []);
+    let robot = project.robot.unwrap();
+    assert_eq!((robot.sim.as_ref(), robot.realtime.len()), (None, 1));
+    let settings = robot.profile_settings().unwrap();
+    let value = |name: &str| {
+        settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+    };
+    assert_eq!((value("port"), value("realtime.stall")), (Some("/dev/ttyACM0"), Some("50 ms")));
+    assert_eq!((value("bumper.closed"), value("button.closed")), (Some("free"), None));
+    let parts = robot.profile.unwrap();
+    assert_eq!(
+        (parts.number("drive.track"), parts.number("drive.ticks")),
+        (Some(0.14), Some(1440.0))
+    );
+    assert_eq!((parts.number("drive.ramp"), parts.number("drive.x")), (Some(0.15), None));
+    let lacks = parts.lacks();
+    assert!(lacks.contains(&"camera") && lacks.contains(&"rotator") && lacks.contains(&"buttons"));
+    assert!(!lacks.contains(&"touch"));
+}
+
+#[test]
+fn what_is_wrong_with_a_profile_is_named_at_its_place() {
+    assert_eq!(wrong("[robot]\nprofile = 'carbott'"), ["'carbott'"]);
+    assert_eq!(wrong("[robot]\nprofile = 3"), ["3"]);
+    let with = |more: &str| format!("{PARTS}{more}");
+    assert_eq!(wrong(&with("trak = 3\n")), ["trak"]);
+    assert_eq!(wrong(&with("ramp = '2 s'\n")), ["'2 s'"]);
+    assert_eq!(wrong(&with("[robot.bumper]\nclosed = 'open'\n")), ["'open'"]);
+    assert_eq!(wrong(&with("[robot.bumpr]\n")), ["bumpr"]);
+    assert_eq!(wrong(&with("[robot.ultrasonic]\n")), ["ultrasonic"]);
+    assert_eq!(wrong(&PARTS.replace("ticks = 1440\n", "")), ["drive"]);
+    let sim = PARTS.replace("realtime.stall = '50 ms'", "sim = 'Vacuum'\nport = 7");
+    assert_eq!(wrong(&sim), ["sim"]);
+    // Both tables are missing.
+    assert_eq!(wrong("[robot]\nprofile = 'carbot'"), ["'carbot'", "'carbot'"]);
+    assert_eq!(wrong("[robot]\ntoolbox = 'v'\n[toolboxes]\nv.path = 'v.afp'"), ["robot"]);
 }

@@ -4,7 +4,7 @@
 //! wheels slip, and the counts are noisy.
 
 use crate::noise::{Noise, Source};
-use crate::vehicle::wheel::{WHEEL_X, WHEEL_Y, Wheel};
+use crate::vehicle::wheel::Wheel;
 use afp_carbot::devices::Motion;
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 
@@ -45,8 +45,9 @@ impl Odometer {
     pub(crate) fn step(&mut self, wheels: &[Wheel; 2], dt: f64) {
         let ((left_x, left_y), (right_x, right_y)) = (wheels[0].velocity(), wheels[1].velocity());
         // The least-squares motion of the body for both wheels.
-        let across = WHEEL_Y * (right_x - left_x) + WHEEL_X * (left_y + right_y);
-        let turn = across / (2.0 * (WHEEL_X * WHEEL_X + WHEEL_Y * WHEEL_Y));
+        let [x, y] = wheels[0].at();
+        let across = y * (right_x - left_x) + x * (left_y + right_y);
+        let turn = across / (2.0 * (x * x + y * y));
         let speed = (left_x + right_x) / 2.0;
         if speed == 0.0 && turn == 0.0 {
             (self.speed, self.turn) = (0.0, 0.0);

@@ -10,8 +10,6 @@ use afp_carbot::devices::Beam;
 use afp_core::Duration;
 use afp_core::quantity::{Angle, Length};
 
-/// The distance of the rotator's axis ahead of the turning centre, in metres.
-pub(crate) const FORWARD: f64 = 0.10;
 /// The interval between pings.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
 /// The number of rays in the cone.
@@ -54,9 +52,10 @@ pub(crate) const CARBOT: RangeModel = RangeModel {
     lost: [0.01, 0.4],
 };
 
-pub(crate) fn beam() -> Beam {
+/// The beam of the Carbot's sensor at this distance ahead of the turning centre, in metres.
+pub(crate) fn beam(forward: f64) -> Beam {
     Beam {
-        forward: Length::from_si(FORWARD),
+        forward: Length::from_si(forward),
         opening: Angle::from_si(CARBOT.opening),
         min: Length::from_si(MIN),
         max: Length::from_si(MAX),

@@ -1,6 +1,6 @@
 //! Only the engine: the baseline for benchmarks of the simulation.
 
-use crate::chassis::Chassis;
+use crate::chassis::Measures;
 use crate::devices::sonar;
 use crate::stage::{Built, HIGH, ROBOT, build};
 use crate::truth::Pose;
@@ -20,7 +20,7 @@ impl Bare {
     /// # Errors
     /// As for [`crate::Simulation::new`].
     pub fn new(world: &World) -> Result<Self, WorldError> {
-        let Built { mut physics, body, .. } = build(world, &Chassis::CARBOT)?;
+        let Built { mut physics, body, .. } = build(world, &world.measures.chassis())?;
         physics.bodies[body].set_linvel(Vector::new(0.01, 0.0), true);
         Ok(Bare { physics })
     }
@@ -36,7 +36,7 @@ impl Bare {
         let heard = InteractionGroups::new(ROBOT, HIGH, InteractionTestMode::And);
         let queries = self.physics.query_pipeline_with_filter(QueryFilter::new().groups(heard));
         let (sin, cos) = libm::sincos(from.heading);
-        let ahead = sonar::FORWARD;
+        let ahead = Measures::CARBOT.sonar;
         let origin = Vector::new((from.x + ahead * cos) as f32, (from.y + ahead * sin) as f32);
         let rays = (0..sonar::RAYS).map(|i| {
             let (sin, cos) = libm::sincos(from.heading + bearing + i as f64 * 0.06 - 0.24);

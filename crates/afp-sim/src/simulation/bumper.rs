@@ -3,7 +3,6 @@
 
 use super::Simulation;
 use super::sensors::Raw;
-use crate::chassis::HALF_LENGTH;
 use crate::world::is_beyond;
 use afp_carbot::devices::{Bump, Navigator};
 use afp_core::Instant;
@@ -14,7 +13,8 @@ const WRAP: f64 = 0.02;
 impl Simulation {
     pub(super) fn feel(&mut self, now: Instant) {
         let mut touched = false;
-        self.stage.feel(now, |touch| touched |= touch.at[0] > HALF_LENGTH - WRAP);
+        let front = self.measures.half[0];
+        self.stage.feel(now, |touch| touched |= touch.at[0] > front - WRAP);
         self.sensors.switch.step(touched);
     }
 

@@ -1,8 +1,6 @@
 //! The Carbot's devices in the simulation, except the sensors.
 
 use super::Simulation;
-use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
-use crate::vehicle::drive::reduced;
 use afp_carbot::Path;
 use afp_carbot::devices::{
     Belief, Body, Localisation, Navigator, Odometry, PathPlanner, Reading, Rotator, Signals, Trip,
@@ -47,7 +45,7 @@ impl Navigator for Simulation {
     }
 
     fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
-        let (speed, turn) = reduced(speed.si(), turn.si());
+        let (speed, turn) = self.drive.reduced(speed.si(), turn.si());
         (Speed::from_si(speed), AngularSpeed::from_si(turn))
     }
 
@@ -56,11 +54,8 @@ impl Navigator for Simulation {
     }
 
     fn body(&self) -> Body {
-        Body {
-            front: Length::from_si(HALF_LENGTH),
-            rear: Length::from_si(HALF_LENGTH),
-            half_width: Length::from_si(HALF_WIDTH),
-        }
+        let [length, half_width] = self.measures.half.map(Length::from_si);
+        Body { front: length, rear: length, half_width }
     }
 }
 

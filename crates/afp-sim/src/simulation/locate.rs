@@ -10,7 +10,7 @@ use super::sensors::Raw;
 use crate::devices::sonar;
 use crate::truth::Pose;
 use crate::world::isometry;
-use afp_carbot::devices::Navigator;
+use afp_carbot::devices::{Navigator, Ultrasonic};
 use afp_carbot::table::signal;
 use afp_core::Instant;
 use afp_navigation::maps::{Filter, LocateJob, Locator, Planner, SearchJob};
@@ -31,21 +31,22 @@ impl Simulation {
     /// The localisation, created on first use. It knows the map and the start, like a robot that
     /// somebody puts down, and no other ground truth.
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
+        let beam = self.beam();
         let Simulation { locator, audible, stage, start, seed, .. } = self;
         locator.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles, &stage.chassis, &sonar::beam());
-            let filter = Filter::new(field, &sonar::beam(), *start, *seed);
+            let field = audible.field(&stage.obstacles, &stage.chassis, &beam);
+            let filter = Filter::new(field, &beam, *start, *seed);
             Box::new(Locator::new(VirtualWorker::new([LocateJob::new(filter)]), *start))
         })
     }
 
     /// The path planner, created on first use, on the same map.
     pub(super) fn planner(&mut self) -> &mut SimulatedPlanner {
-        let body = self.body();
+        let (body, beam) = (self.body(), self.beam());
         let Simulation { planner, audible, stage, .. } = self;
         planner.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles, &stage.chassis, &sonar::beam());
-            Box::new(Planner::new(field, &body, sonar::beam().forward, VirtualWorker::new))
+            let field = audible.field(&stage.obstacles, &stage.chassis, &beam);
+            Box::new(Planner::new(field, &body, beam.forward, VirtualWorker::new))
         })
     }
 

@@ -199,7 +199,7 @@ impl Ultrasonic for Simulation {
     }
 
     fn beam(&self) -> Beam {
-        sonar::beam()
+        sonar::beam(self.measures.sonar)
     }
 }
 

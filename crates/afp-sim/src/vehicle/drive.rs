@@ -1,25 +1,24 @@
 //! The drive: the controller for driving commands, and the wheels' effect on the body.
 //!
-//! Two wheels in front steer and drive independently, and two castors follow. The controller turns
+//! Two wheels in front steer and drive independently, and two castors follow. Wheels on the axis of
+//! the turning centre only drive, with castors at both ends. The controller turns
 //! a command (speed, turn rate) into the direction and speed of each wheel. It stops the robot if
 //! the commands cease.
 
 use super::floor::{Demand, Footing};
-use super::wheel::{WHEEL_X, WHEEL_Y, Wheel};
+use super::wheel::Wheel;
 use super::{Push, Twist};
-use crate::chassis::Chassis;
-use crate::chassis::MASS;
+use crate::chassis::{MASS, Measures};
 use afp_core::{Duration, Instant};
 
 /// Without a new command for this time, the controller stops the robot.
 pub(crate) const DEAD_MAN: Duration = Duration::from_millis(200);
-/// The top speed of a wheel's rim and of the robot, in metres a second.
-const TOP_SPEED: f64 = 0.31;
 /// A castor's rolling resistance, in newtons.
 const ROLLING: f64 = 0.02 * MASS * 9.81 / 4.0;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Drive {
+    measures: Measures,
     wheels: [Wheel; 2],
     /// The contacts of the wheels, then of the castors.
     footing: Footing<4>,
@@ -47,19 +46,17 @@ impl Default for Health {
 }
 
 impl Drive {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(measures: &Measures) -> Self {
+        let [x, y] = measures.wheels;
+        let inertia = measures.chassis().inertia();
+        let castors = match x > 0.0 {
+            true => [(-x, y), (-x, -y)],
+            false => [(measures.half[0], 0.0), (-measures.half[0], 0.0)],
+        };
         Drive {
-            wheels: [Wheel::new(WHEEL_Y), Wheel::new(-WHEEL_Y)],
-            footing: Footing::new(
-                MASS,
-                Chassis::CARBOT.inertia(),
-                [
-                    (WHEEL_X, WHEEL_Y),
-                    (WHEEL_X, -WHEEL_Y),
-                    (-WHEEL_X, WHEEL_Y),
-                    (-WHEEL_X, -WHEEL_Y),
-                ],
-            ),
+            measures: *measures,
+            wheels: [Wheel::new([x, y]), Wheel::new([x, -y])],
+            footing: Footing::new(MASS, inertia, [(x, y), (x, -y), castors[0], castors[1]]),
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
             asked: (0.0, 0.0),
@@ -86,8 +83,13 @@ impl Drive {
             return;
         }
         self.commanded = now;
-        let (speed, turn) = reduced(speed, turn);
+        let (speed, turn) = self.reduced(speed, turn);
         self.obey(speed, turn);
+    }
+
+    /// The command as the wheels follow it.
+    pub(crate) fn reduced(&self, speed: f64, turn: f64) -> (f64, f64) {
+        reduced(&self.measures, speed, turn)
     }
 
     /// Blocks the wheels immediately.
@@ -138,11 +140,12 @@ impl Drive {
 }
 
 /// The command on the same curve, reduced so that no wheel exceeds the top speed.
-pub(crate) fn reduced(speed: f64, turn: f64) -> (f64, f64) {
+fn reduced(measures: &Measures, speed: f64, turn: f64) -> (f64, f64) {
+    let [x, y] = measures.wheels;
     // The sum of quarters of two finite values is always finite.
-    let (ahead, across) = (speed.abs() / 4.0 + turn.abs() / 4.0 * WHEEL_Y, turn / 4.0 * WHEEL_X);
+    let (ahead, across) = (speed.abs() / 4.0 + turn.abs() / 4.0 * y, turn / 4.0 * x);
     let outer = libm::hypot(ahead, across);
-    let top = TOP_SPEED / 4.0;
+    let top = measures.fastest / 4.0;
     if outer <= top {
         return (speed, turn);
     }
@@ -153,16 +156,20 @@ pub(crate) fn reduced(speed: f64, turn: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
+    const CARBOT: Measures = Measures::CARBOT;
+    const TOP_SPEED: f64 = CARBOT.fastest;
+
     /// The speed of the faster wheel's rim for a command.
     fn rim((speed, turn): (f64, f64)) -> f64 {
-        let at = |y: f64| (speed - turn * y).hypot(turn * WHEEL_X);
-        at(WHEEL_Y).max(at(-WHEEL_Y))
+        let [x, y] = CARBOT.wheels;
+        let at = |y: f64| (speed - turn * y).hypot(turn * x);
+        at(y).max(at(-y))
     }
 
     #[test]
     fn a_command_within_the_limits_is_not_changed() {
         for command in [(0.0, 0.0), (TOP_SPEED, 0.0), (-TOP_SPEED, 0.0), (0.2, -0.6), (0.0, 1.6)] {
-            assert_eq!(reduced(command.0, command.1), command);
+            assert_eq!(reduced(&CARBOT, command.0, command.1), command);
         }
     }
 
@@ -170,7 +177,7 @@ mod tests {
     fn a_reduced_command_has_one_wheel_at_top_speed_and_the_same_radius() {
         for speed in [0.31, -0.31, 0.2, 0.05, 5.0, -1e300, f64::MAX] {
             for turn in [1.8, -1.8, 3.0, 1e3, -f64::MAX] {
-                let (slower, slighter) = reduced(speed, turn);
+                let (slower, slighter) = reduced(&CARBOT, speed, turn);
                 let what = format!("{speed} m/s, {turn} rad/s: {slower} m/s, {slighter} rad/s");
                 assert!((rim((slower, slighter)) - TOP_SPEED).abs() < 1e-9, "{what}");
                 let (radius, wanted) = (slower / slighter, speed / turn);

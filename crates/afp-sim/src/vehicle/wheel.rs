@@ -6,9 +6,6 @@ use super::floor::{Demand, Motor};
 use super::servo::Servo;
 use crate::chassis::MASS;
 
-/// The wheels' distance ahead of the turning centre and to its sides, in metres.
-pub(crate) const WHEEL_X: f64 = 0.13;
-pub(crate) const WHEEL_Y: f64 = 0.14;
 /// The time constant of a motor, in seconds, and its maximum acceleration, in metres a second
 /// squared.
 const MOTOR_LAG: f64 = 0.06;
@@ -27,7 +24,8 @@ const HELD: f64 = 0.005;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Wheel {
-    pub(super) y: f64,
+    /// The distance ahead of the turning centre and to its left, in metres.
+    at: [f64; 2],
     steering: Servo,
     /// The rolling direction.
     direction: (f64, f64),
@@ -39,15 +37,20 @@ pub(crate) struct Wheel {
 }
 
 impl Wheel {
-    pub(super) fn new(y: f64) -> Self {
+    pub(super) fn new(at: [f64; 2]) -> Self {
         Wheel {
-            y,
+            at,
             steering: Servo::new(STEER_REACH, STEER_RATE),
             direction: (1.0, 0.0),
             speed: 0.0,
             wanted: (0.0, 0.0),
             stalled: false,
         }
+    }
+
+    /// The distance ahead of the turning centre and to its left, in metres.
+    pub(crate) fn at(&self) -> [f64; 2] {
+        self.at
     }
 
     /// The rim's velocity in the body's frame, as in the wheel counter.
@@ -57,7 +60,7 @@ impl Wheel {
 
     /// Sets the contact's velocity from the body's commanded motion.
     pub(super) fn obey(&mut self, speed: f64, turn: f64) {
-        let (x, y) = (speed - turn * self.y, turn * WHEEL_X);
+        let (x, y) = (speed - turn * self.at[1], turn * self.at[0]);
         self.wanted = (x, y);
         if x * x + y * y < 1e-8 {
             return;

@@ -50,13 +50,19 @@ fn map(obstacles: &[Obstacle], robot: &Chassis) -> Map {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chassis::Measures;
     use crate::devices::sonar;
 
     #[test]
     fn copies_share_the_field_until_their_obstacles_differ() {
         let world = World::random(3);
-        let of =
-            |world: &World| world.audible.field(&world.obstacles, &Chassis::CARBOT, &sonar::beam());
+        let of = |world: &World| {
+            world.audible.field(
+                &world.obstacles,
+                &Chassis::CARBOT,
+                &sonar::beam(Measures::CARBOT.sonar),
+            )
+        };
         let (one, other) = (of(&world), of(&world.clone()));
         assert!(one.shares_with(&other));
         let mut emptier = world.clone();

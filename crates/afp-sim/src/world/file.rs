@@ -10,6 +10,7 @@ use super::{
     Audible, Light, Look, Mobility, Obstacle, Outline, OwnTables, Patch, Path, Rgb, Texture, World,
     WorldError,
 };
+use crate::chassis::Measures;
 use crate::truth::Pose;
 use afp_excerpt::hidden::hidden;
 use afp_excerpt::words::{list, nearest};
@@ -58,6 +59,7 @@ pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
     let robot = root.at("robot");
     let start = check.pose(&robot.at("pose_m_deg"), file.robot.pose_m_deg)?;
     let charge = check.share(&robot.at("charge"), file.robot.charge)?;
+    let measures = check.measures(&robot, &file.robot)?;
     let floor = root.at("floor");
     let floor = check.look(&floor, FLOOR_COLOR, file.floor.color, file.floor.texture)?;
     let mut obstacles = Vec::new();
@@ -83,6 +85,7 @@ pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
         name: file.name,
         start,
         charge,
+        measures,
         floor,
         obstacles,
         patches: patches.collect::<Result<_, _>>()?,
@@ -101,6 +104,31 @@ fn wrong(error: &Error) -> WorldError {
 }
 
 impl Check<'_> {
+    /// The robot's measures: without a key, the Carbot's. With a track, the wheels do not steer.
+    fn measures(&self, key: &Key, robot: &tables::Robot) -> Result<Measures, WorldError> {
+        let measure = |name: &str, value: Option<f64>, usual: f64| match value {
+            Some(value) => self.positive(&key.at(name), &[value]).map(|()| value),
+            None => Ok(usual),
+        };
+        let usual = Measures::CARBOT;
+        let [length, width] = usual.half.map(|half| 2.0 * half);
+        let length = measure("length_m", robot.length_m, length)?;
+        let width = measure("width_m", robot.width_m, width)?;
+        let wheels = match robot.track_m {
+            Some(track) => [0.0, measure("track_m", Some(track), track)? / 2.0],
+            None => usual.wheels,
+        };
+        let fastest = measure("fastest_m_s", robot.fastest_m_s, usual.fastest)?;
+        if fastest > FASTEST {
+            let message = format!("{} is more than {FASTEST}", number(fastest));
+            let help = format!("write at most {FASTEST}");
+            return Err(self.error(&key.at("fastest_m_s"), &message, help));
+        }
+        let sonar = robot.sonar_m.unwrap_or(usual.sonar);
+        self.not_negative(&key.at("sonar_m"), sonar)?;
+        Ok(Measures { half: [length / 2.0, width / 2.0], wheels, fastest, sonar })
+    }
+
     fn wall(
         &self,
         key: &Key,

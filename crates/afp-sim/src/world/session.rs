@@ -33,15 +33,15 @@ impl afp_session::World for World {
     }
 
     fn started_at(&self, start: Pose) -> Result<Self, WorldError> {
-        self.started_with(&Chassis::CARBOT, start)
+        self.started_with(&self.measures.chassis(), start)
     }
 
     fn scene(&self) -> Vec<Shape> {
-        self.scene_with(&Chassis::CARBOT)
+        self.scene_with(&self.measures.chassis())
     }
 
     fn drawing(&self) -> Drawing {
-        self.drawing_with(&Chassis::CARBOT)
+        self.drawing_with(&self.measures.chassis())
     }
 }
 

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use afp_build::{crate_folder, origin};
 use afp_codegen::Origin;
-use afp_excerpt::words::shell_file;
-use afp_project::ProjectFile;
+use afp_excerpt::words::{instead, shell_file};
+use afp_project::{PROFILES, ProjectFile};
 use afp_run::{EXIT_OK, RunError, write_whole};
 use clap::Args;
 
@@ -30,24 +30,25 @@ pub struct Arguments {
     /// Add a robot, in Rust: its toolbox and its simulation
     #[arg(long)]
     robot: bool,
+
+    /// Describe a real robot made of parts, without Rust: 'carbot'
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["robot", "toolbox"])]
+    profile: Option<String>,
 }
 
 pub const EXAMPLES: &str = "\
 Examples:
   afpc new patrol
   afpc new greeter --toolbox
-  afpc new rover --robot";
+  afpc new rover --robot
+  afpc new mycar --profile carbot";
 
 /// Creates the project.
 ///
 /// # Errors
 /// The name is invalid, the folder exists, a file cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
-    let kind = match (arguments.toolbox, arguments.robot) {
-        (true, _) => Kind::Toolbox,
-        (_, true) => Kind::Robot,
-        _ => Kind::Plan,
-    };
+    let kind = kind(arguments)?;
     let folder = &arguments.folder;
     // '.' and '..' get the name of the folder that they lead to.
     let whole = folder.canonicalize().ok().filter(|_| folder.file_name().is_none());
@@ -55,7 +56,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
     // A plan needs no crate, and therefore no path to the afp crates.
     let afp = match kind {
-        Kind::Plan => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
+        Kind::Plan | Kind::Carbot => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
         Kind::Toolbox | Kind::Robot => origin::of_afp(&around(folder)?)?,
     };
     let files = files::files(&name, kind, &origin::as_written(afp.clone()))?;
@@ -73,9 +74,27 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         }
         return Err(why.into());
     }
-    let pinned = if kind == Kind::Plan { None } else { crate_folder::pin(folder, &afp)? };
+    let pinned = if kind.has_crate() { crate_folder::pin(folder, &afp)? } else { None };
     print(&next(folder, &files, pinned, kind))?;
     Ok(EXIT_OK)
+}
+
+/// The kind of the project.
+///
+/// # Errors
+/// There is no such profile.
+fn kind(arguments: &Arguments) -> Result<Kind, RunError> {
+    let Some(name) = &arguments.profile else {
+        return Ok(match (arguments.toolbox, arguments.robot) {
+            (true, _) => Kind::Toolbox,
+            (_, true) => Kind::Robot,
+            _ => Kind::Plan,
+        });
+    };
+    Kind::of_profile(name).ok_or_else(|| {
+        let help = instead(name, PROFILES.iter().map(|profile| profile.name));
+        RunError::usage(format!("no profile '{name}'"), help)
+    })
 }
 
 /// Writes the files below a folder, and creates the folder.
@@ -103,8 +122,11 @@ fn next(folder: &Path, files: &[files::File], pinned: Option<&str>, kind: Kind) 
     let mut text: String = paths.map(|path| format!("{}\n", folder.join(path).display())).collect();
     let folder = shell_file(&folder.display().to_string());
     text += &format!("\nNext:\n  cd {folder}\n  afpc run {plan}\n  afpc test\n");
-    if kind != Kind::Plan {
+    if kind.has_crate() {
         text += "  cargo test\n";
+    }
+    if kind == Kind::Carbot {
+        text += &format!("  afpc run {plan} --robot hardware\n");
     }
     text
 }

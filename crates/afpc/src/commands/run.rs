@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use afp_build::no_hardware;
 use afp_run::options::{OnRobot, RunOptions};
 use afp_run::{Program, RunError, check_apart, toolbox_attachment};
 use afp_session::{AnyWorld, Settings};
@@ -12,7 +11,7 @@ use clap::Args;
 use crate::no_plan::NoPlan;
 use crate::picture;
 use crate::plan_file::PlanFile;
-use crate::{Linked, early, runner};
+use crate::{Linked, early, real, runner};
 
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
@@ -53,7 +52,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     early::check(&file, &arguments.options, linked)?;
     let itself = arguments.options.robot == OnRobot::Hardware;
     match &file.compiled.graph {
-        Some(graph) if itself => runner::become_one_with_hardware((&file.own, graph), linked)?,
+        Some(graph) if itself => real::link(&file.own, graph, linked)?,
         graph => runner::become_one_for(graph.iter().map(|graph| (&file.own, graph)), linked)?,
     }
     let (file, graph) = file.checked()?;
@@ -63,8 +62,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let mut texts = file.compiled.plan_texts();
     texts.extend(file.own.texts().map(|(name, text)| (toolbox_attachment(name), text.to_owned())));
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
-    let hardware = if itself { file.own.project.hardware().map_err(RunError::from)? } else { None };
-    let settings = hardware.map(|hardware| hardware.settings).unwrap_or_default();
+    let settings = if itself { real::settings(&file.own.project)? } else { Vec::new() };
     let settings: Vec<_> =
         settings.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
     let name = &graph.main().name;
@@ -72,8 +70,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);
     let (options, pixels) = (&arguments.options, Some(&pixels as _));
     if itself {
-        let (_, opener) = linked.hardware.ok_or_else(|| no_hardware(&file.own.project))?;
-        let open = |settings: &Settings| opener.open(&graph, settings);
+        let open = |settings: &Settings| real::open(&file.own.project, &graph, settings, linked);
         return Ok(afp_run::run_on_hardware(&program, Box::new(open), options, pixels)?);
     }
     let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {

@@ -21,6 +21,8 @@ mod new;
 #[cfg(unix)]
 mod outputs;
 mod own_toolboxes;
+#[cfg(all(feature = "pi", unix))]
+mod profile;
 mod run;
 mod sweep;
 #[cfg(target_os = "linux")]

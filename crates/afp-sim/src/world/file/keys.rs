@@ -64,7 +64,15 @@ pub(super) const WORLD: &[Key] = &[
     maybe("map", One(MAP), "[map]"),
 ];
 
-const ROBOT: &[Key] = &[POSE, maybe("charge", Number, "charge = 0.5")];
+const ROBOT: &[Key] = &[
+    POSE,
+    maybe("charge", Number, "charge = 0.5"),
+    maybe("length_m", Number, "length_m = 0.24"),
+    maybe("width_m", Number, "width_m = 0.18"),
+    maybe("track_m", Number, "track_m = 0.14"),
+    maybe("fastest_m_s", Number, "fastest_m_s = 0.5"),
+    maybe("sonar_m", Number, "sonar_m = 0.08"),
+];
 
 const WALL: &[Key] = &[
     NAME,

@@ -35,6 +35,11 @@ pub(super) struct Map {
 pub(super) struct Robot {
     pub(super) pose_m_deg: [f64; 3],
     pub(super) charge: Option<f64>,
+    pub(super) length_m: Option<f64>,
+    pub(super) width_m: Option<f64>,
+    pub(super) track_m: Option<f64>,
+    pub(super) fastest_m_s: Option<f64>,
+    pub(super) sonar_m: Option<f64>,
 }
 
 #[derive(Default, Deserialize)]

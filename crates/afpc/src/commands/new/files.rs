@@ -1,4 +1,4 @@
-//! New projects as texts: a plan for the Carbot, a toolbox, or a robot.
+//! New projects as texts: a plan for the Carbot, a toolbox, a robot, or a robot made of parts.
 //!
 //! Each project can be checked, run and tested without changes. Nothing here writes a file: the
 //! command line and editors do.
@@ -20,6 +20,20 @@ pub enum Kind {
     Toolbox,
     /// A simulated robot with its toolbox, and a plan for it.
     Robot,
+    /// A robot made of parts, and a plan for it.
+    Carbot,
+}
+
+impl Kind {
+    /// The kind of a profile.
+    pub fn of_profile(name: &str) -> Option<Kind> {
+        (name == "carbot").then_some(Kind::Carbot)
+    }
+
+    /// Whether the project contains Rust.
+    pub fn has_crate(self) -> bool {
+        matches!(self, Kind::Toolbox | Kind::Robot)
+    }
 }
 
 /// A file of a project.
@@ -44,6 +58,13 @@ const PLAN: &[Draft] = drafts! { "plan":
     "plans/{{name}}.afp" from "plan.afp",
     "plans/tests/{{name}}.afp" from "scenarios.afp",
     "worlds/{{name}}.toml" from "world.toml",
+};
+
+const CARBOT: &[Draft] = drafts! { "carbot":
+    "afp.toml" from "afp.toml",
+    "plans/{{name}}.afp" from "../plan/plan.afp",
+    "plans/tests/{{name}}.afp" from "../plan/scenarios.afp",
+    "worlds/{{name}}.toml" from "../plan/world.toml",
 };
 
 const TOOLBOX: &[Draft] = drafts! { "toolbox":
@@ -78,12 +99,13 @@ pub fn files(name: &str, kind: Kind, afp: &Origin) -> Result<Vec<File>, RunError
         Kind::Plan => PLAN,
         Kind::Toolbox => TOOLBOX,
         Kind::Robot => ROBOT,
+        Kind::Carbot => CARBOT,
     };
     let file = |(path, text): &Draft| File { path: names.fill(path), text: names.fill(text) };
     let mut files: Vec<_> = drafts.iter().map(file).collect();
     let add = |path: &str, text: String| File { path: path.to_owned(), text };
     files.push(add(".gitignore", "target/\n".to_owned()));
-    if kind != Kind::Plan {
+    if kind.has_crate() {
         files.push(add("Cargo.toml", manifest::text(&names.name, kind, afp)));
     }
     Ok(files)

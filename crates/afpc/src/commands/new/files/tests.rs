@@ -6,7 +6,18 @@ use afp_syntax::source::Source;
 
 use super::{File, Kind, files};
 
-const KINDS: [Kind; 3] = [Kind::Plan, Kind::Toolbox, Kind::Robot];
+const KINDS: [Kind; 4] = [Kind::Plan, Kind::Toolbox, Kind::Robot, Kind::Carbot];
+
+#[test]
+fn every_profile_has_a_project() {
+    for profile in afp_project::PROFILES {
+        let kind = Kind::of_profile(profile.name).unwrap();
+        let files = made("mycar", kind);
+        let (project, _) = afp_project::read(text(&files, "afp.toml"));
+        let robot = project.robot.unwrap().profile.unwrap();
+        assert_eq!(robot.name, profile.name);
+    }
+}
 
 fn made(name: &str, kind: Kind) -> Vec<File> {
     files(name, kind, &Origin::Path("/afp".to_owned())).unwrap()

@@ -1,0 +1,220 @@
+//! The profile `carbot`: a second controller on a serial port, which executes driving commands.
+//!
+//! [`afp_drive`] has its messages and its program. The driver repeats the command every 20 ms. A
+//! stop overtakes queued commands. While the controller is silent, the driver sends only standstill;
+//! after a restart of the controller, only [`Command::Stop`].
+
+mod devices;
+
+use std::error::Error;
+
+use afp_carbot::devices::{Body, Bump};
+use afp_carbot::table::Carbot;
+use afp_carbot::trail::Trail;
+use afp_core::{Duration, Environment, Instant, Invalid, Platform};
+use afp_drive::{Command, LONGEST, Report, VERSION};
+use afp_platform::{Hardware, LastResort, RealTime, Settings};
+use afp_session::{Opener, only_hardware};
+
+use crate::link::{Heard, Link};
+use crate::values::Values;
+
+/// The speed of a serial line in baud; a USB port ignores it.
+const BAUD: u32 = 115_200;
+/// Reports are discarded after this time.
+const STALE: Duration = Duration::from_millis(100);
+/// Commands are repeated this often.
+const OFTEN: Duration = Duration::from_millis(20);
+/// The controller must obey within this time after the port was opened.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// A robot with the profile `carbot`.
+#[derive(Debug)]
+pub struct SerialCarbot {
+    time: RealTime,
+    link: Link<LONGEST>,
+    values: Values,
+    heard: Option<Heard<Report>>,
+    /// Speed in m/s and turn rate in rad/s, as commanded.
+    asked: [f32; 2],
+    /// The commanded bearing of the range sensor, in radians.
+    bearing: f32,
+    /// The time of the last commands.
+    told: Instant,
+    trail: Trail,
+    bump: Option<Bump>,
+}
+
+/// Opens robots with the profile `carbot`, for plans with the toolboxes `std` and `carbot`.
+pub fn opener() -> impl Opener {
+    only_hardware::<SerialCarbot, _>(|registry| {
+        afp_std::templates::register(registry);
+        afp_carbot::register!(registry, SerialCarbot);
+    })
+}
+
+impl SerialCarbot {
+    /// The last report, or the reason why there is none. A controller that has stopped by itself
+    /// counts as silent.
+    fn report(&self) -> Result<(Report, Instant), Invalid> {
+        match self.heard {
+            Some(Heard::Message(report, at))
+                if self.time.now().since(at) < STALE && !report.stopped =>
+            {
+                Ok((report, at))
+            }
+            Some(Heard::Restarted) => Err(Invalid::Restarted),
+            _ => Err(Invalid::NoAnswer),
+        }
+    }
+
+    /// Takes the controller's reports.
+    fn hear(&mut self) {
+        let Some(heard) = self.link.hear(&self.time, Report::is_possible) else { return };
+        self.heard = Some(heard);
+        let Heard::Message(report, at) = heard else { return };
+        let motion = devices::motion(&report);
+        self.trail.note(motion, &self.body());
+        if self.values.bumper && report.bumper {
+            self.bump = Some(Bump { at: motion, time: at });
+        }
+    }
+
+    fn body(&self) -> Body {
+        devices::body(&self.values)
+    }
+
+    /// Connects and starts the controller. Frames may be lost, so everything is repeated until the
+    /// controller obeys.
+    fn begin(&mut self) -> Result<(), String> {
+        let patience = self.time.now() + PATIENCE;
+        loop {
+            self.link.hello();
+            self.link.send(&Command::Setup(self.values.setup));
+            self.link.send(&Command::Start);
+            self.time.sleep_until(self.time.now() + OFTEN);
+            self.hear();
+            match self.heard {
+                Some(Heard::Message(Report { stopped: false, .. }, _)) => return Ok(()),
+                Some(Heard::Version(theirs)) => {
+                    return Err(format!(
+                        "the controller speaks version {theirs} of the protocol, this program \
+                         version {VERSION}"
+                    ));
+                }
+                _ if self.time.now() <= patience => {}
+                Some(Heard::Message(..)) => return Err("the controller does not start".to_owned()),
+                Some(Heard::Restarted) => return Err("the controller restarts".to_owned()),
+                None => return Err("the controller does not answer".to_owned()),
+            }
+        }
+    }
+
+    /// Sends the commands: a standstill while the controller is silent, because a controller that
+    /// still receives would not stop by itself, and `Stop` after a restart.
+    fn tell(&mut self) {
+        self.told = self.time.now();
+        match self.report() {
+            Ok(_) => {
+                let [speed, turn] = self.asked;
+                self.link.send(&Command::Drive { speed, turn });
+                self.link.send(&Command::Point(self.bearing));
+            }
+            Err(Invalid::Restarted) => self.link.send(&Command::Stop),
+            Err(_) => self.link.send(&Command::Drive { speed: 0.0, turn: 0.0 }),
+        }
+    }
+
+    /// Stops the wheels, before everything in the output queue.
+    fn halt_at_once(&mut self) {
+        self.asked = [0.0; 2];
+        self.link.discard();
+        self.tell();
+    }
+}
+
+impl Hardware for SerialCarbot {
+    type Error = Box<dyn Error + Send + Sync>;
+
+    fn open(settings: &Settings) -> Result<Self, Self::Error> {
+        let values = Values::read(settings)?;
+        let port = settings.get("port").ok_or("'port' has no value")?;
+        let at_port = |error: &dyn std::fmt::Display| format!("'{port}': {error}");
+        let link = Link::open(port, BAUD, VERSION).map_err(|error| at_port(&error))?;
+        let time = RealTime::start();
+        let mut robot = SerialCarbot {
+            told: time.now(),
+            time,
+            link,
+            values,
+            heard: None,
+            asked: [0.0; 2],
+            bearing: 0.0,
+            trail: Trail::new(),
+            bump: None,
+        };
+        robot.begin().map_err(|error| at_port(&error))?;
+        Ok(robot)
+    }
+
+    fn last_resort(&self) -> Option<LastResort> {
+        self.link.last_resort()
+    }
+}
+
+impl Environment for SerialCarbot {
+    fn stop(&mut self, _: Instant) {
+        self.halt_at_once();
+    }
+
+    fn emergency_stop(&mut self) {
+        self.asked = [0.0; 2];
+        self.link.discard();
+        self.link.send(&Command::Stop);
+    }
+}
+
+impl Drop for SerialCarbot {
+    fn drop(&mut self) {
+        self.emergency_stop();
+        self.link.release();
+    }
+}
+
+impl Platform for SerialCarbot {
+    type Clock = RealTime;
+
+    fn clock(&self) -> RealTime {
+        self.time
+    }
+
+    fn now(&self) -> Instant {
+        self.time.now()
+    }
+
+    fn advance(&mut self, to: Instant) {
+        loop {
+            self.hear();
+            if self.time.now().since(self.told) >= OFTEN {
+                self.tell();
+            }
+            self.time.sleep_until(to.min(self.told + OFTEN));
+            // A sleep that lasted too long is noticed before anything is sent.
+            if self.time.now() >= to {
+                self.hear();
+                return;
+            }
+        }
+    }
+}
+
+impl afp_session::Robot for SerialCarbot {
+    type Devices = Carbot;
+    /// No device knows the robot's true pose.
+    const LACKS: &'static [&'static str] =
+        &["robot", "world", "infrared", "color", "camera", "battery", "localisation", "signals"];
+
+    fn sample(&self, to: &mut afp_session::Samples<'_, '_>) {
+        self.sample_devices(to);
+    }
+}

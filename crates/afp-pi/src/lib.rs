@@ -1,0 +1,17 @@
+//! Real robots made of parts from a shop, driven by a Raspberry Pi or any other computer.
+//!
+//! `[robot]` in `afp.toml` describes the robot by a [profile](afp_project::Profile), so that
+//! `afpc run --robot hardware` drives it without Rust. [`opener`] opens the robot of a profile.
+//! [`Link`] is the computer's end of a serial line with frames of [`afp_wire`], for any messages.
+//!
+//! The control thread reads the line itself, without a lock and without memory from the allocator.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+#![cfg(unix)]
+
+mod carbot;
+mod link;
+mod values;
+
+pub use carbot::{SerialCarbot, opener};
+pub use link::{Heard, Link};

@@ -1,0 +1,92 @@
+//! Values of a robot's settings.
+
+use afp_drive::Setup;
+use afp_platform::Settings;
+use afp_project::Profile;
+
+/// The measures of a robot with the profile `carbot`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Values {
+    pub setup: Setup,
+    /// Half the length and half the width of the body, in metres.
+    pub half: [f64; 2],
+    /// The distance from the wheels' axis ahead to the range sensor, in metres; `None` without it.
+    pub sonar: Option<f64>,
+    pub bumper: bool,
+    pub button: bool,
+}
+
+impl Values {
+    /// Reads the settings of the profile.
+    ///
+    /// # Errors
+    /// A value is missing or invalid. A project file is checked before; `--set` is not.
+    pub(crate) fn read(settings: &Settings) -> Result<Values, String> {
+        let profile = Profile::named("carbot").ok_or("the profile 'carbot' is unknown")?;
+        let number = |path: &str| -> Result<Option<f64>, String> {
+            let (Some(text), Some(setting)) = (settings.get(path), profile.setting(path)) else {
+                return Ok(None);
+            };
+            let read = setting.of.read(text).map(Some);
+            read.map_err(|what| format!("'{path}' cannot be '{text}': write {what}"))
+        };
+        let needed = |path: &str| number(path)?.ok_or_else(|| format!("'{path}' has no value"));
+        let opens = |path: &str| Ok::<_, String>(number(path)?.map(|closed| closed == 0.0));
+        let around = needed("drive.wheel_diameter")? * std::f64::consts::PI;
+        let (bumper, button) = (opens("bumper.closed")?, opens("button.closed")?);
+        let setup = Setup {
+            track: needed("drive.track")? as f32,
+            metres_per_tick: (around / needed("drive.ticks")?) as f32,
+            fastest: needed("drive.fastest")? as f32,
+            ramp: needed("drive.ramp")? as f32,
+            bumper_opens: bumper.unwrap_or_default(),
+            button_opens: button.unwrap_or_default(),
+        };
+        Ok(Values {
+            setup,
+            half: [needed("body.length")? / 2.0, needed("body.width")? / 2.0],
+            sonar: number("ultrasonic.forward")?,
+            bumper: bumper.is_some(),
+            button: button.is_some(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [(&str, &str); 7] = [
+        ("body.length", "24 cm"),
+        ("body.width", "18 cm"),
+        ("drive.track", "14 cm"),
+        ("drive.wheel_diameter", "65 mm"),
+        ("drive.ticks", "1440"),
+        ("drive.fastest", "50 cm/s"),
+        ("drive.ramp", "150 ms"),
+    ];
+
+    #[test]
+    fn settings_become_measures() {
+        let values = Values::read(&Settings::new(ALL)).unwrap();
+        assert_eq!((values.half, values.sonar), ([0.12, 0.09], None));
+        assert!((values.setup.metres_per_tick - 0.000_141_8).abs() < 1e-7);
+        let more = [ALL.to_vec(), vec![("bumper.closed", "pressed"), ("drive.track", "20 cm")]];
+        let values = Values::read(&Settings::new(more.concat())).unwrap();
+        assert!(values.bumper && !values.setup.bumper_opens && !values.button);
+        assert_eq!(values.setup.track, 0.2);
+    }
+
+    #[test]
+    fn an_invalid_value_is_named_with_the_valid_ones() {
+        let wrong = [ALL.to_vec(), vec![("drive.track", "2 km")]].concat();
+        let why = Values::read(&Settings::new(wrong)).unwrap_err();
+        assert_eq!(
+            why,
+            "'drive.track' cannot be '2 km': write a length in quotes, from 3 cm to 100 cm"
+        );
+        assert!(
+            Values::read(&Settings::new(ALL[1..].to_vec())).unwrap_err().contains("body.length")
+        );
+    }
+}

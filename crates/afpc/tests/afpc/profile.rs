@@ -1,0 +1,141 @@
+//! Robots made of parts: from `afpc new` to a real robot, without cargo.
+
+#[path = "../../../afp-pi/examples/controller.rs"]
+mod controller;
+
+use std::fs;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+
+use crate::common::{Place, Said, said};
+use controller::Fake;
+
+/// A controller that runs until it is taken back.
+struct Running {
+    port: String,
+    ends: Arc<AtomicBool>,
+    thread: JoinHandle<Fake>,
+}
+
+impl Running {
+    fn start(mut each_step: impl FnMut(&mut Fake) + Send + 'static) -> Running {
+        let (mut fake, port) = Fake::new().unwrap();
+        let ends = Arc::new(AtomicBool::new(false));
+        let is_over = ends.clone();
+        let thread = thread::spawn(move || {
+            while !is_over.load(Ordering::Relaxed) {
+                each_step(&mut fake);
+                fake.step().unwrap();
+            }
+            fake
+        });
+        Running { port, ends, thread }
+    }
+
+    fn end(self) -> Fake {
+        self.ends.store(true, Ordering::Relaxed);
+        self.thread.join().unwrap()
+    }
+}
+
+/// Runs a command in the project without cargo.
+fn inside(place: &Place, arguments: &str) -> Said {
+    let mut command = place.command();
+    command.current_dir(place.path("mycar")).args(arguments.split_whitespace());
+    said(command.env("PATH", "").env("CARGO", "no-such-cargo").output().unwrap())
+}
+
+fn drive(place: &Place, controller: &Running, until: &str) -> Said {
+    // A busy machine is no fault of the robot.
+    let set = format!("--set robot.realtime.stall=10s --set robot.port={}", controller.port);
+    inside(place, &format!("run plans/mycar.afp --robot hardware {set} --until {until}"))
+}
+
+#[test]
+fn a_robot_from_parts_is_simulated_and_driven_without_cargo() {
+    let place = Place::new();
+    let made = place.afpc("new mycar --profile carbot");
+    made.succeeds();
+    assert!(made.out.contains("--robot hardware"), "{}", made.out);
+    inside(&place, "check plans/mycar.afp").succeeds();
+    inside(&place, "graph plans/mycar.afp").succeeds();
+    inside(&place, "run plans/mycar.afp --until 10s").succeeds();
+    let tested = inside(&place, "test");
+    tested.succeeds();
+    assert!(tested.out.contains("3 passed, 0 failed"), "{}", tested.out);
+    // On a busy machine the two programs may lose each other.
+    let drove = (0..5).any(|_| {
+        let controller = Running::start(|_| {});
+        let ran = drive(&place, &controller, "2s");
+        let fake = controller.end();
+        assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
+        ran.code == 0 && fake.ways.iter().all(|way| *way > 0.05)
+    });
+    assert!(drove, "no run of five drove the robot");
+}
+
+#[test]
+fn a_controller_that_restarts_in_mid_drive_ends_the_run_and_stays_stopped() {
+    let place = Place::new();
+    place.afpc("new mycar --profile carbot").succeeds();
+    let mut restarted = false;
+    let controller = Running::start(move |fake| {
+        if !restarted && fake.ways[0] > 0.02 {
+            restarted = true;
+            fake.restart();
+        }
+    });
+    let ran = drive(&place, &controller, "20s");
+    ran.fails(3, &[]);
+    let fake = controller.end();
+    assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
+}
+
+#[test]
+fn the_simulator_takes_the_measures_of_the_robot() {
+    let place = Place::new();
+    place.afpc("new mycar --profile carbot").succeeds();
+    let ran = || {
+        let ran = inside(&place, "run plans/mycar.afp --until 20s");
+        ran.succeeds();
+        ran.out
+    };
+    let one = ran();
+    let toml = place.path("mycar/afp.toml");
+    let text = fs::read_to_string(&toml).unwrap();
+    fs::write(&toml, text.replace("track = \"14 cm\"", "track = \"17 cm\"")).unwrap();
+    assert_ne!(one, ran());
+}
+
+#[test]
+fn errors_of_a_profile_are_shown_at_their_place() {
+    let place = Place::new();
+    place.afpc("new mycar --profile carbott").fails(2, &["no profile 'carbott'", "'carbot'"]);
+    place.afpc("new mycar --profile carbot").succeeds();
+    let set = "run plans/mycar.afp --robot hardware --until 1s --set robot.drive.track=2km";
+    inside(&place, set).fails(2, &["'drive.track' cannot be '2km'", "from 3 cm to 100 cm"]);
+    let nowhere = "run plans/mycar.afp --robot hardware --until 1s --set robot.port=/no/such";
+    inside(&place, nowhere).fails(2, &["'/no/such'"]);
+    let toml = place.path("mycar/afp.toml");
+    let text = fs::read_to_string(&toml).unwrap();
+    fs::write(&toml, text.replace("track =", "trak =")).unwrap();
+    inside(&place, "check plans/mycar.afp").fails(1, &["'drive' has no 'trak'", "afp.toml:12:1"]);
+}
+
+#[test]
+fn a_plan_for_a_missing_part_is_an_error_of_the_check() {
+    let place = Place::new();
+    place.afpc("new mycar --profile carbot").succeeds();
+    let text = place.read("mycar/afp.toml");
+    let sonar = text.split("[robot.ultrasonic]").nth(1).unwrap().split("[robot.").next().unwrap();
+    place.write("mycar/afp.toml", &text.replace(&format!("[robot.ultrasonic]{sonar}"), ""));
+    let texts = ["E0518", "'CheckDrivingLane' commands 'rotator', which the robot does not have"];
+    inside(&place, "check plans/mycar.afp").fails(1, &texts);
+    // The check of sensors comes before the robot moves.
+    place.write("mycar/afp.toml", &text);
+    let plan = "use carbot\nplan Look {\n    start hold\n    actor hold: Hold {\n        supervise low: CheckBattery { BatteryLow -> terminate }\n    }\n}\n";
+    place.write("mycar/plans/look.afp", plan);
+    let set = "--set robot.port=/no/such --until 1s";
+    inside(&place, &format!("run plans/look.afp --robot hardware {set}")).fails(2, &["Battery"]);
+}
