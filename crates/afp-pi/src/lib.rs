@@ -9,9 +9,10 @@
 #![warn(missing_docs)]
 #![cfg(unix)]
 
-mod carbot;
 mod link;
+mod port;
+mod robot;
 mod values;
 
-pub use carbot::{SerialCarbot, opener};
 pub use link::{Heard, Link};
+pub use robot::{JsonLine, Line, SerialCarbot, SerialRobot, Ugv, WireLine, opener};

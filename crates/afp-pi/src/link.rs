@@ -1,31 +1,27 @@
-//! A serial line to a controller. Neither reading nor writing waits.
+//! The computer's end of a serial line with frames of [`afp_wire`].
 
-use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
-use std::io::{self, Read, Write};
-use std::os::unix::fs::OpenOptionsExt;
+use std::io;
 
 use afp_core::Instant;
-use afp_platform::{LastResort, RealTime, open_device, release_device};
+use afp_platform::{LastResort, RealTime};
 use afp_wire::{Received, Receiver, Rejected, Sender};
-use rustix::fs::OFlags;
-use rustix::termios::{OptionalActions, QueueSelector, isatty, tcflush, tcgetattr, tcsetattr};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// The most bytes of one write and of one read.
+use crate::port::Port;
+
+/// The most bytes of one read.
 const CHUNK: usize = 512;
 
-/// The computer's end of a serial line, for frames of up to `LONGEST` bytes. Bytes that the line
-/// does not take at once are lost.
+/// The computer's end of a serial line, for frames of up to `LONGEST` bytes. Neither reading nor
+/// writing waits: bytes that the line does not take at once are lost.
 #[derive(Debug)]
 pub struct Link<const LONGEST: usize> {
-    port: File,
+    port: Port,
     sender: Sender,
     receiver: Receiver<LONGEST>,
     version: u16,
-    /// Whether the last write was complete.
-    whole: bool,
     /// Whether the controller has restarted since the connection.
     restarted: bool,
 }
@@ -48,32 +44,21 @@ impl<const LONGEST: usize> Link<LONGEST> {
     /// # Errors
     /// The port cannot be opened or set up.
     pub fn open(port: &str, baud: u32, version: u16) -> io::Result<Self> {
-        // The port must not become the controlling terminal of this process.
-        let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits() as i32;
-        let port = open_device(File::options().read(true).write(true).custom_flags(flags), port)?;
-        if isatty(&port) {
-            let mut modes = tcgetattr(&port)?;
-            modes.make_raw();
-            modes.set_speed(baud)?;
-            tcsetattr(&port, OptionalActions::Now, &modes)?;
-            // Earlier messages do not count.
-            tcflush(&port, QueueSelector::IFlush)?;
-        }
-        Ok(Link::new(port, version))
+        Ok(Link::new(Port::open(port, baud, 0)?, version))
     }
 
-    fn new(port: File, version: u16) -> Self {
+    fn new(port: Port, version: u16) -> Self {
         // The keys of a hasher are random, and differ at each call.
         let boot = RandomState::new().hash_one(std::process::id()) as u32;
         let (sender, receiver) = (Sender::new(boot, version), Receiver::new(version));
-        Link { port, sender, receiver, version, whole: false, restarted: false }
+        Link { port, sender, receiver, version, restarted: false }
     }
 
     /// Begins a connection.
     pub fn hello(&mut self) {
         let mut buffer = [0; LONGEST];
         let length = self.sender.hello(&mut buffer).map_or(0, <[u8]>::len);
-        self.write(buffer.get(..length).unwrap_or_default());
+        self.port.write(buffer.get(..length).unwrap_or_default());
     }
 
     /// Sends a message. If the line is broken or full, nothing is sent: the controller stops, and
@@ -81,24 +66,12 @@ impl<const LONGEST: usize> Link<LONGEST> {
     pub fn send<T: Serialize>(&mut self, message: &T) {
         let mut buffer = [0; LONGEST];
         let length = self.sender.send(message, &mut buffer).map_or(0, <[u8]>::len);
-        self.write(buffer.get(..length).unwrap_or_default());
+        self.port.write(buffer.get(..length).unwrap_or_default());
     }
 
     /// Discards everything in the output queue, so that the next message overtakes it.
     pub fn discard(&mut self) {
-        // A line without a queue has nothing to discard.
-        let _ = tcflush(&self.port, QueueSelector::OFlush);
-        self.whole = false;
-    }
-
-    fn write(&mut self, frame: &[u8]) {
-        let mut bytes = [0; CHUNK];
-        // A frame that was cut ends here, damaged, and does not run into the next one.
-        let start = usize::from(!self.whole);
-        let Some(room) = bytes.get_mut(start..start + frame.len()) else { return };
-        room.copy_from_slice(frame);
-        let all = bytes.get(..start + frame.len()).unwrap_or_default();
-        self.whole = matches!(self.port.write(all), Ok(written) if written == all.len());
+        self.port.discard();
     }
 
     /// Reads everything that has arrived, and returns the last message for which `is_possible`
@@ -110,7 +83,8 @@ impl<const LONGEST: usize> Link<LONGEST> {
     ) -> Option<Heard<T>> {
         let mut last = None;
         let mut bytes = [0; CHUNK];
-        while let Ok(read) = self.port.read(&mut bytes) {
+        loop {
+            let read = self.port.read(&mut bytes);
             let now = time.now();
             for byte in bytes.get(..read).unwrap_or_default() {
                 match self.receiver.receive::<T>(*byte, now) {
@@ -133,7 +107,7 @@ impl<const LONGEST: usize> Link<LONGEST> {
     /// Stops the controller even if the sending thread hangs: a controller stops on a different
     /// boot id of the computer.
     pub fn last_resort(&self) -> Option<LastResort> {
-        let mut link = Link::<LONGEST>::new(self.port.try_clone().ok()?, self.version);
+        let mut link = Link::<LONGEST>::new(self.port.copy()?, self.version);
         Some(Box::new(move || {
             link.discard();
             link.hello();
@@ -142,6 +116,6 @@ impl<const LONGEST: usize> Link<LONGEST> {
 
     /// Lets other programs open the port.
     pub fn release(&self) {
-        release_device(&self.port);
+        self.port.release();
     }
 }

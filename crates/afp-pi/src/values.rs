@@ -4,7 +4,7 @@ use afp_drive::Setup;
 use afp_platform::Settings;
 use afp_project::Profile;
 
-/// The measures of a robot with the profile `carbot`.
+/// The measures of a robot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Values {
     pub setup: Setup,
@@ -21,8 +21,8 @@ impl Values {
     ///
     /// # Errors
     /// A value is missing or invalid. A project file is checked before; `--set` is not.
-    pub(crate) fn read(settings: &Settings) -> Result<Values, String> {
-        let profile = Profile::named("carbot").ok_or("the profile 'carbot' is unknown")?;
+    pub(crate) fn read(profile: &str, settings: &Settings) -> Result<Values, String> {
+        let profile = Profile::named(profile).ok_or_else(|| format!("no profile '{profile}'"))?;
         let number = |path: &str| -> Result<Option<f64>, String> {
             let (Some(text), Some(setting)) = (settings.get(path), profile.setting(path)) else {
                 return Ok(None);
@@ -32,13 +32,18 @@ impl Values {
         };
         let needed = |path: &str| number(path)?.ok_or_else(|| format!("'{path}' has no value"));
         let opens = |path: &str| Ok::<_, String>(number(path)?.map(|closed| closed == 0.0));
-        let around = needed("drive.wheel_diameter")? * std::f64::consts::PI;
+        // A controller with another program knows its wheels and its motors itself.
+        let usual = Setup::default();
+        let metres_per_tick = match (number("drive.wheel_diameter")?, number("drive.ticks")?) {
+            (Some(diameter), Some(ticks)) => (diameter * std::f64::consts::PI / ticks) as f32,
+            _ => usual.metres_per_tick,
+        };
         let (bumper, button) = (opens("bumper.closed")?, opens("button.closed")?);
         let setup = Setup {
             track: needed("drive.track")? as f32,
-            metres_per_tick: (around / needed("drive.ticks")?) as f32,
+            metres_per_tick,
             fastest: needed("drive.fastest")? as f32,
-            ramp: needed("drive.ramp")? as f32,
+            ramp: number("drive.ramp")?.map_or(usual.ramp, |ramp| ramp as f32),
             bumper_opens: bumper.unwrap_or_default(),
             button_opens: button.unwrap_or_default(),
         };
@@ -68,11 +73,11 @@ mod tests {
 
     #[test]
     fn settings_become_measures() {
-        let values = Values::read(&Settings::new(ALL)).unwrap();
+        let values = Values::read("carbot", &Settings::new(ALL)).unwrap();
         assert_eq!((values.half, values.sonar), ([0.12, 0.09], None));
         assert!((values.setup.metres_per_tick - 0.000_141_8).abs() < 1e-7);
         let more = [ALL.to_vec(), vec![("bumper.closed", "pressed"), ("drive.track", "20 cm")]];
-        let values = Values::read(&Settings::new(more.concat())).unwrap();
+        let values = Values::read("carbot", &Settings::new(more.concat())).unwrap();
         assert!(values.bumper && !values.setup.bumper_opens && !values.button);
         assert_eq!(values.setup.track, 0.2);
     }
@@ -80,13 +85,15 @@ mod tests {
     #[test]
     fn an_invalid_value_is_named_with_the_valid_ones() {
         let wrong = [ALL.to_vec(), vec![("drive.track", "2 km")]].concat();
-        let why = Values::read(&Settings::new(wrong)).unwrap_err();
+        let why = Values::read("carbot", &Settings::new(wrong)).unwrap_err();
         assert_eq!(
             why,
             "'drive.track' cannot be '2 km': write a length in quotes, from 3 cm to 100 cm"
         );
         assert!(
-            Values::read(&Settings::new(ALL[1..].to_vec())).unwrap_err().contains("body.length")
+            Values::read("carbot", &Settings::new(ALL[1..].to_vec()))
+                .unwrap_err()
+                .contains("body.length")
         );
     }
 }

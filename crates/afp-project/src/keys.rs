@@ -136,6 +136,9 @@ fn of_profiles(name: &str) -> Vec<Key> {
     if name.is_empty() {
         keys.extend(sections().map(|section| section.key).filter(|key| !key.name.is_empty()));
     }
+    // Profiles share keys; the help of the first one is shown.
+    let mut known = Vec::new();
+    keys.retain(|key| !known.contains(&key.name) && { known.push(key.name); true });
     keys
 }
 

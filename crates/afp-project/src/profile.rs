@@ -91,7 +91,9 @@ const fn simulated(setting: Setting, in_world: &'static str) -> Setting {
 }
 
 /// All profiles.
-pub const PROFILES: &[Profile] = &[Profile {
+pub const PROFILES: &[Profile] = &[CARBOT, UGV];
+
+const CARBOT: Profile = Profile {
     name: "carbot",
     help: "A second controller on a serial port drives two motors with encoders.",
     sections: &[
@@ -132,7 +134,43 @@ pub const PROFILES: &[Profile] = &[Profile {
         section(key("button", "The escape button.", "[robot.button]"), false, &["buttons"], SWITCH),
     ],
     lacks: &["infrared", "color", "camera", "battery", "localisation", "signals"],
-}];
+};
+
+const UGV: Profile = Profile {
+    name: "ugv",
+    help: "A Waveshare UGV, whose controller speaks JSON on a serial port.",
+    sections: &[
+        section(
+            key("", "", ""),
+            true,
+            &[],
+            &[usual(
+                key("port", "The serial port of the controller.", "port = \"/dev/serial0\""),
+                Of::Text,
+                "/dev/serial0",
+            )],
+        ),
+        section(key("body", "The outline, seen from above.", "[robot.body]"), true, &[], BODY),
+        section(
+            key("drive", "The wheels and their motors.", "[robot.drive]"),
+            true,
+            &[],
+            &[TRACK, FASTEST],
+        ),
+    ],
+    lacks: &[
+        "ultrasonic",
+        "rotator",
+        "touch",
+        "buttons",
+        "infrared",
+        "color",
+        "camera",
+        "battery",
+        "localisation",
+        "signals",
+    ],
+};
 
 const BODY: &[Setting] = &[
     simulated(
@@ -152,14 +190,28 @@ const BODY: &[Setting] = &[
     ),
 ];
 
-const DRIVE: &[Setting] = &[
-    simulated(
-        needed(
-            key("track", "Between the middles of the two tyres.", "track = \"14 cm\""),
-            Of::Length([0.03, 1.0]),
-        ),
-        "robot.track_m",
+const TRACK: Setting = simulated(
+    needed(
+        key("track", "Between the middles of the two tyres.", "track = \"14 cm\""),
+        Of::Length([0.03, 1.0]),
     ),
+    "robot.track_m",
+);
+
+const FASTEST: Setting = simulated(
+    needed(
+        key(
+            "fastest",
+            "The top speed of a wheel: nine tenths of its speed at full power.",
+            "fastest = \"50 cm/s\"",
+        ),
+        Of::Speed([0.02, 2.0]),
+    ),
+    "robot.fastest_m_s",
+);
+
+const DRIVE: &[Setting] = &[
+    TRACK,
     needed(
         key("wheel_diameter", "The diameter of a driven wheel.", "wheel_diameter = \"65 mm\""),
         Of::Length([0.01, 0.3]),
@@ -168,17 +220,7 @@ const DRIVE: &[Setting] = &[
         key("ticks", "What an encoder counts in one turn of its wheel.", "ticks = 1440"),
         Of::Count([4, 1_000_000]),
     ),
-    simulated(
-        needed(
-            key(
-                "fastest",
-                "The top speed of a wheel: nine tenths of its speed at full power.",
-                "fastest = \"50 cm/s\"",
-            ),
-            Of::Speed([0.02, 2.0]),
-        ),
-        "robot.fastest_m_s",
-    ),
+    FASTEST,
     usual(
         key("ramp", "The time from standstill to the top speed, and back.", "ramp = \"150 ms\""),
         Of::Time([Duration::from_millis(10), Duration::from_millis(250)]),

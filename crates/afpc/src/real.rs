@@ -51,7 +51,10 @@ pub fn open(
     linked: &Linked<'_>,
 ) -> Result<Opened, SessionError> {
     match (profile(project), linked.hardware) {
-        (Some(_), _) => open_profile(graph, settings),
+        (Some(_), _) => {
+            let profile = project.project.profile().map_or("", |profile| profile.name);
+            open_profile(profile, graph, settings)
+        }
         (None, Some((_, opener))) => opener.open(graph, settings),
         (None, None) => Err(SessionError::Hardware(no_hardware(project).to_string().into())),
     }
@@ -62,14 +65,15 @@ fn profile(project: &ProjectFile) -> Option<Vec<(String, String)>> {
 }
 
 #[cfg(all(feature = "pi", unix))]
-fn open_profile(graph: &Graph, settings: &Settings) -> Result<Opened, SessionError> {
-    use afp_session::Opener;
-
-    afp_pi::opener().open(graph, settings)
+fn open_profile(profile: &str, graph: &Graph, settings: &Settings) -> Result<Opened, SessionError> {
+    match afp_pi::opener(profile) {
+        Some(opener) => opener.open(graph, settings),
+        None => Err(SessionError::Hardware(format!("no driver for '{profile}'").into())),
+    }
 }
 
 #[cfg(not(all(feature = "pi", unix)))]
-fn open_profile(_: &Graph, _: &Settings) -> Result<Opened, SessionError> {
+fn open_profile(_: &str, _: &Graph, _: &Settings) -> Result<Opened, SessionError> {
     let why = "this 'afpc' has no drivers for robots with a profile: install it with \
                'pip install action-flow-plans', or build it with '--features pi'";
     Err(SessionError::Hardware(why.into()))

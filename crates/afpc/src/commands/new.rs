@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(long)]
     robot: bool,
 
-    /// Describe a real robot made of parts, without Rust: 'carbot'
+    /// Describe a real robot made of parts, without Rust: 'carbot' or 'ugv'
     #[arg(long, value_name = "NAME", conflicts_with_all = ["robot", "toolbox"])]
     profile: Option<String>,
 }
@@ -56,7 +56,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
     // A plan needs no crate, and therefore no path to the afp crates.
     let afp = match kind {
-        Kind::Plan | Kind::Carbot => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
+        Kind::Plan | Kind::Carbot | Kind::Ugv => {
+            Origin::Version(env!("CARGO_PKG_VERSION").to_owned())
+        }
         Kind::Toolbox | Kind::Robot => origin::of_afp(&around(folder)?)?,
     };
     let files = files::files(&name, kind, &origin::as_written(afp.clone()))?;
@@ -125,7 +127,7 @@ fn next(folder: &Path, files: &[files::File], pinned: Option<&str>, kind: Kind) 
     if kind.has_crate() {
         text += "  cargo test\n";
     }
-    if kind == Kind::Carbot {
+    if kind.has_profile() {
         text += &format!("  afpc run {plan} --robot hardware\n");
     }
     text

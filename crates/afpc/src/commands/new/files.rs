@@ -22,17 +22,28 @@ pub enum Kind {
     Robot,
     /// A robot made of parts, and a plan for it.
     Carbot,
+    /// A Waveshare UGV, and a plan for it.
+    Ugv,
 }
 
 impl Kind {
     /// The kind of a profile.
     pub fn of_profile(name: &str) -> Option<Kind> {
-        (name == "carbot").then_some(Kind::Carbot)
+        match name {
+            "carbot" => Some(Kind::Carbot),
+            "ugv" => Some(Kind::Ugv),
+            _ => None,
+        }
     }
 
     /// Whether the project contains Rust.
     pub fn has_crate(self) -> bool {
         matches!(self, Kind::Toolbox | Kind::Robot)
+    }
+
+    /// Whether the project describes a real robot.
+    pub fn has_profile(self) -> bool {
+        matches!(self, Kind::Carbot | Kind::Ugv)
     }
 }
 
@@ -64,6 +75,13 @@ const CARBOT: &[Draft] = drafts! { "carbot":
     "afp.toml" from "afp.toml",
     "plans/{{name}}.afp" from "../plan/plan.afp",
     "plans/tests/{{name}}.afp" from "../plan/scenarios.afp",
+    "worlds/{{name}}.toml" from "../plan/world.toml",
+};
+
+const UGV: &[Draft] = drafts! { "ugv":
+    "afp.toml" from "afp.toml",
+    "plans/{{name}}.afp" from "plan.afp",
+    "plans/tests/{{name}}.afp" from "scenarios.afp",
     "worlds/{{name}}.toml" from "../plan/world.toml",
 };
 
@@ -100,6 +118,7 @@ pub fn files(name: &str, kind: Kind, afp: &Origin) -> Result<Vec<File>, RunError
         Kind::Toolbox => TOOLBOX,
         Kind::Robot => ROBOT,
         Kind::Carbot => CARBOT,
+        Kind::Ugv => UGV,
     };
     let file = |(path, text): &Draft| File { path: names.fill(path), text: names.fill(text) };
     let mut files: Vec<_> = drafts.iter().map(file).collect();

@@ -6,7 +6,7 @@ use afp_syntax::source::Source;
 
 use super::{File, Kind, files};
 
-const KINDS: [Kind; 4] = [Kind::Plan, Kind::Toolbox, Kind::Robot, Kind::Carbot];
+const KINDS: [Kind; 5] = [Kind::Plan, Kind::Toolbox, Kind::Robot, Kind::Carbot, Kind::Ugv];
 
 #[test]
 fn every_profile_has_a_project() {

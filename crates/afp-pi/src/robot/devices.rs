@@ -12,7 +12,7 @@ use afp_drive::{Ping, Report};
 use afp_session::frames::{BODY, BY_ODOMETRY, WORLD};
 use afp_session::{Pose2, Ranging, SampleRef, Samples, Transform};
 
-use super::SerialCarbot;
+use super::{Line, SerialRobot};
 use crate::values::Values;
 
 /// The range of an HC-SR04 in metres, and its opening in degrees.
@@ -39,7 +39,7 @@ pub(super) fn body(values: &Values) -> Body {
     Body { front: length, rear: length, half_width: width }
 }
 
-impl SerialCarbot {
+impl<L: Line> SerialRobot<L> {
     /// A sensor's reading from the last report; none from a sensor that the robot does not have.
     fn sense<T: Copy>(&self, exists: bool, of: impl Fn(&Report) -> T) -> Reading<T> {
         match self.report().and_then(|it| if exists { Ok(it) } else { Err(Invalid::NoAnswer) }) {
@@ -87,7 +87,7 @@ impl SerialCarbot {
     }
 }
 
-impl Navigator for SerialCarbot {
+impl<L: Line> Navigator for SerialRobot<L> {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, _: Instant) {
         let asked = [speed.si() as f32, turn.si() as f32];
         if asked == [0.0; 2] && self.asked != asked {
@@ -106,7 +106,7 @@ impl Navigator for SerialCarbot {
     }
 }
 
-impl Odometry for SerialCarbot {
+impl<L: Line> Odometry for SerialRobot<L> {
     fn motion(&self) -> Reading<Motion> {
         self.sense(true, motion)
     }
@@ -120,7 +120,7 @@ impl Odometry for SerialCarbot {
     }
 }
 
-impl Ultrasonic for SerialCarbot {
+impl<L: Line> Ultrasonic for SerialRobot<L> {
     fn echo(&self) -> Reading<Echo> {
         let (ping, time) = match self.ping() {
             Ok(ping) => ping,
@@ -141,29 +141,30 @@ impl Ultrasonic for SerialCarbot {
     }
 }
 
-impl Rotator for SerialCarbot {
+impl<L: Line> Rotator for SerialRobot<L> {
     fn point(&mut self, bearing: Angle, _: Instant) {
         self.bearing = bearing.si() as f32;
     }
 }
 
-impl RotatingTelemetry for SerialCarbot {
+impl<L: Line> RotatingTelemetry for SerialRobot<L> {
     fn bearing(&self) -> Reading<Angle> {
         let exists = self.values.sonar.is_some();
         self.sense(exists, |report| Angle::from_si(f64::from(report.bearing)))
     }
 }
 
-impl TouchSensor for SerialCarbot {
+impl<L: Line> TouchSensor for SerialRobot<L> {
     fn touched(&self) -> Reading<bool> {
         self.sense(self.values.bumper, |report| report.bumper)
     }
 }
 
-impl Buttons for SerialCarbot {
+impl<L: Line> Buttons for SerialRobot<L> {
     fn pressed(&self, button: Button) -> Reading<bool> {
         match button {
-            Button::Escape => self.sense(self.values.button, |report| report.button),
+            // Nobody presses a button that does not exist; the Escape key also ends a run.
+            Button::Escape => self.sense(true, |report| self.values.button && report.button),
         }
     }
 }

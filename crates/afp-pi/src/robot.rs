@@ -1,26 +1,30 @@
-//! The profile `carbot`: a second controller on a serial port, which executes driving commands.
+//! Robots with a second controller on a serial port, which executes driving commands.
 //!
-//! [`afp_drive`] has its messages and its program. The driver repeats the command every 20 ms. A
-//! stop overtakes queued commands. While the controller is silent, the driver sends only standstill;
-//! after a restart of the controller, only [`Command::Stop`].
+//! The driver repeats the command every 20 ms. A stop overtakes queued commands. While the
+//! controller is silent, the driver sends only standstill; after a restart of the controller, only
+//! [`Command::Stop`].
 
 mod devices;
+mod json;
+mod wire;
 
 use std::error::Error;
+use std::io;
 
 use afp_carbot::devices::{Body, Bump};
 use afp_carbot::table::Carbot;
 use afp_carbot::trail::Trail;
 use afp_core::{Duration, Environment, Instant, Invalid, Platform};
-use afp_drive::{Command, LONGEST, Report, VERSION};
+use afp_drive::{Command, Report, Setup, VERSION};
 use afp_platform::{Hardware, LastResort, RealTime, Settings};
 use afp_session::{Opener, only_hardware};
 
-use crate::link::{Heard, Link};
+use crate::link::Heard;
 use crate::values::Values;
 
-/// The speed of a serial line in baud; a USB port ignores it.
-const BAUD: u32 = 115_200;
+pub use json::JsonLine;
+pub use wire::WireLine;
+
 /// Reports are discarded after this time.
 const STALE: Duration = Duration::from_millis(100);
 /// Commands are repeated this often.
@@ -28,11 +32,47 @@ const OFTEN: Duration = Duration::from_millis(20);
 /// The controller must obey within this time after the port was opened.
 const PATIENCE: Duration = Duration::from_secs(2);
 
+/// The line to a robot's controller. Nothing waits, and what the line does not take is lost.
+pub trait Line: Send + Sized + 'static {
+    /// The profile of its robots.
+    const PROFILE: &'static str;
+
+    /// Opens the port for only this program.
+    ///
+    /// # Errors
+    /// The port cannot be opened or set up.
+    fn open(port: &str, setup: &Setup) -> io::Result<Self>;
+
+    /// Sends everything that a controller needs before it drives. It is called until the controller
+    /// reports that it obeys.
+    fn begin(&mut self);
+
+    /// Sends a command.
+    fn send(&mut self, command: &Command, now: Instant);
+
+    /// Discards all commands in the output queue.
+    fn discard(&mut self);
+
+    /// Reads everything that has arrived; returns the last report.
+    fn hear(&mut self, time: &RealTime) -> Option<Heard<Report>>;
+
+    /// Stops the controller from another thread.
+    fn last_resort(&self) -> Option<LastResort>;
+
+    /// Lets other programs open the port.
+    fn release(&self);
+}
+
 /// A robot with the profile `carbot`.
+pub type SerialCarbot = SerialRobot<WireLine>;
+/// A robot with the profile `ugv`.
+pub type Ugv = SerialRobot<JsonLine>;
+
+/// A robot with a controller on a line.
 #[derive(Debug)]
-pub struct SerialCarbot {
+pub struct SerialRobot<L: Line> {
     time: RealTime,
-    link: Link<LONGEST>,
+    line: L,
     values: Values,
     heard: Option<Heard<Report>>,
     /// Speed in m/s and turn rate in rad/s, as commanded.
@@ -45,15 +85,23 @@ pub struct SerialCarbot {
     bump: Option<Bump>,
 }
 
-/// Opens robots with the profile `carbot`, for plans with the toolboxes `std` and `carbot`.
-pub fn opener() -> impl Opener {
-    only_hardware::<SerialCarbot, _>(|registry| {
-        afp_std::templates::register(registry);
-        afp_carbot::register!(registry, SerialCarbot);
-    })
+/// Opens robots of a profile, for plans with the toolboxes `std` and `carbot`; `None` if there is no
+/// driver for the profile.
+pub fn opener(profile: &str) -> Option<Box<dyn Opener>> {
+    match profile {
+        WireLine::PROFILE => Some(Box::new(only_hardware::<SerialCarbot, _>(|registry| {
+            afp_std::templates::register(registry);
+            afp_carbot::register!(registry, SerialCarbot);
+        }))),
+        JsonLine::PROFILE => Some(Box::new(only_hardware::<Ugv, _>(|registry| {
+            afp_std::templates::register(registry);
+            afp_carbot::register!(registry, Ugv);
+        }))),
+        _ => None,
+    }
 }
 
-impl SerialCarbot {
+impl<L: Line> SerialRobot<L> {
     /// The last report, or the reason why there is none. A controller that has stopped by itself
     /// counts as silent.
     fn report(&self) -> Result<(Report, Instant), Invalid> {
@@ -70,7 +118,7 @@ impl SerialCarbot {
 
     /// Takes the controller's reports.
     fn hear(&mut self) {
-        let Some(heard) = self.link.hear(&self.time, Report::is_possible) else { return };
+        let Some(heard) = self.line.hear(&self.time) else { return };
         self.heard = Some(heard);
         let Heard::Message(report, at) = heard else { return };
         let motion = devices::motion(&report);
@@ -89,9 +137,7 @@ impl SerialCarbot {
     fn begin(&mut self) -> Result<(), String> {
         let patience = self.time.now() + PATIENCE;
         loop {
-            self.link.hello();
-            self.link.send(&Command::Setup(self.values.setup));
-            self.link.send(&Command::Start);
+            self.line.begin();
             self.time.sleep_until(self.time.now() + OFTEN);
             self.hear();
             match self.heard {
@@ -117,35 +163,36 @@ impl SerialCarbot {
         match self.report() {
             Ok(_) => {
                 let [speed, turn] = self.asked;
-                self.link.send(&Command::Drive { speed, turn });
-                self.link.send(&Command::Point(self.bearing));
+                let (speed, turn) = self.values.setup.reduced(speed, turn);
+                self.line.send(&Command::Drive { speed, turn }, self.told);
+                self.line.send(&Command::Point(self.bearing), self.told);
             }
-            Err(Invalid::Restarted) => self.link.send(&Command::Stop),
-            Err(_) => self.link.send(&Command::Drive { speed: 0.0, turn: 0.0 }),
+            Err(Invalid::Restarted) => self.line.send(&Command::Stop, self.told),
+            Err(_) => self.line.send(&Command::Drive { speed: 0.0, turn: 0.0 }, self.told),
         }
     }
 
     /// Stops the wheels, before everything in the output queue.
     fn halt_at_once(&mut self) {
         self.asked = [0.0; 2];
-        self.link.discard();
+        self.line.discard();
         self.tell();
     }
 }
 
-impl Hardware for SerialCarbot {
+impl<L: Line> Hardware for SerialRobot<L> {
     type Error = Box<dyn Error + Send + Sync>;
 
     fn open(settings: &Settings) -> Result<Self, Self::Error> {
-        let values = Values::read(settings)?;
+        let values = Values::read(L::PROFILE, settings)?;
         let port = settings.get("port").ok_or("'port' has no value")?;
         let at_port = |error: &dyn std::fmt::Display| format!("'{port}': {error}");
-        let link = Link::open(port, BAUD, VERSION).map_err(|error| at_port(&error))?;
+        let line = L::open(port, &values.setup).map_err(|error| at_port(&error))?;
         let time = RealTime::start();
-        let mut robot = SerialCarbot {
+        let mut robot = SerialRobot {
             told: time.now(),
             time,
-            link,
+            line,
             values,
             heard: None,
             asked: [0.0; 2],
@@ -158,30 +205,30 @@ impl Hardware for SerialCarbot {
     }
 
     fn last_resort(&self) -> Option<LastResort> {
-        self.link.last_resort()
+        self.line.last_resort()
     }
 }
 
-impl Environment for SerialCarbot {
+impl<L: Line> Environment for SerialRobot<L> {
     fn stop(&mut self, _: Instant) {
         self.halt_at_once();
     }
 
     fn emergency_stop(&mut self) {
         self.asked = [0.0; 2];
-        self.link.discard();
-        self.link.send(&Command::Stop);
+        self.line.discard();
+        self.line.send(&Command::Stop, self.told);
     }
 }
 
-impl Drop for SerialCarbot {
+impl<L: Line> Drop for SerialRobot<L> {
     fn drop(&mut self) {
         self.emergency_stop();
-        self.link.release();
+        self.line.release();
     }
 }
 
-impl Platform for SerialCarbot {
+impl<L: Line> Platform for SerialRobot<L> {
     type Clock = RealTime;
 
     fn clock(&self) -> RealTime {
@@ -208,7 +255,7 @@ impl Platform for SerialCarbot {
     }
 }
 
-impl afp_session::Robot for SerialCarbot {
+impl<L: Line> afp_session::Robot for SerialRobot<L> {
     type Devices = Carbot;
     /// No device knows the robot's true pose.
     const LACKS: &'static [&'static str] =
