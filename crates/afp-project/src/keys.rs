@@ -138,7 +138,12 @@ fn of_profiles(name: &str) -> Vec<Key> {
     }
     // Profiles share keys; the help of the first one is shown.
     let mut known = Vec::new();
-    keys.retain(|key| !known.contains(&key.name) && { known.push(key.name); true });
+    keys.retain(|key| {
+        !known.contains(&key.name) && {
+            known.push(key.name);
+            true
+        }
+    });
     keys
 }
 
