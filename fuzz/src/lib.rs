@@ -5,6 +5,7 @@
 
 mod controller;
 mod debugger;
+mod deploy;
 mod edits;
 mod frames;
 mod messages;
@@ -13,6 +14,7 @@ mod text;
 
 pub use controller::controller;
 pub use debugger::debugger;
+pub use deploy::deploy;
 pub use edits::edits;
 pub use frames::frames;
 pub use messages::messages;
@@ -30,6 +32,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("messages", messages),
     ("debugger", debugger),
     ("controller", controller),
+    ("deploy", deploy),
     ("frames", frames),
     ("settings", settings),
     ("layout", layout),

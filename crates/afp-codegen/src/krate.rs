@@ -19,6 +19,10 @@ pub struct CrateOptions {
     /// Path and text of the plan's file and of the files that it uses, see
     /// [`afp_dsl::Compiled::plan_texts`]; the crate contains them.
     pub texts: Vec<(String, String)>,
+    /// Name and text of the project's toolboxes; the program contains them for its logs.
+    pub toolboxes: Vec<(String, String)>,
+    /// The text of the project file, also for logs; empty without a project.
+    pub project: String,
     /// The source of the `afp` crates.
     pub origin: Origin,
     /// Crates of toolboxes that are not built in.
@@ -71,6 +75,10 @@ pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
     };
     let mut files = vec![plain("Cargo.toml", cargo_toml(&krate, options, dependencies))];
     files.extend(options.texts.iter().map(|(path, text)| plain(path, text.clone())));
+    let attached = Attached::of(options);
+    if !options.lib {
+        files.extend(attached.files().map(|(path, text)| plain(&path, text.to_owned())));
+    }
     let head = format!("{RUST_MADE_BY} from {}.", base_name(&options.file));
     let rust = |path: &str, tokens| {
         let (text, places) = file_with_places(&head, tokens);
@@ -78,7 +86,7 @@ pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
     };
     files.push(rust("src/lib.rs", library(graph, &generated, options)));
     if !options.lib {
-        files.push(rust("src/main.rs", program(graph, (&krate, &generated), options)));
+        files.push(rust("src/main.rs", program(graph, (&krate, &generated), options, &attached)));
     }
     for module in &generated.modules {
         let name = module.name.to_string();
@@ -86,6 +94,39 @@ pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
         files.push(CrateFile { whole: module.span, ..rust(&path, module.tokens()) });
     }
     files
+}
+
+/// The files of the project that a program contains for its logs.
+struct Attached<'a> {
+    /// Their folder, in which no file of the plan is.
+    folder: String,
+    options: &'a CrateOptions,
+}
+
+impl<'a> Attached<'a> {
+    fn of(options: &'a CrateOptions) -> Self {
+        let mut folder = "attached".to_owned();
+        while options.texts.iter().any(|(path, _)| path.starts_with(&folder)) {
+            folder.push('_');
+        }
+        Attached { folder, options }
+    }
+
+    fn toolbox(&self, name: &str) -> String {
+        format!("{}/{name}.afp", self.folder)
+    }
+
+    fn project(&self) -> String {
+        format!("{}/project.toml", self.folder)
+    }
+
+    /// Path and text of each file.
+    fn files(&self) -> impl Iterator<Item = (String, &'a str)> {
+        let CrateOptions { toolboxes, project, .. } = self.options;
+        let toolboxes = toolboxes.iter().map(|(name, text)| (self.toolbox(name), text.as_str()));
+        let project = Some(project.as_str()).filter(|text| !text.is_empty());
+        toolboxes.chain(project.map(|text| (self.project(), text)))
+    }
 }
 
 /// Crates that belong to Rust, and folder names that cargo reserves.
@@ -169,6 +210,7 @@ fn program(
     graph: &Graph,
     (krate, generated): (&str, &Generated),
     options: &CrateOptions,
+    attached: &Attached<'_>,
 ) -> TokenStream {
     let name = &graph.main().name;
     let itself = options.hardware.as_ref();
@@ -184,6 +226,18 @@ fn program(
             quote!(Simulation),
         ),
         Some(robot) => (TokenStream::new(), robot),
+    };
+    let included = |path: String| {
+        let place = format!("../{path}");
+        quote!(include_str!(#place))
+    };
+    let toolboxes = options.toolboxes.iter().map(|(name, _)| {
+        let text = included(attached.toolbox(name));
+        quote!((#name, #text))
+    });
+    let project = match options.project.is_empty() {
+        true => quote!(""),
+        false => included(attached.project()),
     };
     let settings = itself.iter().flat_map(|itself| &itself.settings);
     let settings = settings.map(|(name, value)| quote!((#name, #value)));
@@ -205,6 +259,8 @@ fn program(
                 name: #name,
                 file: #path,
                 texts: #krate::TEXTS,
+                toolboxes: &[#(#toolboxes),*],
+                project: #project,
                 hardware: &[#(#settings),*],
             };
             #main

@@ -99,6 +99,8 @@ fn wall_following() -> (String, Graph, CrateOptions) {
     let options = CrateOptions {
         file: "plans/wall_following.afp".to_owned(),
         texts: vec![("wall_following.afp".to_owned(), text.clone())],
+        toolboxes: Vec::new(),
+        project: String::new(),
         origin: Origin::Path("/home/a \"b\"".to_owned()),
         robot: None,
         hardware: None,
@@ -144,6 +146,26 @@ fn a_crate_names_its_dependencies_and_contains_its_text() {
     assert_eq!(get("lib/avoid.afp"), Some("plan Avoid {}"));
     let library = get("src/lib.rs").unwrap();
     assert!(library.contains("include_str!(\"../lib/avoid.afp\")"), "{library:?}");
+}
+
+#[test]
+fn a_program_contains_the_project_and_its_toolboxes_for_its_logs() {
+    let (_, graph, mut options) = wall_following();
+    options.toolboxes = vec![("arm".to_owned(), "toolbox arm\n".to_owned())];
+    options.project = "[robot]\n".to_owned();
+    options.texts.push(("attached/arm.afp".to_owned(), "plan Arm {}".to_owned()));
+    let files = afp_codegen::crate_files(&graph, &options);
+    let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &*file.text);
+    assert_eq!(get("attached/arm.afp"), Some("plan Arm {}"), "a file of the plan keeps its place");
+    assert_eq!(get("attached_/arm.afp"), Some("toolbox arm\n"));
+    assert_eq!(get("attached_/project.toml"), Some("[robot]\n"));
+    let main = get("src/main.rs").unwrap();
+    for path in ["attached_/arm.afp", "attached_/project.toml"] {
+        assert!(main.contains(&format!("include_str!(\"../{path}\")")), "{main}");
+    }
+    options.lib = true;
+    let files = afp_codegen::crate_files(&graph, &options);
+    assert!(!files.iter().any(|file| file.path.starts_with("attached_")));
 }
 
 /// The files of a crate of a plan and its sub-plans, each used by the file of the next one.

@@ -38,7 +38,7 @@ pub use messages::Messages;
 pub use names::LogNames;
 pub use picture::pixels;
 pub use read::{Configured, Heard, LogData, TopicInfo, configuration, read, read_any};
-pub use recipe::{WORLD, attached_toolbox, toolbox_attachment};
+pub use recipe::WORLD;
 pub use recorder::{Recorder, WhenFull, Written};
 pub use recover::{Missing, Recovered, recover, recovered_name};
 pub use session::SessionLog;

@@ -8,6 +8,8 @@ use crate::write::About;
 
 /// The attachment with the world, in the format of the robot's worlds.
 pub const WORLD: &str = "world";
+/// The attachment with the project file.
+const PROJECT: &str = "afp.toml";
 /// The prefix of toolbox attachments.
 const TOOLBOX: &str = "toolbox/";
 /// The prefix for a source whose name equals that of another attachment: another spelling of the
@@ -15,7 +17,7 @@ const TOOLBOX: &str = "toolbox/";
 const HERE: &str = "./";
 
 fn is_taken(attachment: &str) -> bool {
-    attachment == WORLD || attached_toolbox(attachment).is_some()
+    matches!(attachment, WORLD | PROJECT) || attached_toolbox(attachment).is_some()
 }
 
 fn text_attachment(file: &str) -> String {
@@ -29,13 +31,12 @@ fn attached_text(attachment: &str) -> &str {
     attachment.strip_prefix(HERE).filter(|file| is_taken(file)).unwrap_or(attachment)
 }
 
-/// The name of a toolbox's attachment.
-pub fn toolbox_attachment(toolbox: &str) -> String {
+fn toolbox_attachment(toolbox: &str) -> String {
     format!("{TOOLBOX}{toolbox}")
 }
 
 /// The toolbox of an attachment; `None` for other attachments.
-pub fn attached_toolbox(attachment: &str) -> Option<&str> {
+fn attached_toolbox(attachment: &str) -> Option<&str> {
     attachment.strip_prefix(TOOLBOX).filter(|name| !name.contains(['.', '/']))
 }
 
@@ -75,11 +76,13 @@ impl About {
             recipe.texts.iter().map(|it| (text_attachment(&it.name), TEXT, it.text.clone()));
         let toolboxes =
             recipe.toolboxes.iter().map(|it| (toolbox_attachment(&it.name), TEXT, it.text.clone()));
+        let project = Some(&recipe.project).filter(|text| !text.is_empty());
+        let project = project.map(|text| (PROJECT.to_owned(), TEXT, text.clone()));
         let world = (WORLD.to_owned(), TEXT, recipe.world.text.clone());
         let facts = facts.into_iter().map(|(key, value)| (key.to_owned(), value));
         About {
             facts: facts.chain(settings).collect(),
-            attachments: texts.chain(toolboxes).chain([world]).collect(),
+            attachments: texts.chain(toolboxes).chain(project).chain([world]).collect(),
         }
     }
 }
@@ -95,6 +98,7 @@ impl LogData {
             file: fact("plan_file").to_owned(),
             texts: self.texts(fact("plan_text"), &lines("plan_texts")),
             toolboxes: self.toolboxes(),
+            project: self.attachments.get(PROJECT).cloned().unwrap_or_default(),
             robot: fact("robot").to_owned(),
             world: TextFile { name: fact("world").to_owned(), text: world },
             start: read(fact("start_m_rad")),

@@ -66,7 +66,7 @@ impl Again {
         trace: TraceHash,
     ) -> Result<(), RunError> {
         let (texts, toolboxes) = program.text_files();
-        // Logs of built programs hold no toolboxes; logs of Python hold those that their plan uses.
+        // Logs of Python hold only the toolboxes that their plan uses.
         let is_another = |old: &TextFile| {
             toolboxes.iter().any(|new| new.name == old.name && new.text != old.text)
         };

@@ -20,14 +20,13 @@ pub mod requests;
 mod run;
 mod stderr;
 mod stop;
+mod version;
 mod watchdog;
 pub mod world;
 
 use std::process::ExitCode;
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_log::attached_toolbox;
-pub use afp_log::toolbox_attachment;
 use afp_session::{
     AnyRobot, AnySession, AnyWorld, Hardware, Opened, Robot, Session, Settings, Simulated,
     TextFile, kind,
@@ -42,9 +41,10 @@ pub use hash::hash;
 pub use output::{check_apart, check_writable, is_same_file, write_whole};
 pub use picture::{PictureFormat, Rasterizer};
 pub use report::{event_line, line, timeline};
-pub use run::{MakeSession, OpenHardware, hashes, run, run_on_hardware};
+pub use run::{MakeSession, OpenHardware, hashes, notify, run, run_on_hardware};
 pub use stderr::{say, warn};
 pub use stop::StopFlag;
+pub use version::{build_line, version};
 
 /// A plan and its sources.
 #[derive(Clone, Copy, Debug)]
@@ -52,9 +52,12 @@ pub struct Program<'a> {
     pub name: &'a str,
     /// The plan's file, as given; the default world is found relative to its folder.
     pub file: &'a str,
-    /// Path and text of the plan's file, then of the files that it uses, then of toolboxes
-    /// ([`toolbox_attachment`]), for the log.
+    /// Path and text of the plan's file, then of the files that it uses, for the log.
     pub texts: &'a [(&'a str, &'a str)],
+    /// Name and text of the project's toolboxes, for the log.
+    pub toolboxes: &'a [(&'a str, &'a str)],
+    /// The text of the project file, for the log; empty without a project.
+    pub project: &'a str,
     /// The hardware settings of the project: name and value.
     pub hardware: &'a [(&'a str, &'a str)],
 }
@@ -62,16 +65,14 @@ pub struct Program<'a> {
 impl Program<'_> {
     /// The texts of the plan, and the texts of toolboxes by name.
     pub(crate) fn text_files(&self) -> (Vec<TextFile>, Vec<TextFile>) {
-        let file =
-            |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
-        let (mut plan, mut toolboxes) = (Vec::new(), Vec::new());
-        for (path, text) in self.texts {
-            match attached_toolbox(path) {
-                Some(name) => toolboxes.push(file(name, text)),
-                None => plan.push(file(path, text)),
-            }
-        }
-        (plan, toolboxes)
+        let files = |texts: &[(&str, &str)]| {
+            let file = |(name, text): &(&str, &str)| TextFile {
+                name: (*name).to_owned(),
+                text: (*text).to_owned(),
+            };
+            texts.iter().map(file).collect()
+        };
+        (files(self.texts), files(self.toolboxes))
     }
 }
 
@@ -83,7 +84,7 @@ where
     P: NamedPlan + Plan<R> + 'static,
     Session<P, R>: AnySession,
 {
-    let options = match options_of(&program, &kind::<R>()) {
+    let options = match options_of(&program, &kind::<R>(), "simulated") {
         Ok(options) => options,
         Err(error) => error.exit(),
     };
@@ -99,7 +100,7 @@ where
     Session<P, R>: AnySession,
     Session<P, H>: AnySession,
 {
-    let options = match options_of(&program, &kind::<R>()) {
+    let options = match options_of(&program, &kind::<R>(), "simulated, hardware") {
         Ok(options) => options,
         Err(error) => error.exit(),
     };
@@ -129,12 +130,17 @@ where
     run(program, &kind::<R>(), Box::new(make), options, None)
 }
 
-/// Parses the command line of a generated binary.
-fn options_of(program: &Program<'static>, robot: &dyn AnyRobot) -> Result<RunOptions, clap::Error> {
+/// Parses the command line of a generated binary. `robots` names the linked kinds of robots.
+fn options_of(
+    program: &Program<'static>,
+    robot: &dyn AnyRobot,
+    robots: &str,
+) -> Result<RunOptions, clap::Error> {
     let about = format!("Runs the plan {}.", program.name);
     // The help must be that of the program and not of the struct of options.
     let command = RunOptions::augment_args(Command::new(program.name)).about(about);
     let command = command.long_about(None).after_help(EXAMPLES);
+    let command = command.version(&*version(program, robots).leak());
     let command = options::for_robot(command, robot);
     RunOptions::from_arg_matches(&command.get_matches())
 }

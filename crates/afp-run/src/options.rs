@@ -120,6 +120,18 @@ pub struct RunOptions {
     )]
     pub live: Option<SocketAddr>,
 
+    /// Simulates the first second in the built-in room and prints the hash of its trace
+    #[arg(long, conflicts_with_all = ["robot", "world", "again", "start", "press", "fail", "live"])]
+    pub self_check: bool,
+
+    /// Stops the robot and runs nothing; needs '--robot hardware'
+    #[arg(long, conflicts_with = "self_check")]
+    pub stop_only: bool,
+
+    /// Waits for the line 'arm' on standard input before the run, as the service of a robot asks
+    #[arg(long, hide = true, conflicts_with_all = ["self_check", "stop_only"])]
+    pub disarmed: bool,
+
     /// Prints how late the control loop of the robot itself woke up and how long its steps took
     #[arg(long)]
     pub rt_report: bool,
@@ -197,6 +209,12 @@ impl RunOptions {
 
     /// Refuses options for real robots.
     fn check_sim(&self) -> Result<(), RunError> {
+        if self.stop_only {
+            return Err(RunError::usage(
+                "'--stop-only' stops the robot itself, and this run is simulated",
+                "add '--robot hardware'",
+            ));
+        }
         let Some((name, _)) = self.set.iter().find(|(name, _)| name.starts_with(OF_ROBOT)) else {
             return Ok(());
         };

@@ -1,10 +1,12 @@
 //! One run from its options to its summary.
 
+mod armed;
 mod driver;
 mod gate;
 mod hardware;
 mod paths;
 pub(crate) mod realtime;
+mod self_check;
 
 use std::io;
 use std::path::Path;
@@ -34,13 +36,14 @@ use crate::report::{self, Ran, Report, Requests, RunFigures, Shown, StoppedBy, S
 use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::watchdog::Watchdog;
-use crate::world::{BUILT_IN, LoadedWorld};
+use crate::world::{self, BUILT_IN, LoadedWorld};
 use crate::{Program, inputs, requests};
 
 use driver::{AnyObserver, Driven, Driver};
 use gate::RunGate;
 use paths::Paths;
 
+pub use armed::notify;
 pub(crate) use hardware::HARDWARE;
 pub use hardware::{OpenHardware, run_on_hardware};
 
@@ -67,15 +70,23 @@ pub fn run(
         let help = "'afpc build --hardware' links it, of a robot whose project brings it";
         return Err(RunError::usage(message, help));
     }
+    if options.disarmed && !armed::wait()? {
+        return Ok(EXIT_OK);
+    }
     let again = options.again.as_deref().map(Again::read).transpose()?;
     let world = match &again {
         Some(again) => again.world(robot)?,
+        None if options.self_check => world::built_in(robot)?,
         None => find_world(program, options, robot)?,
     };
     let recipe = recipe(program, options, &world, again.as_ref())?;
     let measures: Vec<_> = recipe.measures.iter().map(String::as_str).collect();
     let mut session =
         make(&*world.world, recipe.seed, &measures).map_err(|why| world.no_session(why))?;
+    if options.self_check {
+        inputs::set_all(&mut *session, &options.set)?;
+        return self_check::check(&mut *session);
+    }
     match &again {
         Some(again) => requests::repeat(&mut *session, &again.recipe)?,
         None => {
@@ -95,7 +106,7 @@ fn find_world(
     robot: &dyn AnyRobot,
 ) -> Result<LoadedWorld, RunError> {
     let asked = options.world.as_deref();
-    let mut world = crate::world::find(asked, Path::new(program.file), robot)?;
+    let mut world = world::find(asked, Path::new(program.file), robot)?;
     let usual = world.world.drawing().start;
     inputs::change_world(&mut world, &options.set, robot)?;
     if let Some(start) = options.start {
@@ -117,18 +128,21 @@ fn recipe(
     let build = Build::this();
     let (texts, toolboxes) = program.text_files();
     let (plan, file) = (program.name.to_owned(), program.file.to_owned());
+    let project = program.project.to_owned();
     let end = Some(options.end()).filter(|end| *end < Instant::MAX);
     if let Some(Again { recipe, .. }) = again {
         measures.extend(recipe.measures.iter().cloned());
         let until = options.until.map(|until| Instant::ZERO + until).or(recipe.until);
         let recipe = recipe.clone();
-        return Ok(Recipe { plan, file, texts, toolboxes, measures, until, build, ..recipe });
+        let recipe = Recipe { plan, file, texts, toolboxes, project, ..recipe };
+        return Ok(Recipe { measures, until, build, ..recipe });
     }
     Ok(Recipe {
         plan,
         file,
         texts,
         toolboxes,
+        project,
         robot: Recipe::SIMULATED.to_owned(),
         world: TextFile { name: world.world.name().to_owned(), text: world.text.clone() },
         start: world.start,
@@ -239,6 +253,7 @@ fn drive(
     let watchdog =
         watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
     let driver = Driver { watchdog, realtime, keeper, end, live: live.as_deref() };
+    armed::ready();
     // The robot stops before anything slow is written.
     let driven = driver.drive(session, &mut gate, &mut observers);
     stop.set_last_resort(None);
@@ -404,7 +419,7 @@ pub fn hashes(recipe: &Recipe) -> [(&'static str, String); 2] {
 }
 
 /// The hash of the plan's text. Several files are hashed with their paths.
-fn plan_hash(texts: &[TextFile]) -> String {
+pub(crate) fn plan_hash(texts: &[TextFile]) -> String {
     match texts {
         [one] => hash(&one.text),
         all => {

@@ -97,12 +97,20 @@ pub fn find(
         (Some(path), _) => load(path, robot),
         (None, Some(path)) => load(&shown(&file.folder.join(path)), robot),
         (None, None) if beside.is_file() => load(&tidy(&beside), robot),
-        (None, None) => parse(robot.default_world().to_owned(), None, "", robot),
+        (None, None) => built_in(robot),
     }?;
     match file.project.profile() {
         Some(profile) => world.with(&profile.in_world(), robot),
         None => Ok(world),
     }
+}
+
+/// The robot's built-in room.
+///
+/// # Errors
+/// The room is invalid.
+pub(crate) fn built_in(robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
+    parse(robot.default_world().to_owned(), None, "", robot)
 }
 
 /// Checks that a requested world exists, without a robot to read it.

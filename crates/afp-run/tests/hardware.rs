@@ -185,7 +185,14 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
     let texts = [("plan.afp", text)];
     // A busy machine must not count as a stall.
     let hardware = [("port", "ttyUSB0"), ("realtime.stall", "10 s")];
-    let program = Program { name: "P", file: "plan.afp", texts: &texts, hardware: &hardware };
+    let program = Program {
+        name: "P",
+        file: "plan.afp",
+        texts: &texts,
+        toolboxes: &[("board", "toolbox board")],
+        project: "[robot]",
+        hardware: &hardware,
+    };
     let began = Wall::now();
     let ran = run_on_hardware(&program, Box::new(open), &options(arguments), None);
     (ran, began.elapsed(), seen)
@@ -230,6 +237,14 @@ fn a_poll_that_holds_the_control_loop_up_ends_the_run_in_an_error_and_stops_the_
 }
 
 #[test]
+fn a_robot_can_be_stopped_without_a_run() {
+    let (ran, _, seen) = on_board(WAITS, &["--stop-only"]);
+    assert_eq!(ran.unwrap(), EXIT_OK);
+    assert!(seen.stops.load(Ordering::Relaxed) > 0);
+    assert_eq!(seen.polls.load(Ordering::Relaxed), 0);
+}
+
+#[test]
 fn a_panic_stops_the_robot() {
     let text = "use board\nplan Breaks {\n    start go\n    \
         actor go: Work(breaks = 3) { Never -> terminate }\n}";
@@ -254,11 +269,13 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
     let (ran, ..) = on_board(WAITS, &["--until", "50ms", "--log", name]);
     assert_eq!(ran.unwrap(), EXIT_OK);
     let read = afp_log::read(Path::new(name)).unwrap();
-    assert_eq!((&*read.recipe().robot, &read.cut_short), ("hardware", &None));
+    let recipe = read.recipe();
+    assert_eq!((&*recipe.robot, &read.cut_short), ("hardware", &None));
     assert!(read.facts["wall_clock_s"].parse::<f64>().unwrap() > 1e9);
     for times in ["loop_late", "loop_steps"] {
         assert!(read.end[times].contains(", p50 "), "{:?}", read.end);
     }
+    assert_eq!((&*recipe.toolboxes[0].text, &*recipe.project), ("toolbox board", "[robot]"));
     let robot = simulated::<Simulation, _>(|_| {});
     // The simulation knows no world of it, and its pose is unknown.
     let drawn = afp_run::draw_log(&read, robot.kind()).unwrap_err().to_string();
@@ -268,7 +285,14 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
     let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
     let again = command.get_matches_from(["--again", name, "--log", "none"]);
     let again = RunOptions::from_arg_matches(&again).unwrap();
-    let program = Program { name: "P", file: "plan.afp", texts: &[], hardware: &[] };
+    let program = Program {
+        name: "P",
+        file: "plan.afp",
+        texts: &[],
+        toolboxes: &[],
+        project: "",
+        hardware: &[],
+    };
     let make = Box::new(|_: &dyn afp_session::AnyWorld, _: u64, _: &[&str]| {
         panic!("there is nothing to make")
     });

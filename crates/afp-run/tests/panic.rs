@@ -70,6 +70,8 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
         name: "Breaks",
         file: "breaks.afp",
         texts: &[("breaks.afp", PLAN)],
+        toolboxes: &[],
+        project: "",
         hardware: &[],
     };
     let log_name = log.to_str().unwrap();

@@ -21,6 +21,8 @@ pub struct Recipe {
     pub texts: Vec<TextFile>,
     /// The texts of the project's toolboxes, by name; built-in toolboxes belong to the build.
     pub toolboxes: Vec<TextFile>,
+    /// The text of the project file; empty without a project.
+    pub project: String,
     /// The kind of robot.
     pub robot: String,
     /// The world, by name; its text contains the values that were changed for the run.

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use afp_core::devices::SignalId;
 use afp_core::trace::TraceEntryId;
@@ -9,6 +10,7 @@ use afp_core::{Duration, EntryId, Instant, StartError};
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, Recorder, SessionLog, WhenFull};
+use afp_project::ProjectFile;
 use afp_run::{RunError, hashes};
 use afp_session::{
     AnyRobot, AnySession, Applied, Build, Go, Holder, Loader, NamedRecord, Observer, Recipe,
@@ -268,6 +270,7 @@ fn about(
         file: scenario.plan_file.clone(),
         texts: texts.map(|(name, text)| TextFile { name, text }).collect(),
         toolboxes: toolboxes.map(text_file).collect(),
+        project: project_text(Path::new(&scenario.plan_file)),
         robot: Recipe::SIMULATED.to_owned(),
         world: TextFile { name: world.world.name().to_owned(), text: world.text.clone() },
         start: world.start,
@@ -282,6 +285,11 @@ fn about(
     let more = hashes(&recipe).into_iter().chain(own).chain(of_robot);
     about.facts.extend(more.map(|(key, value)| (key.to_owned(), value)));
     about
+}
+
+/// The text of the project file of a plan, which was read before.
+fn project_text(plan: &Path) -> String {
+    ProjectFile::of_plan(plan).map_or_else(|_| String::new(), |file| file.text)
 }
 
 fn text_file((name, text): (&str, &str)) -> TextFile {

@@ -15,6 +15,8 @@ use crate::commands::dap;
 use crate::commands::lsp;
 #[cfg(feature = "studio")]
 use crate::commands::studio;
+#[cfg(unix)]
+use crate::commands::{agent, deploy, robot};
 use crate::commands::{
     build, check, completions, explain, fmt, graph, later, log, new, print, run, sweep, templates,
     test,
@@ -62,6 +64,18 @@ enum Command {
     /// Generate a readable Rust crate from a plan and build it
     #[command(after_help = build::EXAMPLES)]
     Build(build::Arguments),
+    /// Put a plan on a robot over ssh
+    #[cfg(unix)]
+    #[command(after_help = deploy::EXAMPLES)]
+    Deploy(deploy::Arguments),
+    /// Show, arm, stop and roll back a robot; fetch its logs
+    #[cfg(unix)]
+    #[command(after_help = robot::EXAMPLES)]
+    Robot(robot::Arguments),
+    /// Serve 'afpc deploy' on a robot
+    #[cfg(unix)]
+    #[command(after_help = agent::EXAMPLES)]
+    Agent(agent::Arguments),
     /// Show, check and repair the log of a run
     #[command(after_help = log::EXAMPLES)]
     Log(log::Arguments),
@@ -103,6 +117,12 @@ pub fn run(linked: &Linked<'_>) -> ExitCode {
         Command::Test(arguments) => test::run(arguments, linked),
         Command::Sweep(arguments) => sweep::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
+        #[cfg(unix)]
+        Command::Deploy(arguments) => deploy::run(arguments),
+        #[cfg(unix)]
+        Command::Robot(arguments) => robot::run(arguments),
+        #[cfg(unix)]
+        Command::Agent(arguments) => agent::run(arguments),
         Command::Log(arguments) => log::run(arguments, linked),
         #[cfg(feature = "lsp")]
         Command::Lsp => lsp::run(),
@@ -130,7 +150,8 @@ fn parse(linked: &Linked<'_>) -> Command {
     let asks = |word: &str| arguments.iter().any(|argument| argument == word);
     let helps = ["--help", "-h", "help"].into_iter().any(asks) && asks("run");
     let declared = if helps && !linked.is_runner() { declared::devices(&arguments) } else { None };
-    let command = command().mut_subcommand("run", |run| match declared {
+    let command = command().long_version(&*version(linked).leak());
+    let command = command.mut_subcommand("run", |run| match declared {
         Some(devices) => for_devices(run, devices),
         None => for_robot(run, linked.robot.kind()),
     });
@@ -155,6 +176,17 @@ fn parse(linked: &Linked<'_>) -> Command {
         Ok(cli) => cli.command,
         Err(error) => error.exit(),
     }
+}
+
+/// The answer to `--version`: the build, and the robot and toolboxes that are linked in.
+fn version(linked: &Linked<'_>) -> String {
+    let robot = linked.own_robot.unwrap_or("Carbot");
+    let hardware = linked.hardware.map_or(String::new(), |(name, _)| format!(", hardware {name}"));
+    let mut text = format!("{}\nrobot    {robot}{hardware}", afp_run::build_line());
+    for toolbox in linked.toolboxes {
+        text.push_str(&format!("\ntoolbox  {toolbox}"));
+    }
+    text
 }
 
 /// The command with the plan's inputs in the help of `--set`.

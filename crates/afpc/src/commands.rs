@@ -1,10 +1,14 @@
 //! One module per command.
 
+#[cfg(unix)]
+pub mod agent;
 pub mod build;
 pub mod check;
 pub mod completions;
 #[cfg(feature = "dap")]
 pub mod dap;
+#[cfg(unix)]
+pub mod deploy;
 #[cfg(any(feature = "lsp", feature = "studio"))]
 mod disk;
 pub mod explain;
@@ -15,6 +19,8 @@ pub mod log;
 #[cfg(feature = "lsp")]
 pub mod lsp;
 pub mod new;
+#[cfg(unix)]
+pub mod robot;
 pub mod run;
 #[cfg(any(feature = "dap", feature = "lsp"))]
 mod stream;

@@ -6,6 +6,7 @@ use afp_dsl::files::{Disk, Files, read_text};
 use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
+use afp_project::Robot;
 use afp_run::RunError;
 use afp_session::{Recipe, TextFile};
 use afp_syntax::source::Source;
@@ -34,6 +35,8 @@ pub struct PlanFile {
     pub own: OwnToolboxes,
     /// The used toolboxes whose sources are only in a log: from Python or from another project.
     pub foreign: Vec<String>,
+    /// The robot of a log's project, if the project is not here.
+    pub robot: Option<Robot>,
 }
 
 /// The text of a file, read once because the file may be a pipe.
@@ -71,7 +74,7 @@ impl PlanText<'_> {
     /// The project file or a toolbox cannot be read, or is invalid.
     pub fn compile(self) -> Result<PlanFile, RunError> {
         let source = Source::new(self.path.display().to_string(), self.text);
-        PlanFile::compile_with((self.path, &source), &Disk::default(), self.plan, &[])
+        PlanFile::compile_with((self.path, &source), &Disk::default(), self.plan, None)
     }
 }
 
@@ -89,7 +92,8 @@ impl PlanFile {
     /// # Errors
     /// The log names no plan, or its file cannot be read.
     pub fn of_log(log: &LogData, at: &Path) -> Result<PlanFile, RunError> {
-        let Recipe { plan, file, texts, toolboxes, .. } = log.recipe();
+        let recipe = log.recipe();
+        let Recipe { plan, file, texts, .. } = &recipe;
         if file.is_empty() {
             return Err(RunError::usage("the log does not say which plan ran", "name a whole log"));
         }
@@ -102,24 +106,28 @@ impl PlanFile {
             found.map(|it| it.text.clone()).ok_or_else(|| "it is not in the log".to_owned())
         };
         let source = Source::new(&first.name, &first.text);
-        PlanFile::compile_with((path, &source), &read, Some(&plan), &toolboxes)
+        PlanFile::compile_with((path, &source), &read, Some(plan), Some(&recipe))
     }
 
-    /// Compiles a plan with toolbox declarations that its project may lack.
+    /// Compiles a plan, of a log with the toolboxes and the robot that its project may lack here.
     fn compile_with(
         (path, source): (PathBuf, &Source),
         files: &dyn Files,
         plan: Option<&str>,
-        others: &[TextFile],
+        logged: Option<&Recipe>,
     ) -> Result<PlanFile, RunError> {
         let own = OwnToolboxes::of_plan(&path)?;
         let mut toolboxes = own.with_built_in()?;
         let mut foreign = Vec::new();
-        for TextFile { name, text } in others {
-            if toolboxes.get(name).is_none() {
+        for TextFile { name, text } in logged.iter().flat_map(|recipe| &recipe.toolboxes) {
+            if !own.files().iter().any(|file| file.toolbox.name == *name) {
                 toolboxes.add(Source::new(name, text), name);
                 foreign.push(name.clone());
             }
+        }
+        let robot = logged.and_then(|recipe| foreign_robot(recipe, &own));
+        if let Some(toolbox) = robot.as_ref().and_then(|robot| robot.toolbox.as_ref()) {
+            toolboxes.set_robot(toolbox);
         }
         let compiled = compile_plan(source, &toolboxes, files, plan);
         let used = |name: &String| {
@@ -127,7 +135,7 @@ impl PlanFile {
             graphs.any(|graph| compiled.toolbox_texts(graph).any(|(used, _)| used == name))
         };
         foreign.retain(used);
-        Ok(PlanFile { path, compiled, own, foreign })
+        Ok(PlanFile { path, compiled, own, foreign, robot })
     }
 
     /// Reports the diagnostics.
@@ -155,6 +163,11 @@ impl PlanFile {
         let graph = self.compiled.graph.take().ok_or(NoPlan::Wrong)?;
         Ok((self, graph))
     }
+}
+
+/// The robot of a log, unless a project is here that decides it.
+fn foreign_robot(recipe: &Recipe, own: &OwnToolboxes) -> Option<Robot> {
+    if own.project.exists { None } else { afp_project::read(&recipe.project).0.robot }
 }
 
 /// The plan file of a log. Its recorded path can be relative to another folder. The search includes
@@ -189,15 +202,18 @@ mod tests {
         let plan = "use std\nuse mine\nplan P {\n    start a\n    actor a: Beep { Done -> terminate }\n}\n";
         let mine = "toolbox mine\nactor Beep { state Done }\n";
         let texts = [("p.afp", plan), ("toolbox/mine", mine), ("toolbox/other", "toolbox other\n")];
+        let project = ("afp.toml", "[robot]\ntoolbox = \"mine\"\nsim = \"Mine\"\n");
+        let texts = texts.into_iter().chain([project]);
         let facts = [("plan", "P"), ("plan_file", "/nowhere/p.afp"), ("plan_text", "p.afp")];
         let owned = |(name, text): (&str, &str)| (name.to_owned(), text.to_owned());
         let log = LogData {
             facts: facts.map(owned).into(),
-            attachments: texts.map(owned).into(),
+            attachments: texts.map(owned).collect(),
             ..LogData::default()
         };
         let file = PlanFile::of_log(&log, Path::new("/nowhere/p.mcap")).unwrap();
         assert!(file.compiled.graph.is_some(), "{}", file.compiled.render(false));
         assert_eq!(file.foreign, ["mine"], "the plan does not use the other one");
+        assert_eq!(file.robot.unwrap().sim, "Mine");
     }
 }

@@ -40,10 +40,11 @@ fn a_recipe_is_read_back_unchanged() {
     let recipe = Recipe {
         plan: "Walk".to_owned(),
         file: "plans/walk.afp".to_owned(),
-        texts: ["plans/walk.afp", "zeta.afp", "toolbox/a.afp"]
+        texts: ["plans/walk.afp", "zeta.afp", "toolbox/a.afp", "afp.toml"]
             .map(|it| text(it, "plan A {}"))
             .into(),
         toolboxes: vec![text("gripper", "actor Grip {}")],
+        project: "[run]\n".to_owned(),
         robot: "sim".to_owned(),
         world: text("room", "name = \"room\""),
         start: Some(Pose2 { x: 0.1, y: -1.0 / 3.0, heading: 2.5 }),

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use afp_project::Realtime;
 use afp_session::{NoWorld, Opened, Recipe, STALL, SessionError, Settings};
 
-use super::{Guards, Setting, drive, recipe};
-use crate::error::RunError;
+use super::{Guards, Setting, armed, drive, recipe};
+use crate::error::{EXIT_OK, RunError};
 use crate::options::{OF_ROBOT as PREFIX, RunOptions};
 use crate::picture::Rasterizer;
 use crate::world::LoadedWorld;
@@ -36,7 +36,14 @@ pub fn run_on_hardware(
     let (of_robot, of_plan): (Vec<_>, Vec<_>) =
         options.set.iter().cloned().partition(|(name, _)| name.starts_with(PREFIX));
     let (settings, realtime) = settings(program, &of_robot)?;
+    if options.disarmed && !armed::wait()? {
+        return Ok(EXIT_OK);
+    }
     let Opened { mut session, last_resort, watch } = open(&settings)?;
+    if options.stop_only {
+        session.end();
+        return Ok(EXIT_OK);
+    }
     let stall = realtime.stall.unwrap_or(STALL);
     session.set_stall(stall);
     let watch = watch.map(|watch| (watch, stall));

@@ -187,7 +187,14 @@ pub fn drive(plan: &str, port: &str, options: &[&str]) -> ! {
     let options = RunOptions::from_arg_matches(&options).unwrap();
     // A busy machine must not count as a stall.
     let hardware = [("port", port), ("realtime.stall", "10 s")];
-    let program = Program { name: "Rove", file: "plan.afp", texts: &[], hardware: &hardware };
+    let program = Program {
+        name: "Rove",
+        file: "plan.afp",
+        texts: &[],
+        toolboxes: &[],
+        project: "",
+        hardware: &hardware,
+    };
     let open = |settings: &Settings| Opened::new::<_, Rover>(plan, settings);
     let code = match run_on_hardware(&program, Box::new(open), &options, None) {
         Ok(code) => code,

@@ -158,6 +158,12 @@ fn generate(
     let options = CrateOptions {
         file: file.path.display().to_string(),
         texts: file.compiled.plan_texts(),
+        toolboxes: file
+            .own
+            .texts()
+            .map(|(name, text)| (name.to_owned(), text.to_owned()))
+            .collect(),
+        project: file.own.project.text.clone(),
         origin: origin.clone(),
         dependencies: crates.map(origin::dependency).collect(),
         robot: robot.as_ref().map(RobotLink::rust_type),

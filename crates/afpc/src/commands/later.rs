@@ -8,11 +8,6 @@ use clap::Args;
 const LATER: &[(&str, &str, &str)] = &[
     ("replay", "replay of logs", "'afpc run --again RUN.mcap' repeats the run of a log"),
     (
-        "deploy",
-        "the Raspberry Pi driver",
-        "'afpc build PLAN.afp --target pi' builds a program that you copy to the robot with 'scp'",
-    ),
-    (
         "attach",
         "the robot's side of the debugger",
         "'afpc dap --port 4711' serves a simulated run that editors join with 'attach'; from another machine through 'ssh -L 4711:localhost:4711 HOST'",

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use afp_run::options::{OnRobot, RunOptions};
-use afp_run::{Program, RunError, check_apart, toolbox_attachment};
+use afp_run::{Program, RunError, check_apart};
 use afp_session::{AnyWorld, Settings};
 use clap::Args;
 
@@ -27,8 +27,14 @@ pub struct Arguments {
 /// The plan of a log whose run can be repeated.
 fn of_log(log: &Path) -> Result<PlanFile, RunError> {
     let file = PlanFile::of_log(&afp_log::read(log)?, log)?;
-    let Some(name) = file.foreign.first() else { return Ok(file) };
     let path = log.display();
+    let Some(name) = file.foreign.first() else {
+        let Some(robot) = &file.robot else { return Ok(file) };
+        return Err(RunError::usage(
+            format!("the run of '{path}' drove the robot '{}', whose Rust is not here", robot.sim),
+            "repeat it in the folder of its project, or with the built program: '--again'",
+        ));
+    };
     Err(RunError::usage(
         format!("the run of '{path}' used the toolbox '{name}', whose Rust is not here"),
         format!(
@@ -59,14 +65,21 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let sources = file.compiled.plan_sources().map(|source| Path::new(&source.name));
     check_apart(arguments.options.outputs(), sources)?;
     let path = file.path.display().to_string();
-    let mut texts = file.compiled.plan_texts();
-    texts.extend(file.own.texts().map(|(name, text)| (toolbox_attachment(name), text.to_owned())));
+    let texts = file.compiled.plan_texts();
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
     let settings = if itself { real::settings(&file.own.project)? } else { Vec::new() };
     let settings: Vec<_> =
         settings.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
     let name = &graph.main().name;
-    let program = Program { name, file: &path, texts: &texts, hardware: &settings };
+    let toolboxes: Vec<_> = file.own.texts().collect();
+    let program = Program {
+        name,
+        file: &path,
+        texts: &texts,
+        toolboxes: &toolboxes,
+        project: &file.own.project.text,
+        hardware: &settings,
+    };
     let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);
     let (options, pixels) = (&arguments.options, Some(&pixels as _));
     if itself {

@@ -86,6 +86,42 @@ fn a_log_has_every_file_that_its_plan_uses() {
 }
 
 #[test]
+fn a_log_is_enough_in_an_empty_folder() {
+    let place = Place::new();
+    place.write("project/afp.toml", "[run]\nmeasures = [\"wall\"]\n");
+    place.write("project/lib.afp", "enum Side { left right }\n");
+    place.write(
+        "project/p.afp",
+        "use std\nuse \"lib.afp\"\nplan P {\n    start a\n    in side: Side = Side.left\n\
+         \x20   actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n",
+    );
+    let first = place.afpc("run project/p.afp --log r.mcap --svg none --json");
+    first.succeeds();
+    let elsewhere = Place::new();
+    std::fs::copy(place.path("r.mcap"), elsewhere.path("r.mcap")).unwrap();
+    let again = elsewhere.afpc(&format!("run --again r.mcap {QUIET}"));
+    assert_eq!((again.succeeds().out.as_str(), again.err.as_str()), (first.out.as_str(), ""));
+}
+
+#[test]
+fn programs_say_what_they_are_and_check_themselves() {
+    let place = Place::with_plan();
+    let version = place.afpc("--version");
+    for part in [concat!("afpc ", env!("CARGO_PKG_VERSION")), " for ", "\nrobot    Carbot\n"] {
+        assert!(version.succeeds().out.contains(part), "{}", version.out);
+    }
+    let check = |values: &str| place.afpc(&format!("run wall_following.afp --self-check {values}"));
+    let (first, second) = (check(""), check("--set walldist=1m --seed 3"));
+    assert!(first.succeeds().out.starts_with("trace "), "{}", first.out);
+    assert_ne!(first.out, second.succeeds().out);
+    assert_eq!(first.out, check("").out);
+    assert_eq!(place.files(), ["wall_following.afp"], "it writes nothing");
+    check("--world random:1").fails(2, &["--world"]);
+    let stop = place.afpc("run wall_following.afp --stop-only");
+    stop.fails(2, &["'--stop-only' stops the robot itself", "add '--robot hardware'"]);
+}
+
+#[test]
 fn another_plan_can_be_tried_in_the_run_of_a_log() {
     let place = Place::with_plan();
     place.afpc(&format!("{RUN} --log a.mcap")).succeeds();

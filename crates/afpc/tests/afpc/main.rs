@@ -10,6 +10,8 @@ mod common;
 mod coverage;
 mod dap;
 #[cfg(target_os = "linux")]
+mod deploy;
+#[cfg(target_os = "linux")]
 mod every_output;
 mod files;
 mod fmt;

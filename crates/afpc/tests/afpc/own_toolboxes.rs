@@ -248,7 +248,37 @@ fn built(place: &Place, interpreted: &str) -> PathBuf {
     assert_eq!(program(place, &binary), interpreted);
     let manifest = place.read("target/afp/dance/Cargo.toml");
     assert!(manifest.contains("robot-gestures = { path = "), "{manifest}");
+    opens_elsewhere(place, &binary);
     binary
+}
+
+/// The program says what it is, and its log needs neither its project nor its toolbox.
+fn opens_elsewhere(place: &Place, binary: &Path) {
+    let run = |arguments: &str, folder: &Place| {
+        let mut command = Command::new(binary);
+        command.args(arguments.split(' ')).current_dir(folder.path(""));
+        let said = said(command.output().unwrap());
+        said.succeeds();
+        said.out
+    };
+    let version = run("--version", place);
+    for part in ["\nplan     plans/dance.afp\n", "\ntoolbox  gestures ", "\nafp      0."] {
+        assert!(version.contains(part), "{version}");
+    }
+    assert!(run("--self-check", place).starts_with("trace "));
+    run("--log dance.mcap --svg none", place);
+    let elsewhere = Place::new();
+    std::fs::copy(place.path("dance.mcap"), elsewhere.path("dance.mcap")).unwrap();
+    run(&format!("--again dance.mcap {QUIET}"), &elsewhere);
+    let again = elsewhere.afpc(&format!("run --again dance.mcap {QUIET}"));
+    again.fails(2, &["used the toolbox 'gestures', whose Rust is not here"]);
+    let launch =
+        r#"{"seq":1,"type":"request","command":"launch","arguments":{"log":"dance.mcap"}}"#;
+    elsewhere.write("launch", &format!("Content-Length: {}\r\n\r\n{launch}", launch.len()));
+    let mut debugger = elsewhere.command();
+    debugger.arg("dap").stdin(std::fs::File::open(elsewhere.path("launch")).unwrap());
+    let shown = said(debugger.output().unwrap());
+    assert!(shown.out.contains(r#""command":"launch","success":true"#), "{shown:?}");
 }
 
 /// The output of a program with the options of a run.

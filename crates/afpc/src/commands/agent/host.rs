@@ -1,0 +1,89 @@
+//! The robot as the agent sees it.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use afp_deploy::agent::{Host, Service, Started};
+use afp_deploy::manifest::Manifest;
+use afp_deploy::wire::Hello;
+use afp_project::ProjectFile;
+use afp_run::RunError;
+use afp_session::Build;
+
+use super::control::{Order, Reply, ask};
+use super::program;
+
+/// The toolbox of a robot without a project file.
+const CARBOT: &str = "carbot";
+/// The service stops a run, starts another one, and perhaps the first one again.
+const RESTART: Duration = Duration::from_secs(30);
+const SOON: Duration = Duration::from_secs(10);
+
+/// This machine.
+pub(super) struct Robot {
+    root: PathBuf,
+    afpc: PathBuf,
+    toolbox: String,
+}
+
+impl Robot {
+    /// # Errors
+    /// The robot's project file is invalid.
+    pub(super) fn new(root: &Path) -> Result<Self, RunError> {
+        let project = ProjectFile::find(root)?;
+        let toolbox = toolbox_of(&project).to_owned();
+        Ok(Robot { root: root.to_owned(), afpc: program::afpc()?, toolbox })
+    }
+
+    fn ask(&self, order: Order, patience: Duration) -> Result<Reply, String> {
+        ask(&self.root, order, patience)
+    }
+}
+
+/// The toolbox with the devices of a project's robot.
+pub fn toolbox_of(project: &ProjectFile) -> &str {
+    let robot = project.project.robot.as_ref();
+    robot.and_then(|robot| robot.toolbox.as_deref()).unwrap_or(CARBOT)
+}
+
+/// The reply to another order.
+fn confused<T>() -> Result<T, String> {
+    Err("the service 'afp' has another version: restart it".to_owned())
+}
+
+impl Host for Robot {
+    fn hello(&self) -> Hello {
+        let disk = rustix::fs::statvfs(&self.root).ok();
+        Hello {
+            version: Build::this().to_string(),
+            architecture: std::env::consts::ARCH.to_owned(),
+            toolbox: self.toolbox.clone(),
+            space: disk.map(|disk| disk.f_bavail.saturating_mul(disk.f_frsize)),
+        }
+    }
+
+    fn check(&mut self, files: &Path, manifest: &Manifest) -> Result<String, String> {
+        program::check(&self.afpc, files, manifest)
+    }
+
+    fn service(&mut self) -> Result<Service, String> {
+        match self.ask(Order::State, RESTART)? {
+            Reply::State(state) => Ok(state),
+            _ => confused(),
+        }
+    }
+
+    fn restart(&mut self) -> Result<Started, String> {
+        match self.ask(Order::Restart, RESTART)? {
+            Reply::Started(started) => Ok(started),
+            _ => confused(),
+        }
+    }
+
+    fn arm(&mut self, arm: bool) -> Result<(), String> {
+        match self.ask(Order::Arm(arm), SOON)? {
+            Reply::Done => Ok(()),
+            _ => confused(),
+        }
+    }
+}
