@@ -34,7 +34,7 @@ impl Host for Robot {
     }
 }
 
-/// A manifest that is read is written back as it is. An agent reads any bytes without a panic, and
+/// A valid manifest is written back unchanged. An agent reads any bytes without a panic, and
 /// writes nothing outside of its folder.
 pub fn deploy(data: &[u8]) {
     if let Ok(text) = std::str::from_utf8(data)

@@ -39,7 +39,7 @@ impl From<io::Error> for ClientError {
     }
 }
 
-/// What happens during a deploy.
+/// An event of a deploy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
     /// So many files, with so many bytes, differ.

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
 
-/// A disk. Every method fails as the function of `std::fs` with its name does.
+/// A disk. The methods return the errors of `std::fs`.
 pub trait Disk {
     fn create_dir_all(&self, path: &Path) -> io::Result<()>;
     /// Writes bytes to the end of a file, or to a new file.

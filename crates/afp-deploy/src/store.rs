@@ -4,13 +4,13 @@
 //! afp.toml               the robot's own project file
 //! objects/SHA256         files, each complete
 //! releases/ID/           a release: manifest.json, and links to its objects in files/
-//! generations/00000012   -> ../releases/ID: what was switched to, in order
-//! current                -> generations/00000012: what starts
-//! confirmed              -> generations/00000011: what started last without a failure
+//! generations/00000012   -> ../releases/ID: every switch, in order
+//! current                -> generations/00000012: starts next
+//! confirmed              -> generations/00000011: has started without a failure
 //! ```
 //!
-//! A release appears by one rename, and so does the link `current`. Whatever lies between is left
-//! over after an interruption, and [`Store::prune`] removes it.
+//! A release appears by one rename, and so does the link `current`. [`Store::prune`] removes the
+//! remains of an interrupted deploy.
 
 use std::collections::BTreeSet;
 use std::io::{self, Read};
@@ -329,14 +329,18 @@ impl<'a> Store<'a> {
         before.find(|it| it.release != current.release)
     }
 
-    /// Switches to the last confirmed release if the current one is another.
+    /// Switches to the last confirmed release if the current one is another, and forgets that one.
     ///
     /// # Errors
     /// The disk fails.
     pub fn fall_back(&self) -> Stored<Option<Generation>> {
         match (self.current(), self.confirmed()) {
             (Some(current), Some(good)) if good.release != current.release => {
-                self.switch(&good.release).map(Some)
+                let good = self.switch(&good.release)?;
+                // A rollback must not return to the failed release.
+                let failed = self.generation(current.number);
+                self.disk.remove(&failed).map_err(at(&failed))?;
+                Ok(Some(good))
             }
             _ => Ok(None),
         }
@@ -355,7 +359,7 @@ impl<'a> Store<'a> {
         releases
     }
 
-    /// Removes old releases, and what an interrupted deploy has left. The current release, the
+    /// Removes old releases, and the remains of an interrupted deploy. The current release, the
     /// confirmed one and the [`KEPT`] newest stay.
     ///
     /// # Errors

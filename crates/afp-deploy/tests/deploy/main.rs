@@ -1,4 +1,4 @@
-//! Whole deploys over byte streams, and what an interruption at any place leaves behind.
+//! Whole deploys over byte streams, with interruptions at any place.
 
 mod fake;
 mod faults;
@@ -89,6 +89,7 @@ fn a_release_that_does_not_start_is_replaced_by_the_one_before() {
     assert_eq!((ran.plan.as_str(), ran.instead.is_some()), ("Patrol1", true));
     let status = session(&mut robot, |agent| agent.status()).unwrap();
     assert_eq!(status.current.unwrap().plan, "Patrol1");
+    assert_eq!(status.releases.len(), 1, "a rollback does not return to the failed release");
     assert!(is_sound(folder.path()));
 }
 

@@ -1,5 +1,4 @@
-//! `--disarmed`: a run that waits until somebody lets the robot drive; and what a service manager
-//! learns of a run.
+//! `--disarmed`: a run that waits until an operator arms the robot; and messages to service managers.
 
 use std::io::{self, BufRead};
 

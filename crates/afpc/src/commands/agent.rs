@@ -30,6 +30,9 @@ pub struct Arguments {
     /// Run the current release, and restart it when it ends
     #[arg(long)]
     serve: bool,
+    /// Only stop the robot, as systemd does after the service has ended
+    #[arg(long, conflicts_with = "serve")]
+    stop: bool,
     /// Print the unit that runs the service under systemd
     #[arg(long, conflicts_with = "serve")]
     unit: bool,
@@ -56,6 +59,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let store = Store::open(root, &ThisDisk).map_err(|why| {
         RunError::usage(format!("cannot use the folder of releases: {why}"), FOLDER)
     })?;
+    if arguments.stop {
+        let Some(current) = store.current() else { return Ok(EXIT_OK) };
+        let stopped = store.manifest(&current.release).map_err(|why| why.to_string());
+        let files = store.files(&current.release);
+        let afpc = program::afpc()?;
+        let stopped = stopped.and_then(|manifest| program::stop_robot(&afpc, &files, &manifest));
+        let help = "switch the robot off: nothing has confirmed that it has stopped";
+        stopped.map_err(|why| RunError::usage(why, help))?;
+        return Ok(EXIT_OK);
+    }
     if arguments.serve {
         service::serve(&store, arguments.autostart)?;
         return Ok(EXIT_OK);

@@ -102,7 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         robot.deploy(&manifest, &content, stop_first, &mut tell)
     })?;
     let code = ran(done)?;
-    say("the robot is disarmed: 'afpc robot arm HOST' lets it drive");
+    say(format_args!("the robot is disarmed: 'afpc robot arm {}' lets it drive", arguments.to));
     Ok(code)
 }
 

@@ -98,7 +98,7 @@ fn arm(host: &Host, arm: bool) -> Result<u8, NoPlan> {
 /// Prints the progress of a deploy.
 pub(super) fn tell(progress: Progress) {
     let text = match progress {
-        Progress::Differs { files, bytes } => format!("sending {files} files, {bytes} bytes"),
+        Progress::Differs { files, bytes } => format!("files to send: {files}, with {bytes} bytes"),
         Progress::Step(Step::Check) => "checking the plan on the robot".to_owned(),
         Progress::Step(Step::Switch) => "switching to the release".to_owned(),
         Progress::Step(Step::Start) => "starting the release".to_owned(),

@@ -79,7 +79,7 @@ fn a_plan_is_deployed_armed_replaced_and_rolled_back() {
     let robot = Robot::new();
     let first = robot.deploy(DEPLOY);
     assert!(first.succeeds().out.starts_with("ready: WallFollowing "), "{first:?}");
-    assert!(first.err.contains("sending 1 files") && first.err.contains("disarmed"), "{first:?}");
+    assert!(first.err.contains("files to send: 1, with ") && first.err.contains("disarmed"), "{first:?}");
     assert!(robot.status().starts_with("disarmed: WallFollowing "), "{}", robot.status());
 
     robot.robot("arm", "").succeeds();

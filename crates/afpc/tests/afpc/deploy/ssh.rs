@@ -57,7 +57,8 @@ impl Server {
             ),
         );
         // The client of the path is the system's with another configuration.
-        place.write("bin/ssh", &format!("#!/bin/sh\nexec /usr/bin/ssh -F {} \"$@\"\n", file("ssh")));
+        place
+            .write("bin/ssh", &format!("#!/bin/sh\nexec /usr/bin/ssh -F {} \"$@\"\n", file("ssh")));
         let executable = std::fs::Permissions::from_mode(0o755);
         std::fs::set_permissions(place.path("bin/ssh"), executable).unwrap();
         // The folder that the server needs if root starts it.
