@@ -79,7 +79,10 @@ fn a_plan_is_deployed_armed_replaced_and_rolled_back() {
     let robot = Robot::new();
     let first = robot.deploy(DEPLOY);
     assert!(first.succeeds().out.starts_with("ready: WallFollowing "), "{first:?}");
-    assert!(first.err.contains("files to send: 1, with ") && first.err.contains("disarmed"), "{first:?}");
+    assert!(
+        first.err.contains("files to send: 1, with ") && first.err.contains("disarmed"),
+        "{first:?}"
+    );
     assert!(robot.status().starts_with("disarmed: WallFollowing "), "{}", robot.status());
 
     robot.robot("arm", "").succeeds();
@@ -150,7 +153,7 @@ fn deploys_that_cannot_work_are_refused_with_a_reason() {
     robot.deploy(DEPLOY).fails(2, &[other]);
     let to = |host: &str| {
         let mut command = robot.place.command();
-        command.args(["deploy", "wall_following.afp", "--to", host]);
+        command.args(["deploy", "wall_following.afp", &format!("--to={host}")]);
         crate::common::said(command.output().unwrap())
     };
     to("-oProxyCommand=x").fails(2, &["'-oProxyCommand=x' is not a host"]);
