@@ -41,7 +41,8 @@ struct Running {
 struct Supervisor<'a> {
     store: &'a Store<'a>,
     afpc: PathBuf,
-    notify: UnixDatagram,
+    /// The states that programs report, as `sd_notify` sends them.
+    states: UnixDatagram,
     running: Option<Running>,
     trouble: Option<String>,
     /// The next start after an end, and the pause before it.
@@ -70,14 +71,14 @@ pub(super) fn serve(store: &Store<'_>, autostart: bool) -> Result<(), RunError> 
     listener.set_nonblocking(true).map_err(failed)?;
     let path = root.join("notify");
     fs::remove_file(&path).ok();
-    let notify = UnixDatagram::bind(&path).map_err(RunError::file("cannot create", &path))?;
-    notify.set_nonblocking(true).map_err(failed)?;
+    let states = UnixDatagram::bind(&path).map_err(RunError::file("cannot create", &path))?;
+    states.set_nonblocking(true).map_err(failed)?;
     let stop =
         StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     let mut supervisor = Supervisor {
         store,
         afpc: program::afpc()?,
-        notify,
+        states,
         running: None,
         trouble: None,
         again: Instant::now(),
@@ -201,7 +202,7 @@ impl Supervisor<'_> {
         let manifest = self.store.manifest(release).map_err(|why| why.to_string())?;
         let files = self.store.files(release);
         program::stop_robot(&self.afpc, &files, &manifest)?;
-        while self.notify.recv(&mut [0; 64]).is_ok() {}
+        while self.states.recv(&mut [0; 64]).is_ok() {}
         let log = self.log(&manifest.plan, *number);
         let notify = self.store.root().join("notify");
         let started = program::start((&self.afpc, &files), &manifest, &log, &notify);
@@ -226,7 +227,7 @@ impl Supervisor<'_> {
 
     fn is_ready(&self) -> bool {
         let mut said = [0; 64];
-        self.notify.recv(&mut said).is_ok_and(|count| said.get(..count) == Some(b"READY=1"))
+        self.states.recv(&mut said).is_ok_and(|count| said.get(..count) == Some(b"READY=1"))
     }
 
     /// The path of the next log. Numbers order the logs, because the clock may be wrong.
