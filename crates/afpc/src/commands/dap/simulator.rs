@@ -6,6 +6,7 @@ use std::{fs, io};
 
 use afp_core::devices::{DeviceRow, SignalType, signals};
 use afp_debug::{Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target};
+use afp_dsl::files::path_of;
 use afp_dsl::graph::Graph;
 use afp_run::{RunError, world};
 use afp_session::{Pose2, Recipe};
@@ -38,9 +39,9 @@ impl<'a> Simulator<'a> {
     /// # Errors
     /// A path leads out of the folder, or does not exist.
     pub fn files(&self, launch: &Launch) -> Result<LaunchFiles, String> {
-        let named = launch.program.strip_prefix("file://").unwrap_or(&launch.program);
-        let (path, plan) = plan_file::split(named);
-        let inside = |path: &str| self.inside_of_folder(Path::new(path));
+        let named = path_of(&launch.program);
+        let (path, plan) = plan_file::split(&named);
+        let inside = |path: &str| self.inside_of_folder(Path::new(&path_of(path)));
         let world = match launch.world.as_deref() {
             Some(world) if !world.starts_with(world::RANDOM) => Some(inside(world)?),
             world => world.map(PathBuf::from),
@@ -236,6 +237,6 @@ fn program(graph: &Graph, file: &PlanFile, path: &dyn Fn(&str) -> String) -> Pro
 
 /// A canonical absolute path if the file exists.
 fn absolute(path: &str) -> String {
-    let path = path.strip_prefix("file://").unwrap_or(path);
-    fs::canonicalize(path).map_or_else(|_| path.to_owned(), |path| path.display().to_string())
+    let path = path_of(path);
+    fs::canonicalize(&path).map_or(path, |path| path.display().to_string())
 }
