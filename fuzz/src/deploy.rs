@@ -13,7 +13,7 @@ struct Robot(Option<String>);
 
 impl Host for Robot {
     fn hello(&self) -> Hello {
-        Hello { toolbox: "carbot".to_owned(), ..Hello::default() }
+        Hello { model: "carbot".to_owned(), ..Hello::default() }
     }
 
     fn check(&mut self, _: &Path, manifest: &Manifest) -> Result<String, String> {

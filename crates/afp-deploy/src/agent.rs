@@ -206,7 +206,7 @@ impl<'a> Agent<'a> {
     /// Refuses a release for another robot or processor.
     fn fits(&self, manifest: &Manifest) -> Result<(), Refusal> {
         let hello = self.host.hello();
-        let (theirs, ours) = (&manifest.toolbox, &hello.toolbox);
+        let (theirs, ours) = (&manifest.model, &hello.model);
         if theirs != ours {
             let message =
                 format!("the plan is for the robot '{theirs}', and this robot is '{ours}'");

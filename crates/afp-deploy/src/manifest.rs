@@ -23,8 +23,9 @@ pub struct Manifest {
     /// The file among `files` that runs: the plan's file, or the built program.
     pub file: String,
     pub kind: Kind,
-    /// The toolbox with the devices of the robot that the plan is for.
-    pub toolbox: String,
+    /// The model of the robot that the plan is for: its profile, or else the toolbox with its
+    /// devices.
+    pub model: String,
     /// The value of `--robot`: `hardware`, or `sim` to try a deploy without motors.
     pub robot: String,
     /// Values of `in` entries: name and value.
@@ -86,7 +87,7 @@ impl Manifest {
             return Err(Invalid::Files);
         }
         let values = self.set.iter().flat_map(|(name, value)| [name, value]);
-        let texts = [&self.toolbox, &self.trace].into_iter().chain(values);
+        let texts = [&self.model, &self.trace].into_iter().chain(values);
         if !texts.into_iter().all(|text| is_plain(text)) {
             return Err(Invalid::Text);
         }
@@ -186,7 +187,7 @@ pub(crate) mod tests {
             plan: "Patrol".to_owned(),
             file: files[0].0.to_owned(),
             kind: Kind::Interpreted,
-            toolbox: "carbot".to_owned(),
+            model: "carbot".to_owned(),
             robot: "sim".to_owned(),
             set: vec![("side".to_owned(), "left".to_owned())],
             trace: "00ff".to_owned(),

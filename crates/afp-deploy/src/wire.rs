@@ -80,8 +80,8 @@ pub struct Hello {
     pub version: String,
     /// Its processor, such as `aarch64`.
     pub architecture: String,
-    /// The toolbox with its devices.
-    pub toolbox: String,
+    /// Its model: the profile, or else the toolbox with its devices.
+    pub model: String,
     /// Free bytes on its disk, if known.
     pub space: Option<u64>,
 }

@@ -38,7 +38,7 @@ impl Robot {
             hello: Hello {
                 version: "1".to_owned(),
                 architecture: "aarch64".to_owned(),
-                toolbox: "carbot".to_owned(),
+                model: "carbot".to_owned(),
                 space: Some(1 << 30),
             },
             state: State::Stopped,
@@ -127,7 +127,7 @@ pub fn release(n: usize) -> Release {
         plan: format!("Patrol{n}"),
         file: "plan.afp".to_owned(),
         kind: Kind::Interpreted,
-        toolbox: "carbot".to_owned(),
+        model: "carbot".to_owned(),
         robot: "sim".to_owned(),
         set: Vec::new(),
         trace: "00ff".to_owned(),

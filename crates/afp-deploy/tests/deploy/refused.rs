@@ -26,7 +26,7 @@ fn refused(change: impl FnOnce(&mut Robot), expected: &str) {
 #[test]
 fn what_does_not_fit_the_robot_is_refused_before_a_byte_is_written() {
     refused(
-        |robot| robot.hello.toolbox = "vacuum".to_owned(),
+        |robot| robot.hello.model = "vacuum".to_owned(),
         "the plan is for the robot 'carbot', and this robot is 'vacuum'",
     );
     refused(|robot| robot.hello.space = Some(9 << 10), "the robot has 9 KiB of free disk");

@@ -18,7 +18,7 @@ use super::print;
 use crate::no_plan::NoPlan;
 use host::Robot;
 
-pub(super) use host::toolbox_of;
+pub(super) use host::model_of;
 pub(super) use program::trace_of;
 
 /// Arguments of `afpc agent`.

@@ -12,7 +12,7 @@ use afp_run::{RunError, say};
 use afp_session::Build;
 use clap::Args;
 
-use super::agent::{toolbox_of, trace_of};
+use super::agent::{model_of, trace_of};
 use super::robot::connect::Remote;
 use super::robot::{ran, tell};
 use crate::no_plan::NoPlan;
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         plan: graph.main().name.clone(),
         file: files.first().map(|file| file.path.clone()).unwrap_or_default(),
         kind,
-        toolbox: toolbox_of(&file.own.project).to_owned(),
+        model: model_of(&file.own.project).to_owned(),
         robot: arguments.robot.clone(),
         set: arguments.set.clone(),
         trace: trace(arguments)?,

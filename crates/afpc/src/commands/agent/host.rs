@@ -13,7 +13,7 @@ use afp_session::Build;
 use super::control::{Order, Reply, ask};
 use super::program;
 
-/// The toolbox of a robot without a project file.
+/// The model of a robot without a project file.
 const CARBOT: &str = "carbot";
 /// The service stops a run, starts another one, and perhaps the first one again.
 const RESTART: Duration = Duration::from_secs(30);
@@ -23,7 +23,7 @@ const SOON: Duration = Duration::from_secs(10);
 pub(super) struct Robot {
     root: PathBuf,
     afpc: PathBuf,
-    toolbox: String,
+    model: String,
 }
 
 impl Robot {
@@ -31,8 +31,8 @@ impl Robot {
     /// The robot's project file is invalid.
     pub(super) fn new(root: &Path) -> Result<Self, RunError> {
         let project = ProjectFile::find(root)?;
-        let toolbox = toolbox_of(&project).to_owned();
-        Ok(Robot { root: root.to_owned(), afpc: program::afpc()?, toolbox })
+        let model = model_of(&project).to_owned();
+        Ok(Robot { root: root.to_owned(), afpc: program::afpc()?, model })
     }
 
     fn ask(&self, order: Order, patience: Duration) -> Result<Reply, String> {
@@ -40,10 +40,11 @@ impl Robot {
     }
 }
 
-/// The toolbox with the devices of a project's robot.
-pub fn toolbox_of(project: &ProjectFile) -> &str {
-    let robot = project.project.robot.as_ref();
-    robot.and_then(|robot| robot.toolbox.as_deref()).unwrap_or(CARBOT)
+/// The profile of a project's robot, or the toolbox with its devices.
+pub fn model_of(project: &ProjectFile) -> &str {
+    let project = &project.project;
+    let toolbox = project.robot.as_ref().and_then(|robot| robot.toolbox.as_deref());
+    project.profile().map_or(toolbox.unwrap_or(CARBOT), |robot| robot.name)
 }
 
 /// The reply to another order.
@@ -57,7 +58,7 @@ impl Host for Robot {
         Hello {
             version: Build::this().to_string(),
             architecture: std::env::consts::ARCH.to_owned(),
-            toolbox: self.toolbox.clone(),
+            model: self.model.clone(),
             space: disk.map(|disk| disk.f_bavail.saturating_mul(disk.f_frsize)),
         }
     }
