@@ -76,6 +76,13 @@ pub struct Robot {
 }
 
 impl Robot {
+    /// The name of its type in Rust: the simulated robot, or else the hardware. `None` for a robot
+    /// with a profile.
+    pub fn rust_type(&self) -> Option<&str> {
+        let hardware = self.hardware.as_ref().map(|hardware| hardware.ty.as_str());
+        self.sim.as_deref().or(hardware)
+    }
+
     /// The settings of the control loop with their prefix.
     pub(crate) fn of_control_loop(&self) -> impl Iterator<Item = (String, String)> {
         let named = |(name, value): &(String, String)| {

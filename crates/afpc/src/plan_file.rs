@@ -214,6 +214,6 @@ mod tests {
         let file = PlanFile::of_log(&log, Path::new("/nowhere/p.mcap")).unwrap();
         assert!(file.compiled.graph.is_some(), "{}", file.compiled.render(false));
         assert_eq!(file.foreign, ["mine"], "the plan does not use the other one");
-        assert_eq!(file.robot.unwrap().sim, "Mine");
+        assert_eq!(file.robot.unwrap().sim.as_deref(), Some("Mine"));
     }
 }

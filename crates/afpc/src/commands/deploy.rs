@@ -8,6 +8,7 @@ use afp_deploy::client::check_version;
 use afp_deploy::manifest::{Entry, Kind, Manifest};
 use afp_deploy::sha256;
 use afp_dsl::graph::Graph;
+use afp_project::Robot;
 use afp_run::{RunError, say};
 use afp_session::Build;
 use clap::Args;
@@ -109,9 +110,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
 /// Refuses a plan whose robot or toolboxes are Rust, which `afpc` on the robot does not have.
 fn needs_no_rust(file: &PlanFile, graph: &Graph) -> Result<(), NoPlan> {
     let toolboxes = file.own.used_by(graph)?;
-    let what = match (toolboxes.first(), &file.own.project.project.robot) {
+    let robot = file.own.project.project.robot.as_ref().and_then(Robot::rust_type);
+    let what = match (toolboxes.first(), robot) {
         (Some(toolbox), _) => format!("the toolbox '{}'", toolbox.name),
-        (None, Some(robot)) => format!("the robot '{}'", robot.sim),
+        (None, Some(robot)) => format!("the robot '{robot}'"),
         (None, None) => return Ok(()),
     };
     let message = format!("{what} is Rust, which the robot's afpc does not have");

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use afp_project::Robot;
 use afp_run::options::{OnRobot, RunOptions};
 use afp_run::{Program, RunError, check_apart};
 use afp_session::{AnyWorld, Settings};
@@ -29,9 +30,9 @@ fn of_log(log: &Path) -> Result<PlanFile, RunError> {
     let file = PlanFile::of_log(&afp_log::read(log)?, log)?;
     let path = log.display();
     let Some(name) = file.foreign.first() else {
-        let Some(robot) = &file.robot else { return Ok(file) };
+        let Some(robot) = file.robot.as_ref().and_then(Robot::rust_type) else { return Ok(file) };
         return Err(RunError::usage(
-            format!("the run of '{path}' drove the robot '{}', whose Rust is not here", robot.sim),
+            format!("the run of '{path}' drove the robot '{robot}', whose Rust is not here"),
             "repeat it in the folder of its project, or with the built program: '--again'",
         ));
     };
