@@ -10,6 +10,16 @@ macro_rules! halts_when_interrupted {
     };
 }
 
+/// Stops the drive on suspension.
+macro_rules! halts_when_suspended {
+    () => {
+        fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+            env.halt(now);
+            Ok(())
+        }
+    };
+}
+
 mod approach_infrared;
 mod choose_view;
 mod curve;

@@ -18,11 +18,11 @@ use picture::Picture;
 use std::collections::VecDeque;
 use std::vec::Vec;
 
+mod pause;
 mod picture;
 mod place;
 
-/// A plane wall: the direction of its normal, away from the origin, and its distance from the
-/// origin.
+/// A plane wall: the direction of its outward normal, and its distance from the origin.
 #[derive(Clone, Copy)]
 pub(crate) struct Plane {
     pub(crate) normal: f64,

@@ -1,6 +1,7 @@
 //! Parts that templates share: sensor timeouts, paths, turns, memory of positions.
 
 pub(crate) mod approaching;
+pub mod aside;
 pub(crate) mod eye;
 pub mod guard;
 pub mod history;

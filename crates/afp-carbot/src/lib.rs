@@ -42,7 +42,7 @@ pub use actors::{
 pub use computations::{DescribeObject, NewPath, WidestGap};
 pub use devices::Carbot;
 pub use helpers::sighting::Sighting;
-pub use helpers::{guard, history, tracking, trail};
+pub use helpers::{aside, guard, history, tracking, trail};
 pub use objects::{Appearance, DistanceMap, Path};
 pub use supervisors::{
     Blink, CheckBattery, CheckColor, CheckDistance, CheckDrivingLane, CheckEscapeButton,

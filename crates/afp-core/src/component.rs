@@ -264,7 +264,7 @@ pub trait Resumable<T: ActorTemplate, E: ?Sized>: Actor<T, E> {
     fn resume(&mut self, env: &mut E, now: Instant, away: Duration) -> Result<(), Fault>;
 }
 
-/// What a supervisor does when its element continues.
+/// The reaction of a supervisor when its element continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnReturn {
     /// It keeps its state.

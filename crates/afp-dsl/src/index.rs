@@ -1,5 +1,5 @@
-//! The meaning of every name of a compilation: where it is declared, who uses it, and what it may
-//! have been meant for.
+//! The meaning of every name of a compilation: where it is declared, who uses it, and its
+//! likely meanings.
 //!
 //! The check records the meaning of a name when it resolves the name; this module resolves nothing.
 //! So the index covers broken texts as far as the check does. A name without a meaning is

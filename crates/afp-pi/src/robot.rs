@@ -32,7 +32,7 @@ const OFTEN: Duration = Duration::from_millis(20);
 /// The controller must obey within this time after the port was opened.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// The line to a robot's controller. Nothing waits, and what the line does not take is lost.
+/// The line to a robot's controller. Nothing waits; bytes that do not fit the line are lost.
 pub trait Line: Send + Sized + 'static {
     /// The profile of its robots.
     const PROFILE: &'static str;

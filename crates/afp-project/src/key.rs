@@ -1,4 +1,4 @@
-//! A key of a project file, with what editors show.
+//! A key of a project file, with the texts of editors.
 
 /// A key of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

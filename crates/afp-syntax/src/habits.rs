@@ -1,16 +1,18 @@
-//! Habits of other languages: what is written, what is wrong with it, and the plan text that says the same.
+//! Habits of other languages: a pattern, the error, and the plan text with the same meaning.
 //!
-//! The only table of them; single words are in `words`. A pattern is a list of tokens with blanks between them. The parser
-//! looks for it if something does not fit its grammar, on one line:
+//! This is the only table of habits; `words` has single words. A pattern is a list of tokens with
+//! spaces between them. The parser searches it on one line if a token does not fit the grammar:
 //!
-//! - `NAME` is a name, `STATE` one with a capital letter, `ENTRY` one of an entry, `SAME` the first name again, `NUM` a number
-//!   with its unit, `TEXT` a text without its quotes, `..` anything up to the next token of the pattern, brackets and braces as a
-//!   whole. Each of these is captured. A `..` at the end is the rest of the line.
-//! - `a|b` is one of several, which is not captured; an alternative that is empty, as in `|:`, makes it optional.
-//! - Any other word or sign is itself, `PIPE` and `POWER` are '|' and '^'. A ';' is passed over unless the pattern has one.
-//! - `^` is where reading goes on; without it that is behind the pattern.
+//! - `NAME` is a name, `STATE` a name with a capital letter, `ENTRY` the name of an entry, and
+//!   `SAME` the first name again. `NUM` is a number with its unit, `TEXT` a text without its quotes.
+//!   `..` is everything up to the next token of the pattern, or to the end of the line, with
+//!   brackets and braces as a whole. Each of these is captured.
+//! - `a|b` is an alternative, which is not captured. An empty alternative, as in `|:`, is optional.
+//! - Any other word or sign is itself; `PIPE` and `POWER` are '|' and '^'. A ';' is skipped unless the
+//!   pattern has one.
+//! - `^` is the place where parsing continues, by default the end of the pattern.
 //!
-//! In the sentences `{1}` is a capture, and a word in braces is something else that the parser knows (see its `elsewhere`).
+//! In the sentences `{1}` is a capture. Other words in braces are placeholders of `elsewhere`.
 
 mod sensors;
 mod words;
@@ -44,14 +46,14 @@ const EDGES: Places = BODY | EVENTS;
 const ITEMS: Places = FILE | PLAN;
 const INSIDE: Places = PLAN | BODY;
 
-/// What a help does.
+/// The action of a help.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Write {
-    /// Puts this text in place of what is written.
+    /// Replaces the pattern by this text.
     Edit(&'static str),
-    /// Says this.
+    /// Shows this text.
     Say(&'static str),
-    /// Removes what is written, and says this of it.
+    /// Removes the pattern, and shows this text.
     Drop(&'static str),
 }
 use Write::{Drop, Edit, Say};
@@ -61,7 +63,7 @@ use Write::{Drop, Edit, Say};
 pub(crate) struct Habit {
     pub at: Places,
     pub pattern: &'static str,
-    /// What is wrong.
+    /// The error.
     pub says: &'static str,
     pub write: Write,
 }

@@ -5,7 +5,7 @@ use crate::helpers::guard::{Guard, NO_ODOMETRY};
 use crate::helpers::tracking::Tracking;
 use crate::templates;
 use crate::templates::drive::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Commands the latest speed and turn. Both ramp up, so that the wheels do not slip.
 #[derive(Clone, Debug)]
@@ -32,6 +32,16 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Drive, E> for Drive {
     }
 
     halts_when_interrupted!();
+}
+
+impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Drive, E> for Drive {
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.tracking = Tracking::new(now);
+        self.odometry = Guard::new(NO_ODOMETRY, now);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

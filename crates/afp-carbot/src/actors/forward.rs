@@ -1,12 +1,13 @@
 //! Drive straight ahead or back.
 
 use crate::devices::{Motion, Navigator, Odometry};
+use crate::helpers::aside::Aside;
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
 use crate::helpers::tracking::Tracking;
 use crate::templates;
 use crate::templates::forward::{Inputs, Live, State};
 use afp_core::quantity::Length;
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// The drive is complete when less than this is left, metres.
 const CLOSE: f64 = 0.004;
@@ -22,6 +23,7 @@ pub struct Forward {
     odometry: Guard,
     /// Motion at the start; `None` until the first reading.
     from: Option<Motion>,
+    aside: Aside,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward {
@@ -34,6 +36,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
             tracking: Tracking::new(now),
             odometry,
             from,
+            aside: Aside::default(),
         })
     }
 
@@ -42,6 +45,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
             self.tracking.halt(env, now);
             return Ok(Poll::Pending);
         };
+        self.aside.check(&motion)?;
         let from = *self.from.get_or_insert(motion);
         let driven = motion.seen_from(&from).0.si();
         let ahead = if self.distance < 0.0 { -1.0 } else { 1.0 };
@@ -63,10 +67,26 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
     halts_when_interrupted!();
 }
 
+/// The line and its end stay in place.
+impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Forward, E> for Forward {
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.tracking.halt(env, now);
+        self.aside = Aside::at(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.tracking = Tracking::new(now);
+        self.odometry = Guard::new(NO_ODOMETRY, now);
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fake::Fake;
+    use crate::helpers::aside::MOVED_AWAY;
     use crate::helpers::tracking::{DRIVE_BLOCKED, DRIVE_STALLED};
     use afp_core::quantity::Speed;
 
@@ -84,6 +104,28 @@ mod tests {
             assert!((driven.si() - distance).abs() < 0.01, "{driven:?}");
             assert!((robot.motion.x.si() - distance).abs() < 0.01);
         }
+    }
+
+    fn drive_with_a_pause(robot: &mut Fake, pushed: f64) -> Result<Option<State>, Fault> {
+        let inputs = Inputs { distance: Length::from_si(1.0), speed: Speed::from_si(0.2) };
+        robot.run_with_a_pause::<templates::Forward, Forward>(inputs, || Live {}, |robot| {
+            robot.motion.x += Length::from_si(pushed);
+        })
+    }
+
+    #[test]
+    fn a_pause_does_not_change_the_end_of_the_line() {
+        for pushed in [0.0, 0.08, -0.08] {
+            let mut robot = Fake::new(&[]);
+            let state = drive_with_a_pause(&mut robot, pushed);
+            assert!(matches!(state, Ok(Some(State::ForwardSuccessful { .. }))), "{state:?}");
+            assert!((robot.motion.x.si() - 1.0).abs() < 0.01, "{:?}", robot.motion);
+        }
+    }
+
+    #[test]
+    fn a_robot_that_was_moved_away_is_a_fault() {
+        assert_eq!(drive_with_a_pause(&mut Fake::new(&[]), 0.3), Err(MOVED_AWAY));
     }
 
     #[test]

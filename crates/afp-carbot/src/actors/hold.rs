@@ -3,7 +3,7 @@
 use crate::devices::Navigator;
 use crate::templates;
 use crate::templates::hold::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Commands a standstill repeatedly, against pushes and drives that time out.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +21,14 @@ impl<E: Navigator + ?Sized> Actor<templates::Hold, E> for Hold {
     }
 
     halts_when_interrupted!();
+}
+
+impl<E: Navigator + ?Sized> Resumable<templates::Hold, E> for Hold {
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, _: Instant, _: Duration) -> Result<(), Fault> {
+        Ok(())
+    }
 }
 
 #[cfg(test)]

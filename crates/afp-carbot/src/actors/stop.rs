@@ -4,7 +4,7 @@ use crate::devices::{Navigator, Odometry};
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
 use crate::templates;
 use crate::templates::stop::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Commands a standstill until the odometry confirms it.
 #[derive(Clone, Debug)]
@@ -26,6 +26,15 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Stop, E> for Stop {
     }
 
     halts_when_interrupted!();
+}
+
+impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Stop, E> for Stop {
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.odometry = Guard::new(NO_ODOMETRY, now);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! Turn in place.
 
 use crate::devices::{Navigator, Odometry};
+use crate::helpers::aside::Aside;
 use crate::helpers::tracking::Tracking;
 use crate::helpers::turning::{CLOSE, Progress, Turning};
 use crate::templates;
 use crate::templates::turn::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Turns by an angle from the initial heading, by odometry.
 #[derive(Clone, Debug)]
@@ -13,6 +14,7 @@ pub struct Turn {
     turning: Turning,
     speed: f64,
     tracking: Tracking,
+    aside: Aside,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
@@ -21,6 +23,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
             turning: Turning::new(inputs.angle, CLOSE, env, now)?,
             speed: inputs.speed.si(),
             tracking: Tracking::new(now),
+            aside: Aside::default(),
         })
     }
 
@@ -28,6 +31,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
         match self.turning.progress(env, now)? {
             Progress::Unknown => self.tracking.halt(env, now),
             Progress::Left(left, motion) => {
+                self.aside.check(&motion)?;
                 let rate = self.tracking.turn(left, self.speed, now);
                 self.tracking.drive(env, &motion, (0.0, rate), now)?;
             }
@@ -44,10 +48,26 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
     halts_when_interrupted!();
 }
 
+/// The heading of the end stays the same.
+impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Turn, E> for Turn {
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.tracking.halt(env, now);
+        self.aside = Aside::at(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.tracking = Tracking::new(now);
+        self.turning.resume(now);
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fake::Fake;
+    use crate::helpers::aside::MOVED_AWAY;
     use crate::helpers::guard::NO_ODOMETRY;
     use afp_core::quantity::{Angle, AngularSpeed};
 
@@ -66,6 +86,25 @@ mod tests {
             assert!((turned.si().to_degrees() - degrees).abs() < 1.0, "{turned:?}");
             assert_eq!(robot.motion.x.si(), 0.0);
         }
+    }
+
+    fn turn_with_a_pause(robot: &mut Fake, turned: f64) -> Result<Option<State>, Fault> {
+        let inputs = Inputs { angle: Angle::from_deg(90.0), speed: AngularSpeed::from_si(0.8) };
+        robot.run_with_a_pause::<templates::Turn, Turn>(inputs, || Live {}, |robot| {
+            robot.motion.heading += Angle::from_deg(turned);
+        })
+    }
+
+    #[test]
+    fn a_pause_does_not_change_the_final_heading() {
+        for turned in [0.0, 10.0, -10.0] {
+            let mut robot = Fake::new(&[]);
+            let state = turn_with_a_pause(&mut robot, turned);
+            assert!(matches!(state, Ok(Some(State::TurnSuccessful { .. }))), "{state:?}");
+            let heading = robot.motion.heading.si().to_degrees();
+            assert!((heading - 90.0).abs() < 1.0, "{heading}");
+        }
+        assert_eq!(turn_with_a_pause(&mut Fake::new(&[]), 30.0), Err(MOVED_AWAY));
     }
 
     #[test]

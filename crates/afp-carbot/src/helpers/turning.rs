@@ -43,6 +43,11 @@ impl Turning {
         Ok(Turning { angle: angle.si(), close, odometry, from })
     }
 
+    /// Continues after a suspension: the odometry gets a new timeout.
+    pub(crate) fn resume(&mut self, now: Instant) {
+        self.odometry = Guard::new(NO_ODOMETRY, now);
+    }
+
     /// The current progress.
     ///
     /// # Errors

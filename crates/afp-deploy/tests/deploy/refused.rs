@@ -24,7 +24,7 @@ fn refused(change: impl FnOnce(&mut Robot), expected: &str) {
 }
 
 #[test]
-fn what_does_not_fit_the_robot_is_refused_before_a_byte_is_written() {
+fn a_release_that_does_not_fit_the_robot_is_refused_before_a_byte_is_written() {
     refused(
         |robot| robot.hello.model = "vacuum".to_owned(),
         "the plan is for the robot 'carbot', and this robot is 'vacuum'",

@@ -192,7 +192,7 @@ fastest = '50 cm/s'
 ";
 
 #[test]
-fn a_profile_describes_a_robot_with_defaults_and_what_it_lacks() {
+fn a_profile_describes_a_robot_with_defaults_and_missing_parts() {
     let (project, mistakes) = read(&format!("{PARTS}[robot.bumper]\n"));
     assert_eq!(mistakes, []);
     let robot = project.robot.unwrap();
@@ -215,7 +215,7 @@ fn a_profile_describes_a_robot_with_defaults_and_what_it_lacks() {
 }
 
 #[test]
-fn what_is_wrong_with_a_profile_is_named_at_its_place() {
+fn an_error_of_a_profile_is_reported_at_its_place() {
     assert_eq!(wrong("[robot]\nprofile = 'carbott'"), ["'carbott'"]);
     assert_eq!(wrong("[robot]\nprofile = 3"), ["3"]);
     let with = |more: &str| format!("{PARTS}{more}");

@@ -7,7 +7,7 @@ use crate::source::Span;
 
 /// A port bound to a formula or an entry.
 ///
-/// A name alone is read as an input, see [`Bind::is_alone`].
+/// A single name is read as an input, see [`Bind::is_alone`].
 #[derive(Clone, Debug)]
 pub enum Bind {
     /// `port = formula`

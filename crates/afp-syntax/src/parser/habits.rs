@@ -1,4 +1,4 @@
-//! What is written as in other languages: what to write instead, and where reading goes on.
+//! Text as in other languages: its replacement, and the place where parsing continues.
 
 mod behind;
 mod bodies;
@@ -91,7 +91,7 @@ impl Parser<'_, '_> {
         is_free(self.word(0)) && is_small(self.word(1)) && !self.begins_item()
     }
 
-    /// The ':' before a template, or what was written for it.
+    /// The ':' before a template, or a substitute for it.
     pub(super) fn colon_of_head(&mut self) -> bool {
         let swapped =
             self.at(Kind::Name) && matches!(self.nth(1), Kind::OpenBrace | Kind::OpenParen);
@@ -160,7 +160,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Reports times of what has none of its own.
+    /// Reports times of a component that has none.
     pub(super) fn no_timing(&mut self) {
         while self.at_timing() {
             let (here, word) = (self.next_span(), self.word(0));
@@ -182,7 +182,7 @@ impl Parser<'_, '_> {
             let message = "no target on the line of its '->'";
             let help = message!("write '{}' behind the '->'", target);
             self.error(Diagnostic::new(Code::E0109, here, message).help(help));
-            // What follows on that line is its own.
+            // The rest of that line belongs to the target.
             return true;
         }
         false
@@ -242,7 +242,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// What to write for an operator that formulas do not have.
+    /// The replacement of an operator that formulas do not have.
     fn operator_help(&self) -> Option<&'static str> {
         match self.word(0) {
             _ if self.at(Kind::Caret) => Some("write a product, such as 'x * x'"),
@@ -302,7 +302,7 @@ impl Parser<'_, '_> {
         let (Some(number), true) = (number, self.at(Kind::Percent) && self.on_same_line()) else {
             return false;
         };
-        // What begins there is no operand.
+        // The next token is not an operand.
         self.at += 1;
         let is_item = !self.on_same_line() && (self.begins_item() || self.begins_scenario_line());
         let ends = is_item || self.names_something(0) || self.at_word_of_grammar();
@@ -431,7 +431,7 @@ impl Parser<'_, '_> {
         last.map_or(first, |last| first.to(last))
     }
 
-    /// Passes over tokens of which something has been said.
+    /// Skips tokens with a reported error.
     pub(super) fn pass(&mut self, tokens: usize) {
         self.open(Kind::Error);
         (0..tokens).for_each(|_| self.bump());

@@ -287,7 +287,7 @@ impl Parser<'_, '_> {
         );
     }
 
-    /// The number of commas in the bracket that begins here, as far as it is closed.
+    /// The number of commas in the bracket that begins here, up to its end or the end of the file.
     pub(super) fn commas_in_brackets(&self) -> usize {
         if !self.at(Kind::OpenParen) || !self.is_closed() {
             return 0;

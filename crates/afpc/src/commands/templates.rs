@@ -137,7 +137,7 @@ fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String
     text
 }
 
-/// The commanded device and the timing of a template.
+/// The commanded device and the timing of a template, and whether it can be suspended.
 fn timing(template: &Template) -> String {
     let time = |word: &str, nanos: u64| {
         let text = match nanos {
@@ -153,6 +153,7 @@ fn timing(template: &Template) -> String {
     let rest =
         [("deadline", template.deadline), ("budget", template.budget), ("stop", template.stop)];
     parts.extend(rest.into_iter().filter_map(|(word, nanos)| Some(time(word, nanos?))));
+    parts.extend(template.resumable.then(|| "can be suspended".to_owned()));
     parts.join(", ")
 }
 
@@ -199,7 +200,7 @@ mod tests {
     #[test]
     fn a_template_on_one_line_is_described_part_by_part() {
         let mut toolboxes = Toolboxes::default();
-        let line = "actor Dig { uses arm in deep: length = 1 m from 0 m to 2 m in live n: int out went: length state Done state Stuck }";
+        let line = "actor Dig resumable { uses arm in deep: length = 1 m from 0 m to 2 m in live n: int out went: length state Done state Stuck }";
         toolboxes
             .add(Source::new("own.afp", format!("toolbox own version \"1\"\n{line}\n")), "own");
         assert!(!toolboxes.diagnostics().has_errors(), "{:?}", toolboxes.diagnostics());
@@ -214,7 +215,7 @@ mod tests {
             "  state Done",
             "  state Stuck",
             "",
-            "  uses arm, every 10 ms",
+            "  uses arm, every 10 ms, can be suspended",
         ];
         assert_eq!(lines, all);
     }

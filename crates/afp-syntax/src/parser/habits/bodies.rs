@@ -1,4 +1,4 @@
-//! What stands in the braces of an element or a supervisor as other languages have it.
+//! Text in the braces of an element or a supervisor as in other languages.
 
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;

@@ -1,4 +1,4 @@
-//! What stands behind a template as other languages have it: ports, times.
+//! Text after a template as in other languages: ports, times.
 
 use crate::diagnostics::{Code, Diagnostic, Message, Words};
 use crate::habits::HEAD;

@@ -8,7 +8,7 @@ use crate::parser::scenario::is_line;
 
 /// So many tokens of a line are looked at.
 const MOST_TOKENS: usize = 64;
-/// What happens in scenarios, besides 'set'.
+/// Actions of scenarios other than 'set'.
 const ACTIONS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle"];
 
 impl Parser<'_, '_> {
