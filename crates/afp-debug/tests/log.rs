@@ -263,7 +263,7 @@ fn a_log_of_another_plan_is_refused() {
     let other = plans()[1].0.clone();
     let mut past = Clients::new(Box::new(Recorded(other, log)));
     past.say(r#"launch {"log":"plan.afp:Outer"}"#);
-    assert!(past.told.contains("which its plan has not any more"), "{}", past.told);
+    assert!(past.told.contains("which its plan no longer has"), "{}", past.told);
 }
 
 #[test]

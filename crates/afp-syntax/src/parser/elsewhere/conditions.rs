@@ -63,10 +63,12 @@ impl<'t> Parser<'t, '_> {
                 Kind::CloseParen | Kind::CloseBracket => depth = depth.saturating_sub(1),
                 _ => {}
             }
-            let is_name = line.get(at + 1).is_some_and(|next| next.kind == Kind::Name);
-            let is_part =
-                matches!(token.text, "state" | "event" | "exclusive" | "icon" | "uses") && is_name;
-            depth == 0 && (token.kind == Kind::OpenBrace || is_part)
+            let name_at = |at: usize| line.get(at).is_some_and(|next| next.kind == Kind::Name);
+            let is_part = name_at(at + 1)
+                && matches!(token.text, "state" | "event" | "exclusive" | "icon" | "uses");
+            // The next part may follow a comma; a name cannot follow another one in a condition.
+            let ends = token.kind == Kind::Comma && name_at(at + 1) && name_at(at + 2);
+            depth == 0 && (token.kind == Kind::OpenBrace || is_part || ends)
         });
         line.truncate(end.unwrap_or(line.len()));
         line
