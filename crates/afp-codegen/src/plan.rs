@@ -12,6 +12,7 @@ mod computations;
 mod context;
 mod elements;
 mod graph_names;
+mod holder;
 pub(crate) mod imports;
 mod names;
 mod rules;
@@ -89,7 +90,7 @@ fn plan_section(context: &Context<'_>) -> TokenStream {
     let structure = state::structure(context);
     let accessors = accessors::accessors(context);
     let state = state::plan_state(context);
-    let components = components::plan(context);
+    let components = components::plan(context, aside::functions(context));
     quote! {
         #structure
         #accessors

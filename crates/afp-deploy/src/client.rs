@@ -20,6 +20,7 @@ pub struct Connection<R, W> {
 
 /// Why a request failed.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ClientError {
     /// The other side is not an agent; these are its first bytes as text.
     #[error("the robot did not answer as 'afpc agent' does")]

@@ -138,6 +138,7 @@ pub enum Packet<M> {
 
 /// A reason why no packet can be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum WireError {
     #[error("the connection ended")]
     Ended,

@@ -73,6 +73,13 @@ pub struct Row<'a> {
     pub values: Vec<(&'a str, &'a Point)>,
 }
 
+impl Row<'_> {
+    /// The stimuli of its values.
+    pub(crate) fn stimuli(&self) -> Stimuli {
+        Stimuli::of(self.values.iter().map(|(name, point)| (*name, &*point.text)))
+    }
+}
+
 impl WorldChoice {
     /// The name in tables; `None` for the plan's world.
     pub fn name(&self) -> Option<&str> {
@@ -138,7 +145,7 @@ impl Sweep {
         for (name, point) in row.values.iter().filter(|(name, _)| !varies_stimuli(name)) {
             let _ = write!(command, " --set {}", shell_setting(name, &point.text));
         }
-        let varied = Stimuli::of(row);
+        let varied = row.stimuli();
         for press in self.presses.iter().chain(&varied.presses) {
             let _ = write!(command, " --press {}", shell_word(&press.to_string()));
         }

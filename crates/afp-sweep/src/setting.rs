@@ -173,7 +173,7 @@ impl<'a> Setting<'a> {
             inputs::set(&mut *session, name, &point.text)?;
         }
         requests::make(&mut *session, &self.presses, &self.failures)?;
-        let varied = Stimuli::of(row);
+        let varied = row.stimuli();
         requests::make(&mut *session, &varied.presses, &varied.failures)?;
         Ok(session)
     }

@@ -7,7 +7,6 @@
 use afp_core::Instant;
 use afp_run::options::{self, Failure, Press};
 
-use crate::grid::Row;
 
 /// The stimuli of a run or of a point.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -48,11 +47,11 @@ impl Stimuli {
         }
     }
 
-    /// The stimuli of a run's varied values. Invalid points were rejected before.
-    pub fn of(row: &Row<'_>) -> Stimuli {
+    /// The stimuli of axes and their points. Invalid points were rejected before.
+    pub fn of<'a>(values: impl IntoIterator<Item = (&'a str, &'a str)>) -> Stimuli {
         let mut all = Stimuli::default();
-        for (name, point) in &row.values {
-            let _ = all.add(name, &point.text);
+        for (name, point) in values {
+            let _ = all.add(name, point);
         }
         all
     }

@@ -3,22 +3,22 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::aside::{self, Holder, Matched, on_started};
 use super::bindings::Function;
 use super::context::{ComponentNames, Context};
+use super::holder::{Holder, Matched, on_started};
 use super::elements::{self, passes, results};
 use super::supervisors;
 use crate::layout::at;
 use afp_dsl::graph::{Component, Element, PlanId};
 
-/// `impl Plan<E>`, for every platform that can run all components.
-pub fn plan(context: &Context<'_>) -> TokenStream {
+/// `impl Plan<E>`, for every platform that can run all components. `suspension` has the functions of
+/// a plan whose elements can be set aside.
+pub fn plan(context: &Context<'_>, suspension: Option<TokenStream>) -> TokenStream {
     let ty = &context.ty;
     let bounds = bounds(context);
     let (start_supervisor, poll_supervisor) = (start_supervisor(context), poll_supervisor(context));
     let (start_element, poll_element) = (start_element(context), poll_element(context));
     let (interrupt, leave) = (interrupt_element(context), leave(context));
-    let aside = aside::functions(context);
     let ends = Holder::all(context)
         .into_iter()
         .map(|Holder { ty, field, .. }| quote!(self.#field = #ty::None;));
@@ -33,7 +33,7 @@ pub fn plan(context: &Context<'_>) -> TokenStream {
             #start_element
             #poll_element
             #interrupt
-            #aside
+            #suspension
             #leave
 
             fn end(&mut self) {

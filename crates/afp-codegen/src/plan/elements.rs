@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::aside::Holder;
+use super::holder::Holder;
 use super::bindings::{Bound, converted, limited, reads_entries, tried};
 use super::context::{ComponentNames, Context};
 use crate::formula::{Formulas, is_literal};

@@ -72,6 +72,26 @@ impl<N: Names + ?Sized> Line<'_, N> {
         }
     }
 
+    fn polled(&self, f: &mut fmt::Formatter<'_>, id: ComponentId, verdict: Verdict) -> fmt::Result {
+        write!(f, "{} polled: ", self.path(id))?;
+        match verdict {
+            Verdict::Clear => f.write_str("clear"),
+            Verdict::Event(event) => f.write_str(self.names.outcome(id, event)),
+            Verdict::Fault(fault) => write!(f, "fault {}", fault.code()),
+        }
+    }
+
+    fn ended(&self, f: &mut fmt::Formatter<'_>, plan: ComponentId, ending: Ending) -> fmt::Result {
+        match ending {
+            Ending::Ok => write!(f, "{} ended OK", self.path(plan)),
+            Ending::Interrupted => write!(f, "{} ended Interrupted", self.path(plan)),
+            Ending::Error(fault) if fault.code() == Fault::FAILED => {
+                write!(f, "{} ended Error({}: {fault})", self.path(plan), fault.code())
+            }
+            Ending::Error(fault) => write!(f, "{} ended Error({})", self.path(plan), fault.code()),
+        }
+    }
+
     fn author(&self, author: Author) -> &str {
         match author {
             Author::Component(id) => self.path(id),
@@ -94,14 +114,7 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
                 let (path, name) = (self.path(component), self.names.outcome(component, outcome));
                 write!(f, "{path} is made to report {name}")
             }
-            Record::Polled { supervisor, verdict } => {
-                write!(f, "{} polled: ", self.path(supervisor))?;
-                match verdict {
-                    Verdict::Clear => f.write_str("clear"),
-                    Verdict::Event(event) => f.write_str(self.names.outcome(supervisor, event)),
-                    Verdict::Fault(fault) => write!(f, "fault {}", fault.code()),
-                }
-            }
+            Record::Polled { supervisor, verdict } => self.polled(f, supervisor, verdict),
             Record::Missed { supervisor, lateness, cause, skipped } => {
                 let cause = match cause {
                     Cause::LateRelease => "late release",
@@ -154,16 +167,7 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
                 write!(f, "{} fault {}: {fault}", self.path(component), fault.code())?;
                 self.error_target(f, component)
             }
-            Record::Ended { plan, ending } => match ending {
-                Ending::Ok => write!(f, "{} ended OK", self.path(plan)),
-                Ending::Interrupted => write!(f, "{} ended Interrupted", self.path(plan)),
-                Ending::Error(fault) if fault.code() == Fault::FAILED => {
-                    write!(f, "{} ended Error({}: {fault})", self.path(plan), fault.code())
-                }
-                Ending::Error(fault) => {
-                    write!(f, "{} ended Error({})", self.path(plan), fault.code())
-                }
-            },
+            Record::Ended { plan, ending } => self.ended(f, plan, ending),
         }
     }
 }

@@ -64,7 +64,6 @@ pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics
     let mut members = Members::default();
     members.elements.reserve(elements.len());
     members.of_elements.reserve(elements.len());
-    // Most elements have one supervisor.
     let mut supervisors = Vec::with_capacity(elements.len());
     for guard in head.node.guards() {
         let checked = components.supervisor(&guard, None, diags);

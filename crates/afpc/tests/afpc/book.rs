@@ -29,6 +29,9 @@ const FOREIGN: &[&str] = &[
     "mkdir",
 ];
 
+/// Commands that need a robot at the other end.
+const REMOTE: &[&str] = &["afpc agent ", "afpc deploy ", "afpc robot "];
+
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
 }
@@ -116,7 +119,8 @@ impl Page {
         let command = line.split(" #").next().unwrap_or_default().trim();
         let mut words = command.split(' ').skip_while(|word| word.contains('='));
         let first = words.next().unwrap_or_default();
-        if command.is_empty() || FOREIGN.contains(&first) {
+        let is_remote = REMOTE.iter().any(|remote| command.starts_with(remote));
+        if command.is_empty() || is_remote || FOREIGN.contains(&first) {
             return Ok(());
         }
         let printed = self.run(command)?;

@@ -8,6 +8,8 @@ use std::time::Duration;
 
 use crate::common::{Place, Said, said};
 
+mod address;
+
 /// The output of an adapter that gets some bytes.
 fn told(bytes: &[u8]) -> Said {
     told_in(&Place::new(), bytes)
@@ -181,25 +183,6 @@ fn only_files_inside_of_the_folder_can_run() {
         for said in [launch, world] {
             let said = told_at(&place, "", &["dap", "--inside", "w"], said.as_bytes());
             assert!(said.out.contains("is outside of '"), "{program}: {said:?}");
-        }
-    }
-}
-
-#[test]
-fn the_address_of_a_plan_is_decoded() {
-    let place = Place::new();
-    let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
-    place.write("a b/é#1.afp", plan);
-    let folder = place.path("").canonicalize().unwrap().display().to_string();
-    for host in ["", "localhost"] {
-        let address = format!("file://{host}{folder}/a%20b/%C3%A9%231.afp");
-        for program in [address.clone(), format!("{address}:P")] {
-            let launch = format!(r#"{{"program":"{program}","stopOnEntry":true}}"#);
-            let lines =
-                format!(r#"{{"source":{{"path":"{address}"}},"breakpoints":[{{"line":4}}]}}"#);
-            let bytes = [framed("launch", &launch), framed("setBreakpoints", &lines)].concat();
-            let said = told_in(&place, bytes.as_bytes());
-            assert!(said.out.contains(r#""verified":true"#), "{program}: {said:?}");
         }
     }
 }

@@ -125,7 +125,7 @@ fn a_release_that_does_not_start_leaves_the_old_one_running() {
     robot.deploy(DEPLOY).succeeds();
     let status = robot.status();
     let fallen = robot.deploy("wall_following.afp --set walldist=50cm");
-    fallen.fails(1, &["did not start: ", "the Carbot itself is not in this release"]);
+    fallen.fails(1, &["did not start: ", "the project has no real robot"]);
     let after = robot.status();
     assert_eq!(after.lines().next(), status.lines().next(), "the old release runs: {after}");
     assert!(after.contains("trouble: release "), "{after}");
