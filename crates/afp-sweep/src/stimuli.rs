@@ -7,7 +7,6 @@
 use afp_core::Instant;
 use afp_run::options::{self, Failure, Press};
 
-
 /// The stimuli of a run or of a point.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Stimuli {

@@ -108,9 +108,13 @@ mod tests {
 
     fn drive_with_a_pause(robot: &mut Fake, pushed: f64) -> Result<Option<State>, Fault> {
         let inputs = Inputs { distance: Length::from_si(1.0), speed: Speed::from_si(0.2) };
-        robot.run_with_a_pause::<templates::Forward, Forward>(inputs, || Live {}, |robot| {
-            robot.motion.x += Length::from_si(pushed);
-        })
+        robot.run_with_a_pause::<templates::Forward, Forward>(
+            inputs,
+            || Live {},
+            |robot| {
+                robot.motion.x += Length::from_si(pushed);
+            },
+        )
     }
 
     #[test]

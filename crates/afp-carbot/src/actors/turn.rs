@@ -90,9 +90,13 @@ mod tests {
 
     fn turn_with_a_pause(robot: &mut Fake, turned: f64) -> Result<Option<State>, Fault> {
         let inputs = Inputs { angle: Angle::from_deg(90.0), speed: AngularSpeed::from_si(0.8) };
-        robot.run_with_a_pause::<templates::Turn, Turn>(inputs, || Live {}, |robot| {
-            robot.motion.heading += Angle::from_deg(turned);
-        })
+        robot.run_with_a_pause::<templates::Turn, Turn>(
+            inputs,
+            || Live {},
+            |robot| {
+                robot.motion.heading += Angle::from_deg(turned);
+            },
+        )
     }
 
     #[test]

@@ -5,8 +5,8 @@ use quote::quote;
 
 use super::bindings::Function;
 use super::context::{ComponentNames, Context};
-use super::holder::{Holder, Matched, on_started};
 use super::elements::{self, passes, results};
+use super::holder::{Holder, Matched, on_started};
 use super::supervisors;
 use crate::layout::at;
 use afp_dsl::graph::{Component, Element, PlanId};

@@ -3,9 +3,9 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::holder::Holder;
 use super::bindings::{Bound, converted, limited, reads_entries, tried};
 use super::context::{ComponentNames, Context};
+use super::holder::Holder;
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, comment, doc};
 use afp_dsl::graph::{Component, Element, Entry, EntryKind, Formula, Plan, PlanId, TemplateId};

@@ -3,9 +3,9 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::aside::Holder;
 use super::bindings::{limited, tried};
 use super::context::Context;
+use super::holder::Holder;
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, doc};
 use crate::rust_type::float;

@@ -53,6 +53,16 @@ pub(crate) struct Members {
     pub indices: Indices,
 }
 
+impl Members {
+    /// Nothing yet, with room for this number of elements.
+    fn with_elements(number: usize) -> Members {
+        let mut members = Members::default();
+        members.elements.reserve(number);
+        members.of_elements.reserve(number);
+        members
+    }
+}
+
 pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics) -> CheckedPlan {
     let head = &program.plans[index];
     let context = Context { program, file: &program.files[head.file] };
@@ -61,9 +71,7 @@ pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics
     let scope = scope(context, head);
     let components = Components { context, scope: &scope, elements: &names };
     let mut users = Users::default();
-    let mut members = Members::default();
-    members.elements.reserve(elements.len());
-    members.of_elements.reserve(elements.len());
+    let mut members = Members::with_elements(elements.len());
     let mut supervisors = Vec::with_capacity(elements.len());
     for guard in head.node.guards() {
         let checked = components.supervisor(&guard, None, diags);
