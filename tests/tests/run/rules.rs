@@ -378,6 +378,17 @@ const RULES: &[Rule] = &[
     ),
     ("1.16", "the order of the trace within a step", &["trace_order", "commit_is_one_operation"]),
     (
+        "suspend",
+        "an element continues without the time of its suspension",
+        &["suspend_and_return", "suspend_a_sub_plan"],
+    ),
+    (
+        "suspend",
+        "in the look nothing is called, and 'return' looks again",
+        &["suspend_in_the_look"],
+    ),
+    ("suspend", "elsewhere the suspended element is abandoned, once", &["suspended_and_abandoned"]),
+    (
         "2",
         "names are those of the text, whatever Rust makes of them",
         &["names_that_rust_knows_too", "names_of_generated_code"],

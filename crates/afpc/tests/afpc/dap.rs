@@ -19,11 +19,11 @@ fn told_in(place: &Place, bytes: &[u8]) -> Said {
     told_at(place, "", &["dap"], bytes)
 }
 
-/// Like [`told`], in a folder of the place and with other arguments.
+/// The same in a folder of the place, with arguments.
 fn told_at(place: &Place, folder: &str, words: &[&str], bytes: &[u8]) -> Said {
     let mut command = place.command();
-    command.current_dir(place.path(folder));
-    command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.current_dir(place.path(folder)).args(words);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     // The adapter may not read invalid input to its end.
     child.stdin.take().unwrap().write_all(bytes).ok();
