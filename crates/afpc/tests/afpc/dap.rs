@@ -156,38 +156,6 @@ fn a_folder_is_found_by_each_of_its_names() {
 }
 
 #[test]
-fn only_files_inside_of_the_folder_can_run() {
-    let place = Place::new();
-    place.write("w/sub/plan.afp", "use std\n");
-    let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
-    place.write("other/plan.txt", plan);
-    place.write("other/plan.afp:P", plan);
-    let outside = place.path("other/plan.txt").canonicalize().unwrap().display().to_string();
-    let dots = format!("{}/../other/plan.txt:P", place.path("w").canonicalize().unwrap().display());
-    let mut named = vec![
-        dots,
-        outside.clone(),
-        format!("{outside}:P"),
-        format!("file://{outside}:P"),
-        "w/sub/../../other/plan.txt:P".to_owned(),
-        "other/plan.afp:P".to_owned(),
-    ];
-    #[cfg(unix)]
-    for (link, to) in [("w/linked", &*outside), ("w/plan.afp", "../other/plan.txt")] {
-        std::os::unix::fs::symlink(to, place.path(link)).unwrap();
-        named.extend([link.to_owned(), format!("{link}:P")]);
-    }
-    for program in named {
-        let launch = framed("launch", &format!(r#"{{"program":"{program}"}}"#));
-        let world = framed("afp/world", &format!(r#"{{"program":"{program}"}}"#));
-        for said in [launch, world] {
-            let said = told_at(&place, "", &["dap", "--inside", "w"], said.as_bytes());
-            assert!(said.out.contains("is outside of '"), "{program}: {said:?}");
-        }
-    }
-}
-
-#[test]
 fn invalid_arguments_of_a_launch_are_reported() {
     let place = Place::with_plan();
     for (start, strange) in [("[100,100,0]", true), ("[1,1,0]", false)] {

@@ -13,7 +13,7 @@ use crate::{blocks, docs};
 use ebnf::Grammar;
 
 /// The number of random files.
-const SENTENCES: u64 = 2000;
+const SENTENCES: u64 = 6000;
 
 /// Keywords that the tree marks as names; the checks interpret them.
 const MARKED_AS_NAMES: &[&str] = &["ignore", "true", "false"];
