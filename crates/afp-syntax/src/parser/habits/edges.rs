@@ -1,6 +1,7 @@
 //! Text before and after the arrow of an edge in the style of other languages.
 
 use crate::diagnostics::{Code, Diagnostic};
+use crate::keywords::{self, PLAN};
 use crate::kind::Kind;
 use crate::message;
 use crate::parser::Parser;
@@ -155,7 +156,8 @@ impl Parser<'_, '_> {
         };
         let words = (0..).take_while(|ahead| is_word(self, *ahead)).count();
         let ends = self.nth(words) == Kind::CloseBrace || self.begins_line(words);
-        if words == 0 || !ends {
+        let begins_item = words == 2 && keywords::has(self.word(0), PLAN);
+        if words == 0 || !ends || begins_item {
             return;
         }
         let text: Vec<_> = (0..words).map(|ahead| self.word(ahead)).collect();

@@ -102,7 +102,7 @@ fn error(host: &str, why: ClientError) -> RunError {
             message: format!("{message}; it printed: {said}"),
             help: "a login without a terminal must print nothing".to_owned(),
         },
-        ClientError::Wire(_) | ClientError::Unexpected => RunError::Missing {
+        _ => RunError::Missing {
             message,
             help: format!("'afpc robot status {host}' shows which release the robot runs"),
         },
