@@ -112,7 +112,7 @@ mod tests {
             inputs,
             || Live {},
             |robot| {
-                robot.motion.x += Length::from_si(pushed);
+                robot.motion.x = robot.motion.x + Length::from_si(pushed);
             },
         )
     }

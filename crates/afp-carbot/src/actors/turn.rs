@@ -94,7 +94,7 @@ mod tests {
             inputs,
             || Live {},
             |robot| {
-                robot.motion.heading += Angle::from_deg(turned);
+                robot.motion.heading = robot.motion.heading + Angle::from_deg(turned);
             },
         )
     }
