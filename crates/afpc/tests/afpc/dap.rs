@@ -318,7 +318,7 @@ fn several_clients_watch_one_run_and_each_can_end_it() {
     assert!(refused.contains("client 1 steers this run"), "{refused}");
     other.ask("terminate", "{}");
     for client in [&mut one, &mut other] {
-        client.hear("WallFollowing was interrupted after 0.000 s");
+        client.hear("WallFollowing was interrupted after 0.0 s");
         client.hear(r#""event":"terminated""#);
     }
     // The other clients stay connected.
