@@ -11,7 +11,10 @@ import pytest
 import afp
 
 EVERYTHING = (
-    afp.WorldBuilder('A "hall"\n\x7fä', start=(afp.cm(80), 0.8, afp.deg(20)), charge=0.9, floor="#c0c0c0", floor_texture="checks")
+    afp.WorldBuilder(
+        'A "hall"\n\x7fä', start=(afp.cm(80), 0.8, afp.deg(20)), charge=0.9, floor="#c0c0c0", floor_texture="checks",
+        length=0.3, width=0.2, track=0.16, fastest=0.4, sonar=0.1,
+    )
     .room(5.0, 4.0, texture="bricks", height=2.0)
     .wall([(3.0, 0.0), (3.0, 1.0)], name="stub", thickness=0.08, echo=0.5, mapped=False, color="#112233")
     .box("crate", (2.0, 2.0, afp.deg(10)), size=(0.4, afp.cm(40)), height=0.5, mass=1.5)

@@ -42,8 +42,8 @@ __all__ = [
 ]
 
 def extension(folder: str | os.PathLike[str]) -> str | None:
-    """The extension with the robot and the toolboxes of the project in a folder, built if need be; `None` where the project
-    has nothing of its own."""
+    """The extension with the robot and the toolboxes of the project in a folder, built on demand;
+    `None` if the project has neither."""
 
 def alike(runs: list[tuple[str, str, str, int]]) -> list[tuple[str, str, str, int, int]]:
     """Group runs, given as endings, places, reasons and numbers: returns each group with its number of

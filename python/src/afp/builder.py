@@ -24,6 +24,9 @@ class WorldBuilder:
     `afp.deg(20)`. An invalid part raises at once, in its own method. `toml` is the text of the
     world's file, which reads as the same world.
 
+    `length`, `width`, `track`, `fastest` (metres a second) and `sonar` are measures of the robot, by
+    default those of the Carbot.
+
     >>> hall = WorldBuilder("Hall", start=(0.8, 0.8)).room(5.0, 4.0).box("crate", (2.0, 2.0), size=(0.4, 0.4), height=0.5)
     >>> hall.build()
     <World 'Hall', 5 obstacles>
@@ -37,12 +40,25 @@ class WorldBuilder:
         *,
         start: Sequence[float],
         charge: float | None = None,
+        length: float | None = None,
+        width: float | None = None,
+        track: float | None = None,
+        fastest: float | None = None,
+        sonar: float | None = None,
         floor: str | None = None,
         floor_texture: str | None = None,
     ) -> None:
         self._name = name
         head: dict[str, Any] = {"version": 1, "name": _text("name", name)}
-        robot = {"pose_m_deg": _pose("start", start), "charge": number_in("charge", charge)}
+        robot = {
+            "pose_m_deg": _pose("start", start),
+            "charge": number_in("charge", charge),
+            "length_m": number_in("length", length, "m"),
+            "width_m": number_in("width", width, "m"),
+            "track_m": number_in("track", track, "m"),
+            "fastest_m_s": number_in("fastest", fastest, "m/s"),
+            "sonar_m": number_in("sonar", sonar, "m"),
+        }
         look = {"color": floor, "texture": floor_texture}
         self._parts: tuple[str, ...] = (_lines(head), _table("[robot]", robot))
         if any(look.values()):
