@@ -114,9 +114,8 @@ inBrowser("a name that cannot be is told why and stays to be mended, wherever it
   // Also for an entry.
   await page.locator(".board").focus();
   await page.keyboard.press("e");
-  const line = page.locator("dialog input");
-  await line.fill("in größe: length = 3 cm");
-  await shows(page.locator("#wrong"), /no ä, é/);
+  await page.locator("dialog").getByLabel("Name").fill("größe");
+  await shows(page.locator("dialog .wrong"), /no ä, é/);
   assert.ok(await page.locator("dialog").getByRole("button", { name: "Add an entry" }).isDisabled());
   await page.keyboard.press("Escape");
 });
