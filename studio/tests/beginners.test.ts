@@ -1,4 +1,4 @@
-// What confused people at their first plan: each with real mouse and keys.
+// Beginners with their first plan: each test with real mouse and keys.
 import AxeBuilder from "@axe-core/playwright";
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
@@ -67,7 +67,7 @@ inBrowser("the map makes room for the element that is selected", { "plan.afp": l
   const box = (await map.boundingBox())!;
   await page.locator(".board").focus();
   const meets = (one: typeof box, two: typeof box): boolean => one.x < two.x + two.width && two.x < one.x + one.width && one.y < two.y + two.height && two.y < one.y + one.height;
-  // Pans until an element lies where the map is, and selects it by its visible corner.
+  // Pans until an element is below the map, and selects it by its visible corner.
   for (let tries = 0; tries < 60; tries++) {
     for (const node of await nodes.all()) {
       const rect = await node.boundingBox();
@@ -92,7 +92,7 @@ inBrowser("an entry is added by a form, and the sign and an operation of a formu
   await page.keyboard.press("Enter");
   await studio.becomes("plan.afp", /var n: int = 0\n    in +far: length = 30 cm\n/);
   await page.locator("dialog.entry-form").waitFor({ state: "detached" });
-  // The name, the type and the value are checked; what was filled in stays.
+  // The name, the type and the value are checked, and the fields keep their content.
   await page.locator(".board").focus();
   await page.keyboard.press("e");
   await fillEntry(page, "var way: angle = 3 cm +");
@@ -129,7 +129,7 @@ inBrowser("a declared computation is changed by a form", { "plan.afp": PLAN }, a
   await written.fill("value - 1");
   await written.press("Tab");
   await studio.becomes("plan.afp", /state Done \{ next = value - 1 \}/);
-  // Drawing and form follow; what cannot be read stays in its field, and nothing is written.
+  // Drawing and form follow. Unreadable text stays in its field and is not written.
   await page.locator(".node text", { hasText: /value < 5/ }).waitFor();
   await condition.fill("value <");
   await condition.press("Enter");

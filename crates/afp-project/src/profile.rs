@@ -217,7 +217,7 @@ const DRIVE: &[Setting] = &[
         Of::Length([0.01, 0.3]),
     ),
     needed(
-        key("ticks", "What an encoder counts in one turn of its wheel.", "ticks = 1440"),
+        key("ticks", "The counts of an encoder in one turn of its wheel.", "ticks = 1440"),
         Of::Count([4, 1_000_000]),
     ),
     FASTEST,

@@ -1,3 +1,5 @@
+//! Tests of the controller: motion, dead-man, restart and impossible commands.
+
 use std::vec::Vec;
 
 use super::*;
