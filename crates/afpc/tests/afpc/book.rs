@@ -29,9 +29,6 @@ const FOREIGN: &[&str] = &[
     "mkdir",
 ];
 
-/// Commands that need a robot at the other end.
-const REMOTE: &[&str] = &["afpc agent ", "afpc deploy ", "afpc robot "];
-
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
 }
@@ -79,6 +76,8 @@ impl Page {
         match block.kind.as_str() {
             "console" => self.console(&block.text),
             "afp" => self.plan(block),
+            // These need a robot.
+            "sh" if block.has("robot") => Ok(()),
             "sh" => block.text.lines().try_for_each(|line| self.shell(line)),
             _ => Ok(()),
         }
@@ -119,8 +118,7 @@ impl Page {
         let command = line.split(" #").next().unwrap_or_default().trim();
         let mut words = command.split(' ').skip_while(|word| word.contains('='));
         let first = words.next().unwrap_or_default();
-        let is_remote = REMOTE.iter().any(|remote| command.starts_with(remote));
-        if command.is_empty() || is_remote || FOREIGN.contains(&first) {
+        if command.is_empty() || FOREIGN.contains(&first) {
             return Ok(());
         }
         let printed = self.run(command)?;
