@@ -226,15 +226,13 @@ impl SessionError {
             SessionError::Load(_) => {
                 "the toolbox file and the Rust crate behind it do not belong together".to_owned()
             }
-            SessionError::World(_) | SessionError::OtherWorld => {
-                "look at the world file".to_owned()
-            }
+            SessionError::World(_) | SessionError::OtherWorld => "check the world file".to_owned(),
             SessionError::Hardware(_) => {
-                "look at the robot and its connection, and at 'settings' in '[robot.hardware]'"
+                "check the robot's power and cable, and its settings in '[robot]' of afp.toml"
                     .to_owned()
             }
-            SessionError::Measure(_, []) => "it has none".to_owned(),
-            SessionError::Measure(_, known) => format!("it has {}", known.join(", ")),
+            SessionError::Measure(_, []) => "this robot has no measures".to_owned(),
+            SessionError::Measure(_, known) => format!("this robot has {}", known.join(", ")),
         }
     }
 }
