@@ -55,6 +55,8 @@ const TRIAL: &str = "--until 15s --log none --svg none";
 struct Page {
     name: String,
     folder: TempDir,
+    /// The current folder in it, which `cd` in a `console` block changes.
+    here: PathBuf,
     /// The exit code of the last command.
     code: i32,
     /// Whether the page declares a toolbox: another test checks its Rust code.
@@ -64,12 +66,13 @@ struct Page {
 impl Page {
     fn new(name: &str) -> Page {
         let folder = tempfile::tempdir().unwrap();
-        Page { name: name.to_owned(), folder, code: 0, own_toolbox: false }
+        let here = folder.path().to_owned();
+        Page { name: name.to_owned(), folder, here, code: 0, own_toolbox: false }
     }
 
     fn take(&mut self, block: &Block) -> Result<(), String> {
         if let Some(name) = block.value("file") {
-            let path = self.folder.path().join(name);
+            let path = self.here.join(name);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, &block.text).unwrap();
         }
@@ -90,7 +93,7 @@ impl Page {
             return Ok(());
         }
         let name = block.value("file").unwrap_or("block.afp");
-        fs::write(self.folder.path().join(name), &block.text).unwrap();
+        fs::write(self.here.join(name), &block.text).unwrap();
         let set = block.value("set").map(|set| format!("--set {set}")).unwrap_or_default();
         let tried = self.shell(&format!("afpc run {name} {TRIAL} {set}"));
         match block.value("ends") {
@@ -133,11 +136,16 @@ impl Page {
         if command == "echo $?" {
             return Ok(format!("{}\n", self.code));
         }
+        if let Some(inner) = command.strip_prefix("cd ") {
+            self.here = self.here.join(inner);
+            self.code = 0;
+            return Ok(String::new());
+        }
         let arguments = command.strip_prefix("afpc ").ok_or(format!("'{command}' is not run"))?;
         let path = self.folder.path().join(".printed");
         let printed = File::create(&path).unwrap();
         let mut afpc = Command::new(AFPC);
-        afpc.args(arguments.split_whitespace()).current_dir(self.folder.path());
+        afpc.args(arguments.split_whitespace()).current_dir(&self.here);
         afpc.stdin(Stdio::null()).stderr(printed.try_clone().unwrap()).stdout(printed);
         self.code = afpc.status().unwrap().code().unwrap_or(-1);
         Ok(fs::read_to_string(path).unwrap())
