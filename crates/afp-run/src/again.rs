@@ -28,17 +28,17 @@ impl Again {
         let recipe = log.recipe();
         if recipe.robot == HARDWARE {
             let message = format!(
-                "'{}' is of the robot itself: what it met does not come again",
+                "'{}' is the log of a real robot, which cannot be repeated",
                 path.display()
             );
             return Err(RunError::usage(message, "name the log of a simulated run"));
         }
         if recipe.plan.is_empty() || !log.has_world() {
-            let message = format!("'{}' does not say which plan ran where", path.display());
+            let message = format!("'{}' names no plan or no world", path.display());
             return Err(RunError::usage(message, "name the log of a run"));
         }
         if let Some(cut) = &log.cut_short {
-            warn(&format!("'{}' is not whole: {cut}", path.display()));
+            warn(&format!("'{}' is incomplete: {cut}", path.display()));
         }
         Ok(Again { path: path.to_owned(), recipe, trace: log.trace().map(str::to_owned) })
     }
@@ -52,6 +52,11 @@ impl Again {
         let world = world::parse(text.clone(), Some(self.path.clone()), name, robot)?;
         let Some(start) = self.recipe.start else { return Ok(world) };
         world.started_at(start).map_err(RunError::content(&self.path, ""))
+    }
+
+    /// Whether the log has this trace.
+    pub(crate) fn has(&self, trace: TraceHash) -> bool {
+        self.trace.as_ref().is_some_and(|logged| *logged == trace.to_string())
     }
 
     /// Compares this run with that of the log. `requests` counts the requests from outside.
@@ -86,7 +91,7 @@ impl Again {
         let Some(logged) = &self.trace else { return Ok(()) };
         let now = trace.to_string();
         let said = format!("the trace is {now}, that of '{path}' is {logged}");
-        match (now == *logged, differs.is_empty()) {
+        match (self.has(trace), differs.is_empty()) {
             (true, _) => Ok(()),
             (false, true) => Err(RunError::Differs {
                 message: format!("the run did not repeat: {said}"),

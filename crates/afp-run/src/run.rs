@@ -337,7 +337,8 @@ impl Came<'_> {
         let log = written.as_ref().ok().and_then(Option::as_ref);
         let log = log.map(|written| written.path.clone());
         let svg = paths.svg.clone().filter(|_| drawn.is_ok());
-        let told = report.end(&Summary { figures, speed, log, svg, lost });
+        let repeats = setting.again.is_some_and(|again| again.has(session.trace()));
+        let told = report.end(&Summary { figures, speed, log, svg, lost, repeats });
         told.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?;
         written?;
         drawn?;

@@ -297,7 +297,7 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
         panic!("there is nothing to make")
     });
     let ran = run(&program, robot.kind(), make, &again, None);
-    assert!(message(ran).contains("what it met does not come again"));
+    assert!(message(ran).contains("which cannot be repeated"));
 }
 
 #[test]

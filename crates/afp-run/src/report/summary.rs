@@ -84,6 +84,9 @@ pub(crate) struct Summary {
     pub svg: Option<PathBuf>,
     #[serde(skip_serializing_if = "is_zero")]
     pub lost: u64,
+    /// Whether the run repeated the log of `--again`: their traces are equal.
+    #[serde(skip)]
+    pub repeats: bool,
 }
 
 /// The data of a run for its summary.
@@ -328,7 +331,8 @@ impl Summary {
                 }
             }
         }
-        line("trace", figures.trace.clone());
+        let equal = if self.repeats { ", equal to the log's" } else { "" };
+        line("trace", format!("{}{equal}", figures.trace));
         line("speed", format!("{:.0} x real time", self.speed));
         for (key, times) in [("loop late", &figures.loop_late), ("loop steps", &figures.loop_steps)]
         {

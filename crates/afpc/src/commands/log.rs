@@ -90,7 +90,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
             let log = read(&arguments.file).map_err(RunError::from)?;
             if let Some(cut) = &log.cut_short {
                 let name = arguments.file.display();
-                say(format_args!("warning: '{name}' is not whole: {cut}"));
+                say(format_args!("warning: '{name}' is incomplete: {cut}"));
             }
             print(&timeline::text(&log))
         }
@@ -116,7 +116,7 @@ fn save(arguments: &Arguments) -> Result<u8, NoPlan> {
     }
     let saved = recover(&arguments.file, &to).map_err(RunError::from)?;
     match &saved.damage {
-        Some(damage) => say(format_args!("the log is not whole: {damage}")),
+        Some(damage) => say(format_args!("the log is incomplete: {damage}")),
         None => say("nothing was wrong with the log"),
     }
     for missing in &saved.missing {

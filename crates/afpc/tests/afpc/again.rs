@@ -21,7 +21,8 @@ fn a_log_repeats_its_run_byte_for_byte() {
     let again = place.afpc(&format!("run --again a.mcap {QUIET}"));
     assert_eq!((again.succeeds().out.as_str(), again.err.as_str()), (first.out.as_str(), ""));
     // The log of the second run repeats the run, too.
-    place.afpc("run --again a.mcap --log b.mcap --svg none").succeeds();
+    let second = place.afpc("run --again a.mcap --log b.mcap --svg none");
+    assert!(second.succeeds().out.contains(", equal to the log's\n"), "{}", second.out);
     assert_eq!(place.afpc(&format!("run --again b.mcap {QUIET}")).out, first.out);
 }
 

@@ -212,7 +212,7 @@ fn a_log_that_was_cut_short_is_saved() {
     fs::write(place.path("b.mcap.part"), &bytes[..bytes.len() * 2 / 3]).unwrap();
     let said = place.afpc("log b.mcap.part");
     said.succeeds();
-    assert!(said.err.starts_with("warning: 'b.mcap.part' is not whole: "), "{}", said.err);
+    assert!(said.err.starts_with("warning: 'b.mcap.part' is incomplete: "), "{}", said.err);
     let sick = place.afpc("log b.mcap.part doctor");
     assert_eq!(sick.code, 1, "{sick:#?}");
     let said = place.afpc("log b.mcap.part recover");
@@ -221,7 +221,7 @@ fn a_log_that_was_cut_short_is_saved() {
     assert_eq!(place.afpc("log b.recovered.mcap doctor").succeeds().out, "sound\n");
     let again = place.afpc("run --again b.recovered.mcap --log none --svg none");
     again.succeeds();
-    let missed = "'b.recovered.mcap' is not whole: it was recovered, and lacks the messages from ";
+    let missed = "'b.recovered.mcap' is incomplete: it was recovered, and lacks the messages from ";
     assert!(again.err.contains(missed) && !again.err.contains("trace"), "{}", again.err);
     place.afpc("log a.mcap recover -o a.mcap").fails(2, &["into itself"]);
 }
