@@ -39,7 +39,7 @@ pub fn controller(data: &[u8]) {
 fn command(chunk: &[u8]) -> Command {
     let [a, b] = [&chunk[1..], &chunk[5..]].map(|bytes| f32::from_le_bytes(four(bytes)));
     match chunk[0] % 6 {
-        0 => Command::Setup(Setup { track: a, metres_per_tick: b, ..Setup::default() }),
+        0 => Command::Setup(Setup { track: a, metres_per_tick: [b, a], ..Setup::default() }),
         1 => Command::Setup(Setup { fastest: a, ramp: b, ..Setup::default() }),
         2 => Command::Drive { speed: a, turn: b },
         3 => Command::Point(a),

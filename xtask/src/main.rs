@@ -6,6 +6,7 @@
 mod arm;
 mod book;
 mod dap;
+mod deploy;
 mod editors;
 mod emulated;
 mod engine;

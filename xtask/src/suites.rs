@@ -7,8 +7,8 @@ use crate::needs::Need::{Chromium, Node, Python};
 use crate::needs::{self, Need};
 use crate::shell::{Failure, cargo, output, run as run_command};
 use crate::{
-    arm, bench, dap, editors, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio,
-    systems, vacuum, wasm, wheels,
+    arm, bench, dap, deploy, editors, engine, fuzz, gate, install, live, opencv, pi, python, scxml,
+    studio, systems, vacuum, wasm, wheels,
 };
 
 /// A suite: its name, its requirements in addition to Rust, and its function.
@@ -49,6 +49,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("objects", &[], objects),
     ("arm", &[], arm::run),
     ("pi", &[], pi::run),
+    ("deploy", &[], deploy::run),
     ("other systems", &[Python], systems::run),
     ("engine", &[], engine::run),
     ("python", &[Python], python::run),
@@ -223,7 +224,7 @@ fn again(name: &str) -> String {
         "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
         "python long" | "other systems" => format!("    cargo xtask nightly '{name}'"),
         "wheels" => "    cargo xtask wheels".to_owned(),
-        "arm" | "pi" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
+        "arm" | "pi" | "deploy" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
         }

@@ -9,11 +9,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::manifest::{Entry, Kind, Manifest};
+use crate::manifest::{Entry, Kind, Manifest, SIMULATED};
 use crate::store::{Incoming, Store, StoreError};
 use crate::wire::{
-    Answer, GREETING, Hello, LONGEST_PART, Named, Packet, Request, State, Status, Step, WireError,
-    receive, send, send_content,
+    Answer, Calibration, GREETING, Hello, LONGEST_PART, Named, Packet, Request, State, Status,
+    Step, WireError, receive, send, send_content,
 };
 
 /// Free bytes that a deploy leaves on the disk, for logs.
@@ -215,6 +215,7 @@ impl<'a> Agent<'a> {
                 "name another robot with '--to', or run the plan's project",
             ));
         }
+        self.is_calibrated(manifest)?;
         match &manifest.kind {
             Kind::Built { architecture } if *architecture != hello.architecture => {
                 let message = format!(
@@ -224,6 +225,26 @@ impl<'a> Agent<'a> {
                 Err(refusal(message, "build it for the robot with '--target'"))
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Refuses a plan that was tried with other measures than those of the robot.
+    fn is_calibrated(&self, manifest: &Manifest) -> Result<(), Refusal> {
+        if manifest.robot == SIMULATED {
+            return Ok(());
+        }
+        match self.host.hello().calibration {
+            Calibration::Unneeded => Ok(()),
+            Calibration::Of(theirs) if manifest.calibration == Some(theirs.clone()) => Ok(()),
+            Calibration::Of(_) => Err(refusal(
+                "the robot has another calibration than this project",
+                "copy the file '/var/lib/afp/calibration.toml' of the robot into the project, or \
+                 set the robot up again: 'afpc robot setup'",
+            )),
+            Calibration::Missing => Err(refusal(
+                "the robot has no calibration",
+                "measure it with 'afpc calibrate', then run 'afpc robot setup' again",
+            )),
         }
     }
 

@@ -21,6 +21,8 @@ pub mod client;
 #[cfg(unix)]
 pub mod disk;
 mod hash;
+#[cfg(unix)]
+pub mod logs;
 pub mod manifest;
 #[cfg(unix)]
 pub mod store;

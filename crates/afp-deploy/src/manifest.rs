@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::hash::{is_hash, sha256};
 
+/// The value of `--robot` of a robot without motors.
+pub const SIMULATED: &str = "sim";
 /// The most files of a release.
 pub const MOST_FILES: usize = 256;
 /// The longest text in a manifest, such as a path, in bytes.
@@ -30,6 +32,9 @@ pub struct Manifest {
     pub robot: String,
     /// Values of `in` entries: name and value.
     pub set: Vec<(String, String)>,
+    /// The SHA-256 of the calibration with which the plan was tried.
+    #[serde(default)]
+    pub calibration: Option<String>,
     /// The hash of the trace of the self-check on the machine that deploys.
     pub trace: String,
     pub files: Vec<Entry>,
@@ -93,6 +98,9 @@ impl Manifest {
         }
         if let Some(name) = [&self.plan, &self.robot].into_iter().find(|name| !is_word(name)) {
             return Err(Invalid::Name((*name).clone()));
+        }
+        if let Some(hash) = self.calibration.as_ref().filter(|hash| !is_hash(hash)) {
+            return Err(Invalid::Hash(hash.clone()));
         }
         let mut paths = BTreeSet::new();
         for entry in &self.files {
@@ -190,6 +198,7 @@ pub(crate) mod tests {
             model: "carbot".to_owned(),
             robot: "sim".to_owned(),
             set: vec![("side".to_owned(), "left".to_owned())],
+            calibration: None,
             trace: "00ff".to_owned(),
             files: files.iter().map(entry).collect(),
         }

@@ -84,6 +84,20 @@ pub struct Hello {
     pub model: String,
     /// Free bytes on its disk, if known.
     pub space: Option<u64>,
+    #[serde(default)]
+    pub calibration: Calibration,
+}
+
+/// The calibration of a robot.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Calibration {
+    /// This kind of robot has none.
+    #[default]
+    Unneeded,
+    Missing,
+    /// The SHA-256 of its text.
+    Of(String),
 }
 
 /// A step on the robot.

@@ -130,8 +130,9 @@ impl Controller {
         let Some(setup) = self.setup else { return Outputs::default() };
         let dt = STEP.as_secs_f64() as f32;
         let mut ways = [0.0; 2];
-        for ((wheel, count), way) in self.wheels.iter_mut().zip(inputs.counts).zip(&mut ways) {
-            *way = wheel.count(count, &setup);
+        let counts = inputs.counts.into_iter().zip(setup.metres_per_tick);
+        for ((wheel, (count, metres)), way) in self.wheels.iter_mut().zip(counts).zip(&mut ways) {
+            *way = wheel.count(count, metres);
         }
         self.odometry.add(ways, &setup);
         self.ramp(&setup, dt);

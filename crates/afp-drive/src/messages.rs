@@ -5,7 +5,7 @@ use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 /// The version of the messages. Each change of a message needs a new one.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 
 /// The longest frame, in bytes.
 pub const LONGEST: usize = 96;
@@ -38,8 +38,8 @@ pub enum Command {
 pub struct Setup {
     /// The distance between the two wheels, in metres.
     pub track: f32,
-    /// The way of a wheel's rim for one count of its encoder, in metres.
-    pub metres_per_tick: f32,
+    /// The ways of the left and the right rim for one count of their encoders, in metres.
+    pub metres_per_tick: [f32; 2],
     /// The top speed of a rim: nine tenths of its speed at full power, in m/s.
     pub fastest: f32,
     /// The time from standstill to the top speed, in seconds.
@@ -88,7 +88,7 @@ impl Default for Setup {
     fn default() -> Self {
         Setup {
             track: 0.14,
-            metres_per_tick: 0.000_142,
+            metres_per_tick: [0.000_142; 2],
             fastest: 0.5,
             ramp: 0.15,
             bumper_opens: true,
@@ -102,7 +102,7 @@ impl Setup {
     pub fn is_possible(&self) -> bool {
         let within = |value: f32, limits: RangeInclusive<f32>| limits.contains(&value);
         within(self.track, 0.01..=2.0)
-            && within(self.metres_per_tick, 1e-8..=0.3)
+            && self.metres_per_tick.iter().all(|it| within(*it, 1e-8..=0.3))
             && within(self.fastest, 0.01..=5.0)
             && within(self.ramp, 0.005..=1.0)
     }
@@ -181,7 +181,7 @@ mod tests {
             assert!(!Command::Drive { speed: number, turn: 0.0 }.is_possible());
             assert!(!Command::Drive { speed: 0.0, turn: number }.is_possible());
             assert!(!Command::Point(number).is_possible());
-            let setup = Setup { metres_per_tick: number, ..Setup::default() };
+            let setup = Setup { metres_per_tick: [1e-4, number], ..Setup::default() };
             assert!(!Command::Setup(setup).is_possible());
         }
         assert!(!Report { pose: [0.0, f64::NAN, 0.0], ..Report::default() }.is_possible());

@@ -21,11 +21,11 @@ pub(crate) struct Wheel {
 
 impl Wheel {
     /// Takes the encoder's count; returns the rim's way since the last one, in metres.
-    pub(crate) fn count(&mut self, count: i32, setup: &Setup) -> f32 {
+    pub(crate) fn count(&mut self, count: i32, metres_per_tick: f32) -> f32 {
         // A counter that overflows goes on.
         let ticks = self.count.map_or(0, |before| count.wrapping_sub(before));
         self.count = Some(count);
-        let way = ticks as f32 * setup.metres_per_tick;
+        let way = ticks as f32 * metres_per_tick;
         self.lag -= way;
         way
     }

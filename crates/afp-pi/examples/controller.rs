@@ -21,6 +21,14 @@ pub struct Fake {
     pub inputs: Inputs,
     /// The ways of the rims in metres.
     pub ways: [f32; 2],
+    /// The driven way over the counted way of each wheel.
+    pub factors: [f32; 2],
+    /// The distance between the wheels in metres.
+    pub track: f32,
+    /// The place in metres and the heading in radians.
+    pub pose: [f64; 3],
+    /// The distance that the range sensor measures.
+    pub wall: Option<f32>,
     /// The power of the motors.
     pub power: [f32; 2],
     steps: u64,
@@ -56,6 +64,10 @@ impl Fake {
             controller: Controller::new(1),
             inputs: closed,
             ways: [0.0; 2],
+            factors: [1.0; 2],
+            track: Setup::default().track,
+            pose: [0.0; 3],
+            wall: None,
             power: [0.0; 2],
             steps: 0,
             mute: false,
@@ -77,13 +89,22 @@ impl Fake {
             self.controller.receive(byte, now);
         }
         let setup = Setup::default();
-        self.inputs.counts = self.ways.map(|way| (way / setup.metres_per_tick) as i32);
-        self.inputs.ping = self.steps.is_multiple_of(5).then_some(None);
+        let count = |side: usize| {
+            (self.ways[side] / self.factors[side] / setup.metres_per_tick[side]) as i32
+        };
+        self.inputs.counts = [count(0), count(1)];
+        self.inputs.ping = self.steps.is_multiple_of(5).then_some(self.wall);
         self.power = self.controller.step(&self.inputs, now).power;
         let dt = STEP.as_secs_f64() as f32;
-        for (way, power) in self.ways.iter_mut().zip(self.power) {
-            *way += power * setup.at_full_power() * dt;
-        }
+        let ways = self.power.map(|power| power * setup.at_full_power() * dt);
+        self.ways = [self.ways[0] + ways[0], self.ways[1] + ways[1]];
+        let [x, y, heading] = &mut self.pose;
+        let turned = f64::from((ways[1] - ways[0]) / self.track);
+        let (sin, cos) = (*heading + turned / 2.0).sin_cos();
+        let way = f64::from((ways[0] + ways[1]) / 2.0);
+        *x += way * cos;
+        *y += way * sin;
+        *heading += turned;
         let mut buffer = [0; 2 * LONGEST];
         let bytes = self.controller.transmit(now, &mut buffer);
         if self.mute || bytes.is_empty() { Ok(()) } else { self.port.write_all(bytes) }

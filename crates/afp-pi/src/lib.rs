@@ -9,10 +9,13 @@
 #![warn(missing_docs)]
 #![cfg(unix)]
 
+mod calibration;
 mod link;
 mod port;
 mod robot;
 mod values;
 
+pub use calibration::{Found, Spin, Straight, solve};
 pub use link::{Heard, Link};
-pub use robot::{JsonLine, Line, SerialCarbot, SerialRobot, Ugv, WireLine, opener};
+pub use robot::drives::{Calibrated, Drive, Halt, calibrated};
+pub use robot::{Behind, JsonLine, Line, SerialCarbot, SerialRobot, Ugv, WireLine, opener};

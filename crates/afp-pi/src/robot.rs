@@ -5,6 +5,7 @@
 //! [`Command::Stop`].
 
 mod devices;
+pub(crate) mod drives;
 mod json;
 mod wire;
 
@@ -12,12 +13,14 @@ use std::error::Error;
 use std::io;
 
 use afp_carbot::devices::{Body, Bump};
-use afp_carbot::table::Carbot;
+use afp_carbot::table::{Carbot, Control, Fault};
 use afp_carbot::trail::Trail;
 use afp_core::{Duration, Environment, Instant, Invalid, Platform};
 use afp_drive::{Command, Report, Setup, VERSION};
 use afp_platform::{Hardware, LastResort, RealTime, Settings};
-use afp_session::{Opener, only_hardware};
+use afp_session::{
+    Active, Figure, Opener, Pose2, Put, Refused, RequestError, Samples, only_hardware,
+};
 
 use crate::link::Heard;
 use crate::values::Values;
@@ -33,9 +36,16 @@ const OFTEN: Duration = Duration::from_millis(20);
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The line to a robot's controller. Nothing waits; bytes that do not fit the line are lost.
+///
+/// A line to a controller of a simulated robot also presses buttons and breaks devices there.
 pub trait Line: Send + Sized + 'static {
     /// The profile of its robots.
     const PROFILE: &'static str;
+
+    /// Devices and facts that a robot with this line does not have. No device knows the true pose
+    /// of a real robot.
+    const LACKS: &'static [&'static str] =
+        &["robot", "world", "infrared", "color", "camera", "battery", "localisation", "signals"];
 
     /// Opens the port for only this program.
     ///
@@ -61,6 +71,44 @@ pub trait Line: Send + Sized + 'static {
 
     /// Lets other programs open the port.
     fn release(&self);
+
+    /// The simulated robot at the other end.
+    fn simulated(&self) -> Option<&dyn Behind> {
+        None
+    }
+}
+
+/// A simulated robot at the other end of a line.
+pub trait Behind {
+    /// See [`afp_session::Robot::press`].
+    ///
+    /// # Errors
+    /// The control cannot be pressed.
+    fn press(&self, control: Control, held: bool) -> Result<(), Refused>;
+
+    /// See [`afp_session::Robot::set_faults`].
+    ///
+    /// # Errors
+    /// The robot has no faults to activate.
+    fn set_faults(&self, active: &Active<'_, Fault>) -> Result<(), Refused>;
+
+    /// See [`afp_session::Robot::put`].
+    ///
+    /// # Errors
+    /// The object cannot be placed.
+    fn put(&self, what: &Put, at: Pose2) -> Result<(), RequestError>;
+
+    /// See [`afp_session::Robot::check_put`].
+    ///
+    /// # Errors
+    /// As [`Behind::put`].
+    fn check_put(&self, what: &Put, at: Pose2) -> Result<(), RequestError>;
+
+    /// The facts that no device knows.
+    fn sample(&self, to: &mut Samples<'_, '_>);
+
+    /// See [`afp_session::Robot::figures`].
+    fn figures(&self) -> Vec<Figure>;
 }
 
 /// A robot with the profile `carbot`.
@@ -102,6 +150,33 @@ pub fn opener(profile: &str) -> Option<Box<dyn Opener>> {
 }
 
 impl<L: Line> SerialRobot<L> {
+    /// Opens a line with the robot's measures, and starts its controller.
+    ///
+    /// # Errors
+    /// The settings are invalid, or the controller cannot be reached.
+    pub fn with_line(
+        settings: &Settings,
+        open: impl FnOnce(&Setup) -> Result<L, String>,
+    ) -> Result<Self, Box<dyn Error + Send + Sync>> {
+        let values = Values::read(L::PROFILE, settings)?;
+        let line = open(&values.setup)?;
+        let time = RealTime::start();
+        let mut robot = SerialRobot {
+            told: time.now(),
+            time,
+            line,
+            values,
+            heard: None,
+            asked: [0.0; 2],
+            bearing: 0.0,
+            trail: Trail::new(),
+            bump: None,
+        };
+        let port = settings.get("port").unwrap_or_default();
+        robot.begin().map_err(|error| format!("'{port}': {error}"))?;
+        Ok(robot)
+    }
+
     /// The last report, or the reason why there is none. A controller that has stopped by itself
     /// counts as silent.
     fn report(&self) -> Result<(Report, Instant), Invalid> {
@@ -184,24 +259,11 @@ impl<L: Line> Hardware for SerialRobot<L> {
     type Error = Box<dyn Error + Send + Sync>;
 
     fn open(settings: &Settings) -> Result<Self, Self::Error> {
-        let values = Values::read(L::PROFILE, settings)?;
         let port = settings.get("port").ok_or("'port' has no value")?;
         let at_port = |error: &dyn std::fmt::Display| format!("'{port}': {error}");
-        let line = L::open(port, &values.setup).map_err(|error| at_port(&error))?;
-        let time = RealTime::start();
-        let mut robot = SerialRobot {
-            told: time.now(),
-            time,
-            line,
-            values,
-            heard: None,
-            asked: [0.0; 2],
-            bearing: 0.0,
-            trail: Trail::new(),
-            bump: None,
-        };
-        robot.begin().map_err(|error| at_port(&error))?;
-        Ok(robot)
+        SerialRobot::with_line(settings, |setup| {
+            L::open(port, setup).map_err(|error| at_port(&error))
+        })
     }
 
     fn last_resort(&self) -> Option<LastResort> {
@@ -257,11 +319,37 @@ impl<L: Line> Platform for SerialRobot<L> {
 
 impl<L: Line> afp_session::Robot for SerialRobot<L> {
     type Devices = Carbot;
-    /// No device knows the robot's true pose.
-    const LACKS: &'static [&'static str] =
-        &["robot", "world", "infrared", "color", "camera", "battery", "localisation", "signals"];
+    const LACKS: &'static [&'static str] = L::LACKS;
 
-    fn sample(&self, to: &mut afp_session::Samples<'_, '_>) {
+    fn sample(&self, to: &mut Samples<'_, '_>) {
         self.sample_devices(to);
+        if let Some(behind) = self.line.simulated() {
+            behind.sample(to);
+        }
+    }
+
+    fn press(&mut self, control: Control, held: bool) -> Result<(), Refused> {
+        self.line.simulated().ok_or(Refused)?.press(control, held)
+    }
+
+    fn set_faults(&mut self, active: &Active<'_, Fault>) -> Result<(), Refused> {
+        self.line.simulated().ok_or(Refused)?.set_faults(active)
+    }
+
+    fn put(&mut self, what: &Put, at: Pose2) -> Result<(), RequestError> {
+        self.line.simulated().ok_or(RequestError::Refused)?.put(what, at)
+    }
+
+    fn check_put(&self, what: &Put, at: Pose2) -> Result<(), RequestError> {
+        self.line.simulated().ok_or(RequestError::Refused)?.check_put(what, at)
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.line.simulated().map(Behind::figures).unwrap_or_default()
+    }
+
+    /// A controller that is silent cannot tell, and is not armed.
+    fn button(&self) -> Option<bool> {
+        self.values.button.then(|| self.report().is_ok_and(|(report, _)| report.button))
     }
 }

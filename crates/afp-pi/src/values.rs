@@ -12,6 +12,8 @@ pub(crate) struct Values {
     pub half: [f64; 2],
     /// The distance from the wheels' axis ahead to the range sensor, in metres; `None` without it.
     pub sonar: Option<f64>,
+    /// The distance to add to each echo, in metres.
+    pub echo: f32,
     pub bumper: bool,
     pub button: bool,
 }
@@ -32,12 +34,15 @@ impl Values {
         };
         let needed = |path: &str| number(path)?.ok_or_else(|| format!("'{path}' has no value"));
         let opens = |path: &str| Ok::<_, String>(number(path)?.map(|closed| closed == 0.0));
-        // A controller with another program knows its wheels and its motors itself.
         let usual = Setup::default();
-        let metres_per_tick = match (number("drive.wheel_diameter")?, number("drive.ticks")?) {
-            (Some(diameter), Some(ticks)) => (diameter * std::f64::consts::PI / ticks) as f32,
-            _ => usual.metres_per_tick,
+        // A controller with another program counts metres.
+        let metres = match (number("drive.wheel_diameter")?, number("drive.ticks")?) {
+            (Some(diameter), Some(ticks)) => diameter * std::f64::consts::PI / ticks,
+            _ => number("drive.scale")?.unwrap_or(1.0),
         };
+        let trim = number("drive.trim")?.unwrap_or(1.0);
+        let left = 2.0 * metres / (1.0 + trim);
+        let metres_per_tick = [left, left * trim].map(|metres| metres as f32);
         let (bumper, button) = (opens("bumper.closed")?, opens("button.closed")?);
         let setup = Setup {
             track: needed("drive.track")? as f32,
@@ -51,6 +56,7 @@ impl Values {
             setup,
             half: [needed("body.length")? / 2.0, needed("body.width")? / 2.0],
             sonar: number("ultrasonic.forward")?,
+            echo: number("ultrasonic.offset")?.unwrap_or_default() as f32,
             bumper: bumper.is_some(),
             button: button.is_some(),
         })
@@ -75,11 +81,15 @@ mod tests {
     fn settings_become_measures() {
         let values = Values::read("carbot", &Settings::new(ALL)).unwrap();
         assert_eq!((values.half, values.sonar), ([0.12, 0.09], None));
-        assert!((values.setup.metres_per_tick - 0.000_141_8).abs() < 1e-7);
+        assert!(values.setup.metres_per_tick.iter().all(|it| (it - 0.000_141_8).abs() < 1e-7));
         let more = [ALL.to_vec(), vec![("bumper.closed", "pressed"), ("drive.track", "20 cm")]];
         let values = Values::read("carbot", &Settings::new(more.concat())).unwrap();
         assert!(values.bumper && !values.setup.bumper_opens && !values.button);
         assert_eq!(values.setup.track, 0.2);
+        let trimmed = [ALL.to_vec(), vec![("drive.trim", "1.1")]].concat();
+        let values = Values::read("carbot", &Settings::new(trimmed)).unwrap();
+        let [left, right] = values.setup.metres_per_tick;
+        assert!((right / left - 1.1).abs() < 1e-6 && (left + right - 0.000_283_6).abs() < 1e-7);
     }
 
     #[test]

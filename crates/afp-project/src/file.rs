@@ -9,7 +9,10 @@ use afp_output::read_text_file;
 use crate::krate::{self, CrateLink, HardwareLink, RobotLink};
 use crate::path::{NAME, shown};
 use crate::project::{Crate, Project, Robot, Toolbox};
-use crate::read::read;
+use crate::read::{read, read_calibration};
+
+/// The calibration of a robot with a profile, in the folder of the project file.
+pub const CALIBRATION: &str = "calibration.toml";
 
 /// A valid project file; empty if there is none.
 #[derive(Clone, Debug)]
@@ -20,6 +23,8 @@ pub struct ProjectFile {
     pub exists: bool,
     pub text: String,
     pub project: Project,
+    /// The text of the robot's calibration, whose values are in `project`.
+    pub calibration: Option<String>,
 }
 
 /// A toolbox of the project and its text.
@@ -61,18 +66,20 @@ impl ProjectFile {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let Some(home) = folder.ancestors().find(|above| above.join(NAME).is_file()) else {
             let (text, project) = (String::new(), Project::default());
-            return Ok(ProjectFile { folder, exists: false, text, project });
+            let calibration = None;
+            return Ok(ProjectFile { folder, exists: false, text, project, calibration });
         };
         let path = home.join(NAME);
         let text = match read_text_file(&path) {
             Ok(text) => text,
             Err(error) => return Err(ProjectError::Unreadable { path, error }),
         };
-        let (project, mistakes) = read(&text);
-        match mistakes.is_empty() {
-            true => Ok(ProjectFile { folder: home.to_owned(), exists: true, text, project }),
-            false => Err(ProjectError::Wrong { path, text, mistakes }),
+        let (mut project, mistakes) = read(&text);
+        if !mistakes.is_empty() {
+            return Err(ProjectError::Wrong { path, text, mistakes });
         }
+        let calibration = calibrate(home, &mut project)?;
+        Ok(ProjectFile { folder: home.to_owned(), exists: true, text, project, calibration })
     }
 
     /// The project file of a plan's folder.
@@ -183,6 +190,22 @@ impl ProjectFile {
     /// Makes the error for mistakes that are not in the file's own text.
     pub fn wrong(&self, mistakes: Vec<Mistake>) -> ProjectError {
         ProjectError::Wrong { path: self.path(), text: self.text.clone(), mistakes }
+    }
+}
+
+/// Reads the calibration of a project's robot, if there is one.
+fn calibrate(home: &Path, project: &mut Project) -> Result<Option<String>, ProjectError> {
+    let path = home.join(CALIBRATION);
+    let robot = project.robot.as_mut().and_then(|robot| robot.profile.as_mut());
+    let Some(robot) = robot.filter(|_| path.is_file()) else { return Ok(None) };
+    let text = match read_text_file(&path) {
+        Ok(text) => text,
+        Err(error) => return Err(ProjectError::Unreadable { path, error }),
+    };
+    let mistakes = read_calibration(&text, robot);
+    match mistakes.is_empty() {
+        true => Ok(Some(text)),
+        false => Err(ProjectError::Wrong { path, text, mistakes }),
     }
 }
 

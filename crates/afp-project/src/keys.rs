@@ -58,6 +58,8 @@ pub(crate) const ROBOT: &[Key] = &[
         "How the control loop of the robot itself runs.",
         "realtime.stall = \"100 ms\"",
     ),
+    key("autostart", "Whether the robot is armed when it boots.", "autostart = true"),
+    key("logs", "The size of all logs on the robot together.", "logs = \"1 GB\""),
 ];
 
 /// `hardware` of `[robot]`

@@ -41,14 +41,14 @@ mod time;
 mod tree;
 
 pub use afp_excerpt::Mistake;
-pub use file::{ProjectError, ProjectFile, ToolboxFile};
+pub use file::{CALIBRATION, ProjectError, ProjectFile, ToolboxFile};
 pub use key::Key;
 pub use keys::keys;
 pub use krate::{CrateLink, HardwareLink, RobotLink};
 pub use path::shown;
 pub use profile::{Of, PROFILES, Profile, ProfileRobot, Section, Setting};
 pub use project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
-pub use read::read;
+pub use read::{read, read_calibration};
 pub use realtime::Realtime;
 pub use spot::{Spot, SpotKind, headings, spot};
 pub use time::duration;

@@ -53,6 +53,7 @@ pub enum Of {
     Speed([f64; 2]),
     Time([Duration; 2]),
     Count([u32; 2]),
+    Number([f64; 2]),
     Choice(&'static [&'static str]),
 }
 
@@ -65,6 +66,8 @@ pub struct ProfileRobot {
     pub sections: Vec<&'static str>,
     /// Values as written, and default values, by path: `drive.track`.
     pub values: Vec<(String, String)>,
+    /// The date of its calibration, whose values are among `values`.
+    pub calibrated: Option<String>,
     /// Byte range of the profile's name.
     pub span: Range<usize>,
 }
@@ -113,17 +116,20 @@ const CARBOT: Profile = Profile {
             key("ultrasonic", "The range sensor on its servo.", "[robot.ultrasonic]"),
             false,
             &["ultrasonic", "rotator"],
-            &[simulated(
-                needed(
-                    key(
-                        "forward",
-                        "From the wheels' axis ahead to the axis of the servo.",
-                        "forward = \"8 cm\"",
+            &[
+                simulated(
+                    needed(
+                        key(
+                            "forward",
+                            "From the wheels' axis ahead to the axis of the servo.",
+                            "forward = \"8 cm\"",
+                        ),
+                        Of::Length([0.0, 0.5]),
                     ),
-                    Of::Length([0.0, 0.5]),
+                    "robot.sonar_m",
                 ),
-                "robot.sonar_m",
-            )],
+                OFFSET,
+            ],
         ),
         section(
             key("bumper", "The switch of the bumper.", "[robot.bumper]"),
@@ -155,7 +161,7 @@ const UGV: Profile = Profile {
             key("drive", "The wheels and their motors.", "[robot.drive]"),
             true,
             &[],
-            &[TRACK, FASTEST],
+            &[TRACK, FASTEST, SCALE, TRIM],
         ),
     ],
     lacks: &[
@@ -210,8 +216,26 @@ const FASTEST: Setting = simulated(
     "robot.fastest_m_s",
 );
 
+// Errors of a robot that `afpc calibrate` measures.
+const SCALE: Setting = usual(
+    key("scale", "The driven distance over the counted distance.", "scale = 1.02"),
+    Of::Number([0.5, 2.0]),
+    "1",
+);
+const TRIM: Setting = usual(
+    key("trim", "The right wheel's diameter over the left wheel's.", "trim = 1.01"),
+    Of::Number([0.8, 1.25]),
+    "1",
+);
+const OFFSET: Setting = usual(
+    key("offset", "The distance to add to each echo.", "offset = \"1.5 cm\""),
+    Of::Length([-0.1, 0.1]),
+    "0 cm",
+);
+
 const DRIVE: &[Setting] = &[
     TRACK,
+    TRIM,
     needed(
         key("wheel_diameter", "The diameter of a driven wheel.", "wheel_diameter = \"65 mm\""),
         Of::Length([0.01, 0.3]),
@@ -280,6 +304,7 @@ impl Of {
                 let count = text.parse::<u32>().ok();
                 count.filter(|count| (least..=most).contains(count)).map(f64::from)
             }
+            Of::Number(limits) => within(limits, text.parse().ok()),
             Of::Choice(names) => names.iter().position(|name| *name == text).map(|at| at as f64),
         };
         value.ok_or_else(|| self.words())
@@ -301,6 +326,7 @@ impl Of {
                 format!("a time in quotes, from {least} ms to {most} ms")
             }
             Of::Count([least, most]) => format!("a whole number from {least} to {most}"),
+            Of::Number([least, most]) => format!("a number from {least} to {most}"),
             Of::Choice(names) => {
                 let names: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
                 names.join(" or ")
@@ -330,6 +356,14 @@ impl ProfileRobot {
     pub fn number(&self, path: &str) -> Option<f64> {
         let (_, text) = self.values.iter().find(|(name, _)| name == path)?;
         self.profile()?.setting(path)?.of.read(text).ok()
+    }
+
+    /// Replaces the value of a setting, or adds it.
+    pub(crate) fn replace(&mut self, path: &str, text: String) {
+        match self.values.iter_mut().find(|(name, _)| name == path) {
+            Some((_, value)) => *value = text,
+            None => self.values.push((path.to_owned(), text)),
+        }
     }
 
     /// The values that the simulator takes: keys of a world's file, and values with units.

@@ -71,6 +71,10 @@ pub struct Robot {
     /// Settings of the control loop: names of [`Realtime`](crate::Realtime) and values, in the
     /// order of the file.
     pub realtime: Vec<(String, String)>,
+    /// Whether the robot is armed when it boots.
+    pub autostart: bool,
+    /// The most bytes of all logs on the robot together.
+    pub logs: Option<u64>,
     /// Byte range of the heading.
     pub span: Range<usize>,
 }

@@ -1,6 +1,9 @@
 //! Parses a project file and reports all errors at once.
 
+mod calibration;
 mod profile;
+
+pub use calibration::read_calibration;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -147,19 +150,17 @@ impl Reader {
         if let Some(at) = pairs.iter().position(|pair| pair.key == "profile") {
             let named = pairs.remove(at);
             let profile = self.profile(&named)?;
-            if let Some(at) = pairs.iter().position(|pair| pair.key == "realtime") {
-                read.realtime = self.realtime(&pairs.remove(at));
-            }
+            pairs.retain(|pair| !self.of_every_robot(pair, &mut read));
             read.profile = Some(self.profile_robot((&named, profile), pairs));
             return Some(read);
         }
+        pairs.retain(|pair| !self.of_every_robot(pair, &mut read));
         for pair in pairs {
             match pair.key {
                 "toolbox" => read.toolbox = self.known_toolbox(&pair, toolboxes),
                 "sim" => read.sim = self.type_path(&pair),
                 "crate" => read.krate = Some(self.krate(&pair)),
                 "hardware" => read.hardware = self.hardware(&pair),
-                "realtime" => read.realtime = self.realtime(&pair),
                 key if keys::keys(&["robot"]).iter().any(|known| known.name == key) => {
                     let message = format!("'{key}' is a key of robots with a 'profile'");
                     self.wrong(pair.span, message, "write 'profile = \"carbot\"'");
@@ -173,6 +174,23 @@ impl Reader {
             self.wrong(robot.span.clone(), "'[robot]' has no 'sim'".to_owned(), help);
         }
         Some(read)
+    }
+
+    /// Reads a key that robots with and without a profile have; returns whether it is one.
+    fn of_every_robot(&mut self, pair: &Pair<'_>, robot: &mut Robot) -> bool {
+        match pair.key {
+            "realtime" => robot.realtime = self.realtime(pair),
+            "autostart" => match pair.item.as_bool() {
+                Some(autostart) => robot.autostart = autostart,
+                None => self.value(pair, "true or false"),
+            },
+            "logs" => match pair.item.as_str().and_then(size) {
+                Some(logs) => robot.logs = Some(logs),
+                None => self.value(pair, "a size in quotes, from 1 MB to 1000 GB"),
+            },
+            _ => return false,
+        }
+        true
     }
 
     fn hardware(&mut self, hardware: &Pair<'_>) -> Option<Hardware> {
@@ -389,6 +407,15 @@ fn simple(pair: &Pair<'_>) -> Option<String> {
         Value::Boolean(truth) => Some(truth.value().to_string()),
         _ => None,
     }
+}
+
+/// A number of bytes, such as `500 MB`.
+fn size(text: &str) -> Option<u64> {
+    let units = [("MB", 1_000_000), ("GB", 1_000_000_000)];
+    let (number, unit) =
+        units.into_iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, unit)))?;
+    let size = number.trim().parse::<u64>().ok()?.checked_mul(unit)?;
+    (1_000_000..=1_000_000_000_000).contains(&size).then_some(size)
 }
 
 fn value_span(pair: &Pair<'_>) -> Range<usize> {

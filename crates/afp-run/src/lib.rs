@@ -92,7 +92,7 @@ where
 }
 
 /// As [`main()`], with the real robot linked in: `--robot hardware` runs the plan on it.
-pub fn main_with<R, H, P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
+pub fn main_with<R, H, P>(program: Program<'static>, new: impl Fn() -> P) -> ExitCode
 where
     R: Simulated,
     H: Hardware + Robot<Devices = R::Devices>,

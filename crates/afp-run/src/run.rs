@@ -70,7 +70,7 @@ pub fn run(
         let help = "'afpc build --hardware' links it, of a robot whose project brings it";
         return Err(RunError::usage(message, help));
     }
-    if options.disarmed && !armed::wait()? {
+    if options.disarmed && !armed::wait(None)? {
         return Ok(EXIT_OK);
     }
     let again = options.again.as_deref().map(Again::read).transpose()?;
@@ -253,7 +253,7 @@ fn drive(
     let watchdog =
         watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
     let driver = Driver { watchdog, realtime, keeper, end, live: live.as_deref() };
-    armed::ready();
+    armed::notify("READY=1");
     // The robot stops before anything slow is written.
     let driven = driver.drive(session, &mut gate, &mut observers);
     stop.set_last_resort(None);

@@ -86,6 +86,12 @@ pub trait AnySession: Send {
     /// an error. No effect in simulation.
     fn set_stall(&mut self, stall: Duration);
 
+    /// Lets time pass before the start, in which a real robot is heard.
+    fn wait(&mut self, to: Instant);
+
+    /// Whether the button that arms the robot is pressed; `None` for a robot without a button.
+    fn button(&self) -> Option<bool>;
+
     /// Lets time pass up to the next event of the run, at most to `limit`, and handles it.
     ///
     /// # Errors

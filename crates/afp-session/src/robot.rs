@@ -108,6 +108,11 @@ pub trait Robot: Platform {
         Err(Refused)
     }
 
+    /// Whether the button that arms a real robot is pressed; `None` for a robot without a button.
+    fn button(&self) -> Option<bool> {
+        None
+    }
+
     /// Places an object of the world, as a hand would: nothing is pushed, and no wheel turns.
     ///
     /// # Errors

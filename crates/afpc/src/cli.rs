@@ -9,6 +9,8 @@ use afp_syntax::diagnostics::words::list;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+#[cfg(all(unix, feature = "pi"))]
+use crate::commands::calibrate;
 #[cfg(feature = "dap")]
 use crate::commands::dap;
 #[cfg(feature = "lsp")]
@@ -64,6 +66,10 @@ enum Command {
     /// Generate a readable Rust crate from a plan and build it
     #[command(after_help = build::EXAMPLES)]
     Build(build::Arguments),
+    /// Measure the wheels and the range sensor of a real robot
+    #[cfg(all(unix, feature = "pi"))]
+    #[command(after_help = calibrate::EXAMPLES)]
+    Calibrate(calibrate::Arguments),
     /// Put a plan on a robot over ssh
     #[cfg(unix)]
     #[command(after_help = deploy::EXAMPLES)]
@@ -117,6 +123,8 @@ pub fn run(linked: &Linked<'_>) -> ExitCode {
         Command::Test(arguments) => test::run(arguments, linked),
         Command::Sweep(arguments) => sweep::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
+        #[cfg(all(unix, feature = "pi"))]
+        Command::Calibrate(arguments) => calibrate::run(arguments),
         #[cfg(unix)]
         Command::Deploy(arguments) => deploy::run(arguments),
         #[cfg(unix)]

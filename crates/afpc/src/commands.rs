@@ -3,6 +3,8 @@
 #[cfg(unix)]
 pub mod agent;
 pub mod build;
+#[cfg(all(unix, feature = "pi"))]
+pub mod calibrate;
 pub mod check;
 pub mod completions;
 #[cfg(feature = "dap")]

@@ -7,6 +7,8 @@ mod cli;
 mod commands;
 mod declared;
 mod early;
+#[cfg(all(feature = "pi", unix))]
+mod in_the_loop;
 mod nearby;
 mod no_plan;
 mod picture;

@@ -11,7 +11,7 @@ use afp_deploy::disk::{Disk, ThisDisk};
 use afp_deploy::manifest::{Entry, Kind, Manifest};
 use afp_deploy::sha256;
 use afp_deploy::store::Store;
-use afp_deploy::wire::{Hello, State};
+use afp_deploy::wire::{Calibration, Hello, State};
 
 pub const DISK: ThisDisk = ThisDisk;
 
@@ -40,6 +40,7 @@ impl Robot {
                 architecture: "aarch64".to_owned(),
                 model: "carbot".to_owned(),
                 space: Some(1 << 30),
+                calibration: Calibration::Unneeded,
             },
             state: State::Stopped,
             running: None,
@@ -130,6 +131,7 @@ pub fn release(n: usize) -> Release {
         model: "carbot".to_owned(),
         robot: "sim".to_owned(),
         set: Vec::new(),
+        calibration: None,
         trace: "00ff".to_owned(),
         files: files.into(),
     };

@@ -4,7 +4,7 @@ use afp_deploy::client::{ClientError, Connection, check_version};
 use afp_deploy::disk::ThisDisk;
 use afp_deploy::manifest::Kind;
 use afp_deploy::store::{Store, names_in};
-use afp_deploy::wire::State;
+use afp_deploy::wire::{Calibration, State};
 
 use crate::fake::{Robot, deploy, is_sound, release};
 
@@ -32,6 +32,29 @@ fn a_release_that_does_not_fit_the_robot_is_refused_before_a_byte_is_written() {
     refused(|robot| robot.hello.space = Some(9 << 10), "the robot has 9 KiB of free disk");
     refused(|robot| robot.state = State::Armed, "the robot is armed and may be moving");
     refused(|robot| robot.serves = false, "no plan can start on the robot");
+}
+
+#[test]
+fn a_plan_for_motors_needs_the_calibration_of_the_robot() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut robot = Robot::new(folder.path());
+    let (ours, other) = (afp_deploy::sha256(b"ours"), afp_deploy::sha256(b"other"));
+    let mut plan = release(1);
+    plan.0.calibration = Some(ours.clone());
+    robot.hello.calibration = Calibration::Missing;
+    // Without motors the numbers of the robot do not matter.
+    assert_eq!(plan.0.robot, "sim");
+    deploy(&mut robot, &plan, false).unwrap();
+    plan.0.robot = "hardware".to_owned();
+    let mut said = |calibration: Calibration| {
+        robot.hello.calibration = calibration;
+        deploy(&mut robot, &plan, false).map(|_| ()).map_err(|why| why.to_string())
+    };
+    assert_eq!(said(Calibration::Missing).unwrap_err(), "the robot has no calibration");
+    let another = "the robot has another calibration than this project";
+    assert_eq!(said(Calibration::Of(other)).unwrap_err(), another);
+    assert_eq!(said(Calibration::Of(ours)), Ok(()));
+    assert_eq!(said(Calibration::Unneeded), Ok(()));
 }
 
 #[test]

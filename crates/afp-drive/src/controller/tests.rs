@@ -55,7 +55,7 @@ impl Bench {
     fn step(&mut self) {
         self.now += STEP;
         let setup = Setup::default();
-        let counts = self.ways.map(|way| (way / setup.metres_per_tick) as i32);
+        let counts = self.ways.map(|way| (way / setup.metres_per_tick[0]) as i32);
         let inputs = Inputs { counts, bumper: true, button: true, ping: None };
         self.power = self.controller.step(&inputs, self.now).power;
         if !self.held {

@@ -52,6 +52,8 @@ impl<L: Line> SerialRobot<L> {
     fn ping(&self) -> Result<(Ping, Instant), Invalid> {
         let (report, at) = self.report()?;
         let ping = report.ping.filter(|_| self.values.sonar.is_some()).ok_or(Invalid::NotYet)?;
+        let distance = ping.distance.map(|distance| (distance + self.values.echo).max(0.0));
+        let ping = Ping { distance, ..ping };
         let age = Duration::from_millis(u64::from(ping.age));
         Ok((ping, Instant::from_nanos(at.as_nanos().saturating_sub(age.as_nanos()))))
     }

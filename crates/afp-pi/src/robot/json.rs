@@ -56,6 +56,8 @@ pub struct JsonLine {
     report: Report,
     restarted: bool,
     track: f64,
+    /// The way of each wheel in metres for one metre of its counter.
+    scale: [f64; 2],
     /// The time of the last dead-man setting.
     guarded: Option<Instant>,
 }
@@ -92,6 +94,7 @@ impl JsonLine {
             self.restarted = true;
             return false;
         }
+        let (left_way, right_way) = (left_way * self.scale[0], right_way * self.scale[1]);
         let (driven, turned) = ((left_way + right_way) / 2.0, (right_way - left_way) / self.track);
         let [x, y, heading] = &mut self.report.pose;
         let (sin, cos) = libm::sincos(*heading + turned / 2.0);
@@ -116,6 +119,7 @@ impl Line for JsonLine {
             report: Report::default(),
             restarted: false,
             track: f64::from(setup.track),
+            scale: setup.metres_per_tick.map(f64::from),
             guarded: None,
         })
     }

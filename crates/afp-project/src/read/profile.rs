@@ -28,6 +28,7 @@ impl Reader {
             name: profile.name,
             sections: Vec::new(),
             values: Vec::new(),
+            calibrated: None,
             span: value_span(named),
         };
         let known = || profile.sections.iter().filter(|section| !section.key.name.is_empty());
@@ -43,7 +44,7 @@ impl Reader {
             let Some(section) = known().find(|section| section.key.name == pair.key) else {
                 let own = top.iter().flat_map(|top| top.settings).map(|it| it.key.name);
                 let names = known().map(|section| section.key.name).chain(own);
-                let help = instead(pair.key, names.chain(["realtime"]));
+                let help = instead(pair.key, names.chain(["realtime", "autostart", "logs"]));
                 let message = format!("the profile '{}' has no '{}'", profile.name, pair.key);
                 self.wrong(pair.span.clone(), message, &help);
                 continue;

@@ -15,7 +15,7 @@ use crate::{Program, inputs};
 /// The name of a real robot in recipes.
 pub(crate) const HARDWARE: &str = "hardware";
 
-pub type OpenHardware<'a> = dyn FnOnce(&Settings) -> Result<Opened, SessionError> + 'a;
+pub type OpenHardware<'a> = dyn Fn(&Settings) -> Result<Opened, SessionError> + 'a;
 
 /// Runs a plan on a real robot; returns the exit code. PNG pictures need a `rasterizer`.
 ///
@@ -36,7 +36,9 @@ pub fn run_on_hardware(
     let (of_robot, of_plan): (Vec<_>, Vec<_>) =
         options.set.iter().cloned().partition(|(name, _)| name.starts_with(PREFIX));
     let (settings, realtime) = settings(program, &of_robot)?;
-    if options.disarmed && !armed::wait()? {
+    // The robot is opened first, so that one that cannot be reached is noticed before it is armed.
+    // It is closed before the run, which begins at zero.
+    if options.disarmed && !armed::wait(Some(open(&settings)?.session))? {
         return Ok(EXIT_OK);
     }
     let Opened { mut session, last_resort, watch } = open(&settings)?;

@@ -14,7 +14,7 @@ use afp_dsl::{Toolboxes, compile};
 use afp_platform::{Hardware, LastResort, RealTime, Robot, Samples, Settings, open_device};
 use afp_run::options::RunOptions;
 use afp_run::{Program, run_on_hardware};
-use afp_session::Opened;
+use afp_session::{Opened, SessionError};
 use afp_syntax::source::Source;
 use clap::{Args, Command, FromArgMatches};
 use rustix::fs::OFlags;
@@ -180,7 +180,6 @@ pub fn drive(plan: &str, port: &str, options: &[&str]) -> ! {
     let graph = compiled.graph.clone().unwrap_or_else(|| panic!("{}", compiled.render(false)));
     let mut registry = Registry::new();
     registry.actor::<templates::Go, Go>("port", "Go");
-    let plan = LoadedPlan::new(&graph, &registry).unwrap();
     let command = RunOptions::augment_args(Command::new("rover").no_binary_name(true));
     let own = ["--robot", "hardware"];
     let options = command.get_matches_from(own.iter().chain(options));
@@ -195,7 +194,10 @@ pub fn drive(plan: &str, port: &str, options: &[&str]) -> ! {
         project: "",
         hardware: &hardware,
     };
-    let open = |settings: &Settings| Opened::new::<_, Rover>(plan, settings);
+    let open = |settings: &Settings| {
+        let plan = LoadedPlan::new(&graph, &registry).map_err(SessionError::Load)?;
+        Opened::new::<_, Rover>(plan, settings)
+    };
     let code = match run_on_hardware(&program, Box::new(open), &options, None) {
         Ok(code) => code,
         Err(error) => {

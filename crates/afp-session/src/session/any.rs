@@ -96,6 +96,14 @@ where
         self.stall = self.stall.map(|_| stall);
     }
 
+    fn wait(&mut self, to: Instant) {
+        self.robot.advance(to);
+    }
+
+    fn button(&self) -> Option<bool> {
+        self.robot.button()
+    }
+
     fn tick(
         &mut self,
         limit: Instant,

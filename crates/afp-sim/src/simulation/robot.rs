@@ -60,7 +60,7 @@ impl Robot for Simulation {
     }
 
     fn sample(&self, to: &mut Samples<'_, '_>) {
-        self.sample_truth(to);
+        self.sample_facts(to);
         self.sample_sensors(to);
         self.sample_localisation(to);
         let (speed, turn) = self.drive.asked();
@@ -72,13 +72,6 @@ impl Robot for Simulation {
             to.put(signal::SIGNALS_TONE, SampleRef::Float(tone.si()));
         }
         self.sample_camera(to);
-        if to.wants(signal::WORLD_OUTLINE) {
-            for obstacle in self.movers() {
-                if let Some(shape) = self.shape(obstacle) {
-                    to.put(signal::WORLD_OUTLINE, SampleRef::Outline(&shape));
-                }
-            }
-        }
     }
 
     fn keyframe(&self) -> Option<Self> {
@@ -103,6 +96,18 @@ impl Robot for Simulation {
 }
 
 impl Simulation {
+    /// Samples the facts that no device knows: pose, contacts and moving obstacles.
+    pub fn sample_facts(&self, to: &mut Samples<'_, '_>) {
+        self.sample_truth(to);
+        if to.wants(signal::WORLD_OUTLINE) {
+            for obstacle in self.movers() {
+                if let Some(shape) = self.shape(obstacle) {
+                    to.put(signal::WORLD_OUTLINE, SampleRef::Outline(&shape));
+                }
+            }
+        }
+    }
+
     fn sample_truth(&self, to: &mut Samples<'_, '_>) {
         let truth = self.truth();
         if to.wants(signal::POSE) {

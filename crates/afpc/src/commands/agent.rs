@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use afp_deploy::agent::Agent;
 use afp_deploy::disk::ThisDisk;
 use afp_deploy::store::Store;
+use afp_project::ProjectFile;
 use afp_run::{EXIT_OK, RunError};
 use clap::Args;
 
@@ -36,9 +37,6 @@ pub struct Arguments {
     /// Print the unit that runs the service under systemd
     #[arg(long, conflicts_with = "serve")]
     unit: bool,
-    /// Arm the first run without an operator
-    #[arg(long, requires = "serve")]
-    autostart: bool,
 }
 
 pub const EXAMPLES: &str = "\
@@ -70,7 +68,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         return Ok(EXIT_OK);
     }
     if arguments.serve {
-        service::serve(&store, arguments.autostart)?;
+        let project = ProjectFile::find(root)?;
+        service::serve(&store, project.project.robot.as_ref())?;
         return Ok(EXIT_OK);
     }
     let mut robot = Robot::new(root)?;

@@ -15,6 +15,7 @@ use clap::Args;
 
 use super::agent::{model_of, trace_of};
 use super::robot::connect::Remote;
+use super::robot::setup::architecture;
 use super::robot::{ran, tell};
 use crate::no_plan::NoPlan;
 use crate::plan_file::{PlanArgument, PlanFile};
@@ -43,11 +44,11 @@ pub struct Arguments {
 
 pub const EXAMPLES: &str = "\
 Examples:
-  afpc deploy plans/patrol.afp --to robot.local
-  afpc deploy plans/patrol.afp --to pi@robot.local --robot sim
-  afpc deploy plans/clean.afp --to robot.local --built clean
+  afpc deploy plans/patrol.afp --to afp@robot.local
+  afpc deploy plans/patrol.afp --to afp@robot.local --robot sim
+  afpc deploy plans/clean.afp --to afp@robot.local --built clean
 
-The robot starts disarmed: 'afpc robot arm robot.local' lets it drive.";
+The robot starts disarmed: 'afpc robot arm afp@robot.local' lets it drive.";
 
 fn assignment(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("write ENTRY=VALUE")?;
@@ -89,6 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         model: model_of(&file.own.project).to_owned(),
         robot: arguments.robot.clone(),
         set: arguments.set.clone(),
+        calibration: file.own.project.calibration.as_ref().map(|it| sha256(it.as_bytes())),
         trace: trace(arguments)?,
         files,
     };
@@ -131,14 +133,4 @@ fn trace(arguments: &Arguments) -> Result<String, RunError> {
     trace_of(command).map_err(|why| {
         RunError::usage(format!("the plan does not run here: {why}"), "'afpc run' shows more")
     })
-}
-
-/// The processor of a program, from the head of its file (ELF).
-fn architecture(program: &[u8]) -> &'static str {
-    match program.get(18..20) {
-        Some([0x3e, 0]) => "x86_64",
-        Some([0xb7, 0]) => "aarch64",
-        Some([0x28, 0]) => "arm",
-        _ => "another processor",
-    }
 }

@@ -42,6 +42,8 @@ impl Listen {
 
 /// Commands that this program was built without. Each is a feature with the command's name.
 const LEFT_OUT: &[&str] = &[
+    #[cfg(not(all(unix, feature = "pi")))]
+    "calibrate",
     #[cfg(not(feature = "dap"))]
     "dap",
     #[cfg(not(feature = "lsp"))]

@@ -1,6 +1,7 @@
 //! `afpc robot`: the state, the releases and the logs of a robot.
 
 pub mod connect;
+pub mod setup;
 
 use std::fs::{self, OpenOptions};
 use std::path::{Path, PathBuf};
@@ -23,6 +24,8 @@ pub struct Arguments {
 
 #[derive(Subcommand, Debug)]
 enum Verb {
+    /// Prepare a robot's computer, or upgrade it
+    Setup(setup::Arguments),
     /// Show the state of the robot and its releases
     Status(Host),
     /// Let the plan drive
@@ -57,11 +60,12 @@ struct Host {
 
 pub const EXAMPLES: &str = "\
 Examples:
-  afpc robot status robot.local
-  afpc robot arm robot.local
-  afpc robot stop robot.local
-  afpc robot rollback robot.local
-  afpc robot logs robot.local Patrol-1-1.mcap";
+  afpc robot setup pi@robot.local
+  afpc robot status afp@robot.local
+  afpc robot arm afp@robot.local
+  afpc robot stop afp@robot.local
+  afpc robot rollback afp@robot.local
+  afpc robot logs afp@robot.local Patrol-1-1.mcap";
 
 /// Asks the robot's agent.
 ///
@@ -69,6 +73,7 @@ Examples:
 /// The robot cannot be reached, or refuses the request.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     match &arguments.verb {
+        Verb::Setup(arguments) => setup::run(arguments),
         Verb::Status(host) => {
             let status = Remote::connect(&host.host)?.ask(|robot| robot.status())?;
             print(&shown(&status))

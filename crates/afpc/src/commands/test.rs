@@ -19,6 +19,8 @@ use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::commands::EXIT_STOPPED;
+#[cfg(all(feature = "pi", unix))]
+use crate::in_the_loop;
 use crate::no_plan::NoPlan;
 use crate::plan_file::PlanFile;
 use crate::{Linked, runner};
@@ -59,6 +61,12 @@ pub struct Arguments {
     #[arg(long, group = "told", conflicts_with = "output")]
     mutate: bool,
 
+    /// Run scenarios with the driver of the real robot, in real time: the simulator is behind the
+    /// protocol of its controller
+    #[cfg(all(feature = "pi", unix))]
+    #[arg(long, conflicts_with_all = ["generate", "mutate"])]
+    in_the_loop: bool,
+
     /// Seed for the mutations of '--mutate'
     #[arg(
         long,
@@ -90,6 +98,7 @@ Examples:
   afpc test --coverage -o cover   the coverage as drawings, one per plan
   afpc test --generate plans/wall_following.afp
   afpc test --mutate --at-least 95
+  afpc test --in-the-loop         the driver of the real robot, with a simulated controller
 
 A failed scenario is run again with a log: target/afp/tests/<file>.<name>.<hash>.mcap.
 Exit codes: 0 all passed, 1 a file is invalid, 2 nothing to run, 3 a scenario failed or too few mutants are noticed,
@@ -160,9 +169,16 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if cases.is_empty() && code == EXIT_OK {
         return Err(find::nothing(&filters, &files).into());
     }
+    #[cfg(all(feature = "pi", unix))]
+    if arguments.in_the_loop {
+        // The driver of a profile needs no other program.
+        let mut profiles = read.iter().map(|file| file.own.project.project.profile());
+        let robot = in_the_loop::loader(profiles.next().flatten())?;
+        return run_all(&cases, code, arguments, &robot);
+    }
     // Building takes minutes. All other errors are reported first.
     link(&read, linked)?;
-    run_all(&cases, code, arguments, linked)
+    run_all(&cases, code, arguments, linked.robot)
 }
 
 /// Reads the files and returns the exit code of the invalid files.
@@ -238,7 +254,7 @@ fn run_all(
     cases: &[Case<'_>],
     code: u8,
     arguments: &Arguments,
-    linked: &Linked<'_>,
+    robot: &dyn Loader,
 ) -> Result<u8, NoPlan> {
     let begun = Wall::now();
     let stop =
@@ -248,7 +264,7 @@ fn run_all(
         .par_iter()
         .with_max_len(1)
         .filter_map(|case| {
-            let done = run_one(case, linked.robot, &stop)?;
+            let done = run_one(case, robot, &stop)?;
             reporter.done(case, &done);
             Some((case, done))
         })

@@ -44,6 +44,14 @@ impl Place {
         fs::write(path, text).unwrap();
     }
 
+    /// Writes a program.
+    #[cfg(unix)]
+    pub fn program(&self, name: &str, text: &str) {
+        self.write(name, text);
+        let executable = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+        fs::set_permissions(self.path(name), executable).unwrap();
+    }
+
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap()
     }

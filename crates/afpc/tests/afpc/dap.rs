@@ -15,7 +15,7 @@ fn told(bytes: &[u8]) -> Said {
     told_in(&Place::new(), bytes)
 }
 
-fn told_in(place: &Place, bytes: &[u8]) -> Said {
+pub fn told_in(place: &Place, bytes: &[u8]) -> Said {
     told_at(place, "", &["dap"], bytes)
 }
 
@@ -30,7 +30,7 @@ fn told_at(place: &Place, folder: &str, words: &[&str], bytes: &[u8]) -> Said {
     said(child.wait_with_output().unwrap())
 }
 
-fn framed(command: &str, arguments: &str) -> String {
+pub fn framed(command: &str, arguments: &str) -> String {
     let body =
         format!(r#"{{"seq":1,"type":"request","command":"{command}","arguments":{arguments}}}"#);
     format!("Content-Length: {}\r\n\r\n{body}", body.len())

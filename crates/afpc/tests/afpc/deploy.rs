@@ -1,6 +1,12 @@
 //! `afpc deploy`, `afpc robot` and `afpc agent`: a robot without motors on this machine.
 
+mod failures;
+#[cfg(feature = "pi")]
+mod real;
+mod setup;
 mod ssh;
+#[cfg(feature = "pi")]
+mod whole;
 
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -15,13 +21,38 @@ struct Robot {
 
 impl Robot {
     fn new() -> Robot {
+        Robot::with("")
+    }
+
+    /// A robot with a project file.
+    fn with(project: &str) -> Robot {
         let place = Place::with_plan();
-        let mut command = place.command();
-        command.args(["agent", "--serve", "--root", "robot"]).stdin(Stdio::null());
-        let service = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        place.write("robot/afp.toml", project);
+        place.write("afp.toml", project);
+        let service = serve(&place);
         let robot = Robot { place, service };
-        robot.until("the service answers", |status| !status.contains("does not answer"));
+        robot.answers();
         robot
+    }
+
+    fn answers(&self) {
+        self.until("the service answers", |status| !status.contains("does not answer"));
+    }
+
+    /// Stops the service and starts it again.
+    fn serve_again(&mut self) {
+        self.signal("-TERM", self.service.id());
+        self.service.wait().unwrap();
+        self.service = serve(&self.place);
+        self.answers();
+    }
+
+    /// Ends the program that runs.
+    fn kill(&self) {
+        let service = self.service.id();
+        let children = format!("/proc/{service}/task/{service}/children");
+        let child = std::fs::read_to_string(children).unwrap().trim().parse().unwrap();
+        self.signal("-KILL", child);
     }
 
     /// The host for `afpc deploy` and `afpc robot`.
@@ -63,6 +94,12 @@ impl Robot {
         let sent = Command::new("kill").args([signal, &process.to_string()]).status();
         assert!(sent.unwrap().success());
     }
+}
+
+fn serve(place: &Place) -> Child {
+    let mut command = place.command();
+    command.args(["agent", "--serve", "--root", "robot"]).stdin(Stdio::null());
+    command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
 impl Drop for Robot {
@@ -129,20 +166,6 @@ fn a_release_that_does_not_start_leaves_the_old_one_running() {
     let after = robot.status();
     assert_eq!(after.lines().next(), status.lines().next(), "the old release runs: {after}");
     assert!(after.contains("trouble: release "), "{after}");
-}
-
-#[test]
-fn a_robot_whose_program_crashed_comes_back_disarmed() {
-    let robot = Robot::new();
-    robot.deploy(DEPLOY).succeeds();
-    robot.robot("arm", "").succeeds();
-    let service = robot.service.id();
-    let children = format!("/proc/{service}/task/{service}/children");
-    let child = std::fs::read_to_string(children).unwrap().trim().parse().unwrap();
-    robot.signal("-KILL", child);
-    robot.until("it is disarmed again", |status| {
-        status.starts_with("disarmed: ") && status.contains("signal: 9")
-    });
 }
 
 #[test]

@@ -5,6 +5,8 @@ mod book;
 mod build;
 #[cfg(unix)]
 mod build_json;
+#[cfg(all(feature = "pi", unix))]
+mod calibrate;
 mod check;
 mod common;
 mod coverage;

@@ -4,38 +4,49 @@
 mod controller;
 
 use std::fs;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 use crate::common::{Place, Said, said};
 use controller::Fake;
 
-/// A controller that runs until it is taken back.
-struct Running {
-    port: String,
+/// A controller that runs until it is dropped.
+pub struct Running {
+    pub port: String,
+    fake: Arc<Mutex<Fake>>,
     ends: Arc<AtomicBool>,
-    thread: JoinHandle<Fake>,
+    thread: Option<JoinHandle<()>>,
 }
 
 impl Running {
-    fn start(mut each_step: impl FnMut(&mut Fake) + Send + 'static) -> Running {
-        let (mut fake, port) = Fake::new().unwrap();
-        let ends = Arc::new(AtomicBool::new(false));
-        let is_over = ends.clone();
+    pub fn start(mut each_step: impl FnMut(&mut Fake) + Send + 'static) -> Running {
+        let (fake, port) = Fake::new().unwrap();
+        let (fake, ends) = (Arc::new(Mutex::new(fake)), Arc::new(AtomicBool::new(false)));
+        let (stepped, is_over) = (fake.clone(), ends.clone());
         let thread = thread::spawn(move || {
             while !is_over.load(Ordering::Relaxed) {
+                let mut fake = stepped.lock().unwrap();
                 each_step(&mut fake);
                 fake.step().unwrap();
+                drop(fake);
+                // Others may look at it.
+                thread::sleep(Duration::from_millis(1));
             }
-            fake
         });
-        Running { port, ends, thread }
+        Running { port, fake, ends, thread: Some(thread) }
     }
 
-    fn end(self) -> Fake {
+    pub fn with<T>(&self, act: impl FnOnce(&mut Fake) -> T) -> T {
+        act(&mut self.fake.lock().unwrap())
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
         self.ends.store(true, Ordering::Relaxed);
-        self.thread.join().unwrap()
+        let _ = self.thread.take().map(JoinHandle::join);
     }
 }
 
@@ -68,9 +79,10 @@ fn a_robot_from_parts_is_simulated_and_driven_without_cargo() {
     let drove = (0..5).any(|_| {
         let controller = Running::start(|_| {});
         let ran = drive(&place, &controller, "2s");
-        let fake = controller.end();
-        assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
-        ran.code == 0 && fake.ways.iter().all(|way| *way > 0.05)
+        controller.with(|fake| {
+            assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
+            ran.code == 0 && fake.ways.iter().all(|way| *way > 0.05)
+        })
     });
     assert!(drove, "no run of five drove the robot");
 }
@@ -88,8 +100,9 @@ fn a_controller_that_restarts_in_mid_drive_ends_the_run_and_stays_stopped() {
     });
     let ran = drive(&place, &controller, "20s");
     ran.fails(3, &[]);
-    let fake = controller.end();
-    assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
+    controller.with(|fake| {
+        assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
+    });
 }
 
 #[test]

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use afp_deploy::agent::{Host, Service, Started};
 use afp_deploy::manifest::Manifest;
-use afp_deploy::wire::Hello;
+use afp_deploy::sha256;
+use afp_deploy::wire::{Calibration, Hello};
 use afp_project::ProjectFile;
 use afp_run::RunError;
 use afp_session::Build;
@@ -24,6 +25,7 @@ pub(super) struct Robot {
     root: PathBuf,
     afpc: PathBuf,
     model: String,
+    calibration: Calibration,
 }
 
 impl Robot {
@@ -32,7 +34,12 @@ impl Robot {
     pub(super) fn new(root: &Path) -> Result<Self, RunError> {
         let project = ProjectFile::find(root)?;
         let model = model_of(&project).to_owned();
-        Ok(Robot { root: root.to_owned(), afpc: program::afpc()?, model })
+        let calibration = match (project.project.profile(), &project.calibration) {
+            (None, _) => Calibration::Unneeded,
+            (Some(_), None) => Calibration::Missing,
+            (Some(_), Some(text)) => Calibration::Of(sha256(text.as_bytes())),
+        };
+        Ok(Robot { root: root.to_owned(), afpc: program::afpc()?, model, calibration })
     }
 
     fn ask(&self, order: Order, patience: Duration) -> Result<Reply, String> {
@@ -59,6 +66,7 @@ impl Host for Robot {
             version: Build::this().to_string(),
             architecture: std::env::consts::ARCH.to_owned(),
             model: self.model.clone(),
+            calibration: self.calibration.clone(),
             space: disk.map(|disk| disk.f_bavail.saturating_mul(disk.f_frsize)),
         }
     }

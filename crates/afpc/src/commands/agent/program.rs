@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use std::{io, thread};
 
-use afp_deploy::manifest::{Kind, Manifest};
+use afp_deploy::manifest::{Kind, Manifest, SIMULATED};
 use afp_run::RunError;
 
 /// The longest time of a self-check.
@@ -17,8 +17,6 @@ const STOP: Duration = Duration::from_secs(5);
 const LOOK: Duration = Duration::from_millis(5);
 /// The most output of a self-check that is read, in bytes.
 const LONGEST: u64 = 1 << 16;
-/// The value of `--robot` of a robot without motors.
-const SIMULATED: &str = "sim";
 
 /// The `afpc` that runs now.
 ///

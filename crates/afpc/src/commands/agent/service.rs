@@ -1,19 +1,22 @@
 //! `afpc agent --serve`: runs the current release, and another one on request.
 //!
-//! A program starts disarmed and waits for an operator. If a new release is not ready within
-//! [`READY`], the last release that was starts again. A program that ends is started again, disarmed.
+//! A program starts disarmed and waits for an operator or the robot's button. If a new release is not
+//! ready within [`READY`], the last release that was starts again. A program that ends is started
+//! again, disarmed. With `autostart`, the first program after a boot is armed.
 
 use std::fs::{self, File};
 use std::io::Write;
 use std::os::unix::net::{UnixDatagram, UnixListener};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Child;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use afp_deploy::agent::{Service, Started};
+use afp_deploy::logs::{self, Logs};
 use afp_deploy::store::{Generation, Store};
 use afp_deploy::wire::State;
+use afp_project::Robot;
 use afp_run::{RunError, StopFlag, notify, say};
 
 use super::control::{self, Order, Reply};
@@ -25,10 +28,17 @@ const READY: Duration = Duration::from_secs(5);
 const LOOK: Duration = Duration::from_millis(10);
 /// The first and the longest pause before a program that ended starts again.
 const PAUSE: (Duration, Duration) = (Duration::from_millis(200), Duration::from_secs(5));
+/// The states that a program reports.
+const READY_STATE: &str = "READY=1";
+const ARMED: &str = "STATUS=armed";
 /// The interval of signs of life for systemd, whose limit in the unit is a minute.
 const ALIVE: Duration = Duration::from_secs(5);
 /// A program that ran this long has not failed at once.
 const LONG: Duration = Duration::from_secs(10);
+/// The interval at which the logs are limited during a run.
+const LIMIT_LOGS: Duration = Duration::from_secs(60);
+/// The number of this boot, which Linux draws.
+const BOOT_ID: &str = "/proc/sys/kernel/random/boot_id";
 
 /// A program that runs.
 struct Running {
@@ -48,14 +58,21 @@ struct Supervisor<'a> {
     /// The next start after an end, and the pause before it.
     again: Instant,
     pause: Duration,
+    /// The ends in a row, each soon after its start.
+    failures: u32,
+    /// Whether the next start is the first one after a boot, and is armed.
     autostart: bool,
+    logs: Logs,
+    /// The most bytes of all logs.
+    most: u64,
+    limited: Instant,
 }
 
 /// Runs releases until the process is asked to stop.
 ///
 /// # Errors
 /// Another service uses the folder, or a socket cannot be created.
-pub(super) fn serve(store: &Store<'_>, autostart: bool) -> Result<(), RunError> {
+pub(super) fn serve(store: &Store<'_>, robot: Option<&Robot>) -> Result<(), RunError> {
     let root = store.root();
     let lock = root.join("service.lock");
     let file = File::create(&lock).map_err(RunError::file("cannot create", &lock))?;
@@ -83,7 +100,13 @@ pub(super) fn serve(store: &Store<'_>, autostart: bool) -> Result<(), RunError> 
         trouble: None,
         again: Instant::now(),
         pause: PAUSE.0,
-        autostart,
+        failures: 0,
+        autostart: is_first_of_boot(root)
+            && robot.is_some_and(|robot| robot.autostart)
+            && store.current().is_some(),
+        logs: Logs::of(root),
+        most: robot.and_then(|robot| robot.logs).unwrap_or(logs::USUAL),
+        limited: Instant::now(),
     };
     notify("READY=1");
     let mut told = Instant::now();
@@ -96,11 +119,21 @@ pub(super) fn serve(store: &Store<'_>, autostart: bool) -> Result<(), RunError> 
             supervisor.answer(stream);
         }
         supervisor.look();
+        supervisor.limit_logs();
         thread::sleep(LOOK);
     }
     supervisor.stop();
     fs::remove_file(&socket).ok();
     Ok(())
+}
+
+/// Whether no service has used the folder since the last boot of this computer. A computer that
+/// cannot tell counts as already booted, so that nothing is armed.
+fn is_first_of_boot(root: &Path) -> bool {
+    let Ok(boot) = fs::read_to_string(BOOT_ID) else { return false };
+    let path = root.join("boot");
+    let is_known = fs::read_to_string(&path).is_ok_and(|known| known == boot);
+    !is_known && fs::write(&path, boot).is_ok()
 }
 
 impl Supervisor<'_> {
@@ -137,38 +170,63 @@ impl Supervisor<'_> {
         Service { state, release, trouble: self.trouble.clone() }
     }
 
-    /// Notices the end of the program, and starts a release if none runs.
+    /// Notices what the program reports and its end, and starts a release if none runs.
     fn look(&mut self) {
+        while let Some(said) = self.said() {
+            if let Some(running) = self.running.as_mut().filter(|_| said == ARMED) {
+                running.armed = true;
+            }
+        }
         if let Some(running) = &mut self.running
             && let Ok(Some(status)) = running.child.try_wait()
         {
+            let (armed, is_long) = (running.armed, running.since.elapsed() > LONG);
+            self.failures = if is_long { 1 } else { self.failures.saturating_add(1) };
             if !status.success() {
-                self.trouble = Some(format!("release {} ended: {status}", running.release));
+                let armed = if armed { " while it was armed" } else { "" };
+                let mut trouble = format!("release {} ended{armed}: {status}", running.release);
+                if self.failures > 1 {
+                    trouble.push_str(&format!(", {} times in a row", self.failures));
+                }
+                self.trouble = Some(trouble);
             }
-            let is_long = running.since.elapsed() > LONG;
             self.pause = if is_long { PAUSE.0 } else { PAUSE.1.min(self.pause * 2) };
             self.again = Instant::now() + self.pause;
             self.running = None;
         }
         if self.running.is_none() && Instant::now() >= self.again && self.store.current().is_some()
         {
+            let autostart = std::mem::take(&mut self.autostart);
             if let Err(why) = self.start_or_fall_back() {
                 self.pause = PAUSE.1.min(self.pause * 2);
                 self.again = Instant::now() + self.pause;
                 say(format_args!("error: {why}"));
                 self.trouble = Some(why);
-            }
-            if std::mem::take(&mut self.autostart)
-                && let Err(why) = self.arm()
-            {
+            } else if autostart && let Err(why) = self.arm() {
                 self.trouble = Some(why);
             }
+        }
+    }
+
+    fn limit_logs(&mut self) {
+        if self.limited.elapsed() > LIMIT_LOGS {
+            self.limited = Instant::now();
+            self.prune_logs();
+        }
+    }
+
+    fn prune_logs(&mut self) {
+        if let Err(why) = self.logs.prune(self.most) {
+            self.trouble = Some(format!("cannot remove an old log: {why}"));
         }
     }
 
     fn restart(&mut self) -> Result<Started, String> {
         self.stop();
         self.trouble = None;
+        self.failures = 0;
+        // Somebody is here, and decides.
+        self.autostart = false;
         let started = self.start_or_fall_back();
         if let Err(why) = &started {
             self.trouble = Some(why.clone());
@@ -202,13 +260,14 @@ impl Supervisor<'_> {
         let manifest = self.store.manifest(release).map_err(|why| why.to_string())?;
         let files = self.store.files(release);
         program::stop_robot(&self.afpc, &files, &manifest)?;
-        while self.states.recv(&mut [0; 64]).is_ok() {}
-        let log = self.log(&manifest.plan, *number);
+        while self.said().is_some() {}
+        self.prune_logs();
+        let log = self.logs.next(&manifest.plan, *number);
         let notify = self.store.root().join("notify");
         let started = program::start((&self.afpc, &files), &manifest, &log, &notify);
         let mut child = started.map_err(|why| format!("cannot start it: {why}"))?;
         let until = Instant::now() + READY;
-        while !self.is_ready() {
+        while self.said().as_deref() != Some(READY_STATE) {
             let ended = child.try_wait().map_err(|why| why.to_string())?;
             if let Some(status) = ended {
                 return Err(format!("it ended before it was ready ({status})"));
@@ -225,16 +284,11 @@ impl Supervisor<'_> {
         Ok(())
     }
 
-    fn is_ready(&self) -> bool {
+    /// The next state that a program reports.
+    fn said(&self) -> Option<String> {
         let mut said = [0; 64];
-        self.states.recv(&mut said).is_ok_and(|count| said.get(..count) == Some(b"READY=1"))
-    }
-
-    /// The path of the next log. Numbers order the logs, because the clock may be wrong.
-    fn log(&self, plan: &str, generation: u64) -> PathBuf {
-        let folder = self.store.root().join("logs");
-        let name = |run: u32| folder.join(format!("{plan}-{generation}-{run}.mcap"));
-        (1..u32::MAX).map(name).find(|path| !path.exists()).unwrap_or_else(|| name(0))
+        let count = self.states.recv(&mut said).ok()?;
+        Some(String::from_utf8_lossy(said.get(..count)?).into_owned())
     }
 
     fn arm(&mut self) -> Result<(), String> {

@@ -1,7 +1,6 @@
 //! Deploys over a real `sshd` on loopback, and the unit of the service.
 
-use std::net::TcpListener;
-use std::os::unix::fs::PermissionsExt;
+use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -9,7 +8,7 @@ use std::time::Duration;
 use super::Robot;
 use crate::common::{Place, Said, said};
 
-const SSHD: &str = "/usr/sbin/sshd";
+pub const SSHD: &str = "/usr/sbin/sshd";
 
 fn succeeds(command: &mut Command) -> String {
     let said = said(command.output().unwrap());
@@ -17,15 +16,33 @@ fn succeeds(command: &mut Command) -> String {
     said.out.trim().to_owned()
 }
 
-/// A server whose only key runs the agent of a robot.
-struct Server {
-    place: Place,
+/// A server of ssh, and a client that knows it as 'robot.test'.
+pub struct Server {
+    pub place: Place,
     process: Child,
     port: u16,
 }
 
 impl Server {
+    /// A server whose only key runs the agent of a robot.
     fn new(robot: &Robot) -> Server {
+        let agent = robot.host().replace("exec:", "exec ");
+        let asked = r#"test \"$SSH_ORIGINAL_COMMAND\" = 'afpc agent' && "#;
+        // The folder that the server needs if root starts it.
+        std::fs::create_dir_all("/run/sshd").ok();
+        Server::started(|place| {
+            let keys = format!("command=\"{asked}{agent}\" {}", place.read("user.pub"));
+            place.write("keys", &keys);
+            let more = format!(
+                "AuthorizedKeysFile {}\nPermitRootLogin yes\n",
+                place.path("keys").display()
+            );
+            (Command::new(SSHD), more)
+        })
+    }
+
+    /// A server that a command starts, with more settings.
+    pub fn started(make: impl FnOnce(&Place) -> (Command, String)) -> Server {
         let place = Place::new();
         for key in ["host", "user", "other"] {
             let mut keygen = Command::new("ssh-keygen");
@@ -34,16 +51,13 @@ impl Server {
         }
         let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         let file = |name: &str| place.path(name).display().to_string();
-        let agent = robot.host().replace("exec:", "exec ");
-        let asked = r#"test \"$SSH_ORIGINAL_COMMAND\" = 'afpc agent' && "#;
-        place.write("keys", &format!("command=\"{asked}{agent}\" {}", place.read("user.pub")));
+        let (mut command, more) = make(&place);
         place.write(
             "sshd",
             &format!(
-                "Port {port}\nListenAddress 127.0.0.1\nHostKey {}\nAuthorizedKeysFile {}\nPidFile none\n\
-                 StrictModes no\nUsePAM no\nPasswordAuthentication no\nPermitRootLogin yes\n",
-                file("host"),
-                file("keys")
+                "Port {port}\nListenAddress 127.0.0.1\nHostKey {}\nPidFile none\nStrictModes no\n\
+                 UsePAM no\nPasswordAuthentication no\n{more}",
+                file("host")
             ),
         );
         let user = succeeds(Command::new("id").arg("-un"));
@@ -56,33 +70,43 @@ impl Server {
                 file("known")
             ),
         );
-        // The client of the path is the system's with another configuration.
-        place
-            .write("bin/ssh", &format!("#!/bin/sh\nexec /usr/bin/ssh -F {} \"$@\"\n", file("ssh")));
-        let executable = std::fs::Permissions::from_mode(0o755);
-        std::fs::set_permissions(place.path("bin/ssh"), executable).unwrap();
-        // The folder that the server needs if root starts it.
-        std::fs::create_dir_all("/run/sshd").ok();
-        let mut server = Command::new(SSHD);
-        server.args(["-D", "-f"]).arg(place.path("sshd")).stdin(Stdio::null());
-        let process = server.stderr(Stdio::null()).spawn().unwrap();
+        // The clients of the path are the system's with another configuration.
+        for client in ["ssh", "sftp"] {
+            let text = format!("#!/bin/sh\nexec /usr/bin/{client} -F {} \"$@\"\n", file("ssh"));
+            place.program(&format!("bin/{client}"), &text);
+        }
+        command.args(["-D", "-f"]).arg(place.path("sshd")).stdin(Stdio::null());
+        let process = command.stderr(Stdio::null()).spawn().unwrap();
         let server = Server { place, process, port };
         server.knows("host");
+        server.listens();
         server
     }
 
+    /// Waits until the server answers.
+    fn listens(&self) {
+        for _ in 0..600 {
+            if TcpStream::connect(("127.0.0.1", self.port)).is_ok() {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        panic!("sshd does not listen");
+    }
+
     /// Makes the client expect this key of the host.
-    fn knows(&self, key: &str) {
+    pub fn knows(&self, key: &str) {
         let public = self.place.read(&format!("{key}.pub"));
         self.place.write("known", &format!("[127.0.0.1]:{} {public}", self.port));
     }
 
-    fn afpc(&self, robot: &Robot, arguments: &str) -> Said {
+    /// Runs `afpc` in a folder, with the clients of this server.
+    pub fn afpc(&self, folder: &Place, arguments: &str) -> Said {
         let path = std::env::var("PATH").unwrap();
         let bin = self.place.path("bin").display().to_string();
-        let mut command = robot.place.command();
-        command.args(arguments.split(' ')).env("PATH", format!("{bin}:{path}"));
-        said(command.output().unwrap())
+        let mut command = folder.command();
+        command.args(arguments.split_whitespace()).env("PATH", format!("{bin}:{path}"));
+        said(command.stdin(Stdio::null()).output().unwrap())
     }
 }
 
@@ -102,21 +126,22 @@ fn a_deploy_over_ssh_works_and_a_changed_host_key_is_refused() {
     let robot = Robot::new();
     let server = Server::new(&robot);
     let deploy = "deploy wall_following.afp --robot sim --to robot.test";
-    let mut first = server.afpc(&robot, deploy);
-    for _ in 0..100 {
-        if first.code == 0 {
-            break;
-        }
-        // The server may not listen yet.
-        std::thread::sleep(Duration::from_millis(100));
-        first = server.afpc(&robot, deploy);
-    }
+    let first = server.afpc(&robot.place, deploy);
     assert!(first.succeeds().out.starts_with("ready: WallFollowing "), "{first:?}");
-    let status = server.afpc(&robot, "robot status robot.test");
+    let status = server.afpc(&robot.place, "robot status robot.test");
     assert!(status.succeeds().out.starts_with("disarmed: WallFollowing "), "{status:?}");
     server.knows("other");
-    let refused = server.afpc(&robot, deploy);
-    refused.fails(1, &["Host key verification failed", "'robot.test' could not be reached"]);
+    let refused = server.afpc(&robot.place, deploy);
+    let texts =
+        ["the key of 'robot.test' has changed", "help: if you have installed the robot again"];
+    refused.fails(1, &texts);
+    server.place.write("known", "");
+    server.afpc(&robot.place, deploy).fails(1, &["the key of 'robot.test' is unknown"]);
+    server.knows("host");
+    std::fs::copy(server.place.path("other"), server.place.path("user")).unwrap();
+    std::fs::remove_file(server.place.path("user.pub")).unwrap();
+    let stranger = server.afpc(&robot.place, deploy);
+    stranger.fails(1, &["'robot.test' accepts neither your key", "'ssh-copy-id robot.test'"]);
 }
 
 #[test]

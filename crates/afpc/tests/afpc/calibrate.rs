@@ -1,0 +1,126 @@
+//! `afpc calibrate` with a robot whose measures are wrong, and a user with a perfect tape.
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::Stdio;
+
+use crate::common::Place;
+use crate::profile::Running;
+
+/// The place and heading of the robot in the last position from which it was sent.
+type Start = [f64; 3];
+
+/// Answers a question of `afpc calibrate`.
+fn answer(question: &str, controller: &Running, start: &mut Start) -> Option<String> {
+    let pose = controller.with(|fake| fake.pose);
+    if question.contains("Press Enter") {
+        *start = pose;
+        return Some(String::new());
+    }
+    let (dx, dy) = (pose[0] - start[0], pose[1] - start[1]);
+    let (sin, cos) = start[2].sin_cos();
+    let known: [(&str, Box<dyn Fn() -> String>); 5] = [
+        ("[y/n]", Box::new(|| "y".to_owned())),
+        ("How far along", Box::new(|| format!("{:.2} cm", (dx * cos + dy * sin) * 100.0))),
+        ("left of the line", Box::new(|| format!("{:.2} cm", (dy * cos - dx * sin) * 100.0))),
+        (
+            "beyond ten turns",
+            Box::new(|| format!("{:.1} deg", (pose[2] - start[2]).to_degrees() - 3600.0)),
+        ),
+        ("is the wall from", Box::new(|| "50 cm".to_owned())),
+    ];
+    known.iter().find(|(words, _)| question.contains(words)).map(|(_, answer)| answer())
+}
+
+/// Calibrates a project's robot, and ends the input after so many answers. Returns the exit code
+/// and the questions.
+fn calibrate(place: &Place, controller: &Running, mut answers: usize) -> (i32, Vec<String>) {
+    let mut command = place.command();
+    command.current_dir(place.path("mycar")).args(["calibrate", "--port", &controller.port]);
+    command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let mut input = child.stdin.take();
+    let (mut asked, mut start) = (Vec::new(), [0.0; 3]);
+    for line in BufReader::new(child.stderr.take().unwrap()).lines() {
+        let line = line.unwrap();
+        if let Some(answer) = answer(&line, controller, &mut start) {
+            if answers == 0 {
+                input = None;
+            } else if let Some(input) = &mut input {
+                answers -= 1;
+                writeln!(input, "{answer}").unwrap();
+            }
+        }
+        asked.push(line);
+    }
+    (child.wait().unwrap().code().unwrap(), asked)
+}
+
+/// The number of a value in millimetres, or without a unit.
+fn number(text: &str, key: &str) -> f64 {
+    let line = text.lines().find_map(|line| line.strip_prefix(&format!("{key} = "))).unwrap();
+    line.trim_matches('"').split(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn errors_of_five_percent_are_measured_and_used() {
+    let place = Place::new();
+    place.afpc("new mycar --profile carbot").succeeds();
+    let controller = Running::start(|_| {});
+    // Wheels that are too large, and differ; a track that is too wide.
+    let (scale, trim, track) = (1.05_f32, 0.95_f32, 0.14 * 1.05_f32);
+    controller.with(|fake| {
+        let left = 2.0 * scale / (1.0 + trim);
+        (fake.factors, fake.track, fake.wall) = ([left, left * trim], track, Some(0.488));
+    });
+    // The user leaves after the drive of 2 m, and comes back.
+    let (code, asked) = calibrate(&place, &controller, 6);
+    assert_eq!(code, 2, "{asked:#?}");
+    assert!(
+        asked.iter().any(|line| line.contains("the calibration is not finished")),
+        "{asked:#?}"
+    );
+    assert!(!place.exists("mycar/calibration.toml"));
+    let (code, asked) = calibrate(&place, &controller, 100);
+    assert_eq!(code, 0, "{asked:#?}");
+    assert!(!asked.iter().any(|line| line.contains("It drives 2 m")), "{asked:#?}");
+    assert!(controller.with(|fake| !fake.is_moving() && fake.controller.is_stopped()));
+
+    let text = place.read("mycar/calibration.toml");
+    let near = |key: &str, expected: f64| {
+        let found = number(&text, key);
+        assert!((found / expected - 1.0).abs() < 0.005, "{key}: {found}, not {expected}");
+    };
+    // A count of the controller is 0.142 mm at the rim.
+    near("wheel_diameter", 0.142 * 1440.0 / std::f64::consts::PI * f64::from(scale));
+    near("track", f64::from(track) * 1000.0);
+    near("trim", f64::from(trim));
+    assert!((number(&text, "offset") - 12.0).abs() < 1.0, "{text}");
+    assert!((50.0..2000.0).contains(&number(&text, "stop")), "{text}");
+    assert!(!place.exists("mycar/calibration.part.json"));
+    // The simulator takes the measured track.
+    let here = |arguments: &str| {
+        let mut command = place.command();
+        command.current_dir(place.path("mycar")).args(arguments.split(' '));
+        crate::common::said(command.output().unwrap())
+    };
+    let calibrated = here("run plans/mycar.afp --until 10s").succeeds().out.clone();
+    std::fs::remove_file(place.path("mycar/calibration.toml")).unwrap();
+    assert_ne!(here("run plans/mycar.afp --until 10s").succeeds().out, calibrated);
+    place.write("mycar/calibration.toml", "[drive]\ntrak = \"1 cm\"\n");
+    let wrong = here("check plans/mycar.afp");
+    wrong.fails(1, &["'drive' has no 'trak'", "calibration.toml:2:1"]);
+}
+
+#[test]
+fn a_robot_that_cannot_be_calibrated_is_refused_with_the_reason() {
+    let place = Place::new();
+    place.afpc("calibrate").fails(2, &["the project in this folder has no robot with a profile"]);
+    place.afpc("new mycar --profile carbot").succeeds();
+    let controller = Running::start(|_| {});
+    // A motor that turns backwards never reaches the end of its way.
+    controller.with(|fake| fake.factors = [-1.0, -1.0]);
+    let (code, asked) = calibrate(&place, &controller, 1);
+    let stuck = "the wheels do not count as the robot drives";
+    assert!(code == 2 && asked.iter().any(|line| line.contains(stuck)), "{asked:#?}");
+    assert!(controller.with(|fake| !fake.is_moving()));
+}
