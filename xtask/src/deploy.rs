@@ -19,7 +19,7 @@ pub fn run() -> Result<(), Failure> {
     let afpc = target().join(PI.triple).join("debug/afpc");
     let shown = ["--", "--nocapture"];
     run_command(cargo().args(TEST).args(shown).env("AFP_ROBOTS_AFPC", afpc))?;
-    // The limit of the connection is one of this network alone.
+    // The limit holds only in this network.
     let inside = "ip link set lo up && exec \"$@\"";
     let mut slow = program("unshare");
     slow.args(["--net", "sh", "-c", inside, "sh", "cargo"]).args(TEST).args(shown);

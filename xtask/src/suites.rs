@@ -50,6 +50,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("arm", &[], arm::run),
     ("pi", &[], pi::run),
     ("deploy", &[], deploy::run),
+    ("ways out", &[], ways_out),
     ("other systems", &[Python], systems::run),
     ("engine", &[], engine::run),
     ("python", &[Python], python::run),
@@ -96,6 +97,9 @@ const STEPS: &str = "10000000";
 
 /// Duration of the nightly fuzzing per reader, seconds.
 const FUZZED: u32 = 600;
+
+/// Runs of each way out of a run on a real robot.
+const WAYS_OUT: &str = "100";
 
 /// Runs the named suites and prints the summary. Without a name it runs all suites whose
 /// requirements are met. With `all`, or with `CI` set, an unmet requirement is a failure.
@@ -222,7 +226,7 @@ fn again(name: &str) -> String {
                 .to_owned()
         }
         "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
-        "python long" | "other systems" => format!("    cargo xtask nightly '{name}'"),
+        "ways out" | "python long" | "other systems" => format!("    cargo xtask nightly '{name}'"),
         "wheels" => "    cargo xtask wheels".to_owned(),
         "arm" | "pi" | "deploy" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
@@ -246,6 +250,12 @@ fn workspace() -> Result<(), Failure> {
     tests.args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20");
     // These tests need only Rust, so all other programs are hidden.
     run_command(needs::hidden_from(&mut tests)?)
+}
+
+/// The times of the ways out of a run on a real robot, in series; needs permission for priorities.
+fn ways_out() -> Result<(), Failure> {
+    let test = ["test", "--package", "afp-run", "--test", "ways_out", "ways_out_in_series"];
+    run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_WAYS_OUT", WAYS_OUT))
 }
 
 /// The README's first command, on a machine with only Rust and a C linker.

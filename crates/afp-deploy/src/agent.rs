@@ -3,17 +3,19 @@
 //! The agent ends with its connection. The program that runs the plan is another one, so a broken
 //! connection stops nothing.
 
+mod fits;
+
 use std::fs::{File, TryLockError};
 use std::io::{Read, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::manifest::{Entry, Kind, Manifest, SIMULATED};
+use crate::manifest::{Entry, Manifest};
 use crate::store::{Incoming, Store, StoreError};
 use crate::wire::{
-    Answer, Calibration, GREETING, Hello, LONGEST_PART, Named, Packet, Request, State, Status,
-    Step, WireError, receive, send, send_content,
+    Answer, GREETING, Hello, LONGEST_PART, Named, Packet, Request, State, Status, Step, WireError,
+    receive, send, send_content,
 };
 
 /// Free bytes that a deploy leaves on the disk, for logs.
@@ -184,7 +186,7 @@ impl<'a> Agent<'a> {
     fn begin(&mut self, manifest: Manifest, stop_first: bool) -> Result<Answer, Refusal> {
         self.deploy = None;
         manifest.check().map_err(|why| refusal(format!("the release is invalid: {why}"), ""))?;
-        self.fits(&manifest)?;
+        fits::fits(&self.host.hello(), &manifest)?;
         self.may_stop(stop_first)?;
         let lock = self.lock()?;
         let missing = self.store.missing(&manifest);
@@ -201,51 +203,6 @@ impl<'a> Agent<'a> {
         let answer = Answer::Missing(missing.clone());
         self.deploy = Some(Deploy { manifest, stop_first, missing, _lock: lock });
         Ok(answer)
-    }
-
-    /// Refuses a release for another robot or processor.
-    fn fits(&self, manifest: &Manifest) -> Result<(), Refusal> {
-        let hello = self.host.hello();
-        let (theirs, ours) = (&manifest.model, &hello.model);
-        if theirs != ours {
-            let message =
-                format!("the plan is for the robot '{theirs}', and this robot is '{ours}'");
-            return Err(refusal(
-                message,
-                "name another robot with '--to', or run the plan's project",
-            ));
-        }
-        self.is_calibrated(manifest)?;
-        match &manifest.kind {
-            Kind::Built { architecture } if *architecture != hello.architecture => {
-                let message = format!(
-                    "the program is for {architecture}, and the robot has {}",
-                    hello.architecture
-                );
-                Err(refusal(message, "build it for the robot with '--target'"))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Refuses a plan that was tried with other measures than those of the robot.
-    fn is_calibrated(&self, manifest: &Manifest) -> Result<(), Refusal> {
-        if manifest.robot == SIMULATED {
-            return Ok(());
-        }
-        match self.host.hello().calibration {
-            Calibration::Unneeded => Ok(()),
-            Calibration::Of(theirs) if manifest.calibration == Some(theirs.clone()) => Ok(()),
-            Calibration::Of(_) => Err(refusal(
-                "the robot has another calibration than this project",
-                "copy the file '/var/lib/afp/calibration.toml' of the robot into the project, or \
-                 set the robot up again: 'afpc robot setup'",
-            )),
-            Calibration::Missing => Err(refusal(
-                "the robot has no calibration",
-                "measure it with 'afpc calibrate', then run 'afpc robot setup' again",
-            )),
-        }
     }
 
     /// Refuses to stop a plan that drives, unless that is permitted.

@@ -156,7 +156,7 @@ fn a_controller_that_cannot_be_used_is_named() {
         }
         opening.join().unwrap()
     });
-    assert!(opened.unwrap_err().contains("speaks version 2 of the protocol"));
+    assert!(opened.unwrap_err().contains("speaks version 3 of the protocol"));
     controller.with(|fake| fake.mute = false);
     let _robot = controller.open().unwrap();
     assert!(controller.open().unwrap_err().contains("has it open"));

@@ -6,6 +6,9 @@
 
 #[path = "ways_out/program.rs"]
 mod program;
+#[cfg(target_os = "linux")]
+#[path = "ways_out/times.rs"]
+mod times;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};

@@ -88,7 +88,7 @@ impl InTheLoop {
             let (plant, port) =
                 Plant::start::<C>(simulation, setup).map_err(|why| why.to_string())?;
             let line = L::open(&port, setup).map_err(|why| why.to_string())?;
-            Ok(Looped { line, plant })
+            Ok(Looped { line, plant, lacks: self.robot.lacks() })
         });
         let robot = robot.map_err(SessionError::Hardware)?;
         Ok(Box::new(Session::loaded(plan, robot)))

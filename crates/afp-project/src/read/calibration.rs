@@ -36,7 +36,7 @@ impl Reader {
                         self.wrong(value_span(&pair), message.to_owned(), help);
                     }
                 }
-                // What was measured, for people.
+                // Further measurements, for the reader.
                 "measured" => {}
                 name => {
                     let section = profile.section(name);

@@ -2,16 +2,19 @@
 //! service managers.
 
 use std::io::{self, BufRead};
-use std::sync::mpsc::{self, Receiver, TryRecvError};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 
 use afp_core::{Duration, Instant};
 use afp_session::AnySession;
 
 use crate::error::RunError;
+use crate::stop::StopFlag;
 
 /// The line that starts the run.
 const ARM: &str = "arm";
+/// The state of an armed program.
+const ARMED: &str = "STATUS=armed";
 /// The interval of looks at the button.
 const LOOK: Duration = Duration::from_millis(20);
 /// The shortest and the longest press of the button that arms. A broken wire looks like a press
@@ -20,40 +23,42 @@ const PRESS: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs
 
 /// Reports that the program is ready, and waits for the line `arm` on standard input, or for a press
 /// of the button of a robot that has not started. Returns whether one came before the end of the
-/// input.
+/// input or a signal.
 ///
 /// # Errors
-/// Standard input cannot be read.
+/// Standard input cannot be read, or signals cannot be handled.
 pub(super) fn wait(robot: Option<Box<dyn AnySession>>) -> Result<bool, RunError> {
+    let cannot = RunError::file("cannot handle", "signals".as_ref());
+    let stop = StopFlag::on_signals().map_err(cannot)?;
     let lines = lines();
     let mut robot = robot.filter(|robot| robot.button().is_some());
     let mut press = Press::default();
     notify("READY=1");
-    loop {
-        let line = match &mut robot {
+    while !stop.is_raised() {
+        let patience = match &mut robot {
             Some(robot) => {
                 robot.wait(robot.now() + LOOK);
                 if robot.button().is_some_and(|pressed| press.arms(pressed, robot.now())) {
-                    break;
+                    notify(ARMED);
+                    return Ok(true);
                 }
-                match lines.try_recv() {
-                    Err(TryRecvError::Empty) => continue,
-                    other => other.ok(),
-                }
+                std::time::Duration::ZERO
             }
-            None => lines.recv().ok(),
+            None => LOOK.into(),
         };
-        match line.transpose() {
-            Ok(Some(line)) if line == ARM => break,
-            Ok(Some(_)) => {}
-            Ok(None) => return Ok(false),
-            Err(why) => {
+        match lines.recv_timeout(patience) {
+            Ok(Ok(line)) if line == ARM => {
+                notify(ARMED);
+                return Ok(true);
+            }
+            Ok(Ok(_)) | Err(RecvTimeoutError::Timeout) => {}
+            Ok(Err(why)) => {
                 return Err(RunError::file("cannot read", "standard input".as_ref())(why));
             }
+            Err(RecvTimeoutError::Disconnected) => return Ok(false),
         }
     }
-    notify("STATUS=armed");
-    Ok(true)
+    Ok(false)
 }
 
 /// The lines of standard input, read by another thread.
@@ -117,11 +122,11 @@ mod tests {
     fn only_a_press_of_one_to_five_seconds_arms() {
         assert!(arms(|at| (2.0..3.5).contains(&at)));
         assert!(!arms(|at| (2.0..2.5).contains(&at)), "a touch");
-        assert!(!arms(|at| (2.0..8.0).contains(&at)), "something lies on it");
+        assert!(!arms(|at| (2.0..8.0).contains(&at)), "a weight on it");
         assert!(!arms(|_| true), "a broken wire");
         assert!(!arms(|at| at > 2.0), "a wire that breaks");
         assert!(!arms(|at| at < 3.0), "a button that was pressed before");
-        assert!(!arms(|at| (at * 10.0) as u64 % 2 == 0), "a loose wire");
+        assert!(!arms(|at| ((at * 10.0) as u64).is_multiple_of(2)), "a loose wire");
         assert!(!arms(|_| false));
     }
 }

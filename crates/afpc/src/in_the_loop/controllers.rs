@@ -59,7 +59,7 @@ impl Controller for Wire {
         let echo = robot.echo();
         let is_new = self.heard.replace(echo.time) != Some(echo.time);
         let distance = echo.value.map(|echo| echo.distance.map(|far| far.si() as f32));
-        // A switch that fails reads as its driver does: pressed.
+        // A failed switch counts as pressed.
         let touched = robot.touched().value.unwrap_or(true);
         let pressed = robot.pressed(Button::Escape).value.unwrap_or(true);
         let inputs = Inputs {

@@ -15,6 +15,8 @@ use super::plant::Plant;
 pub struct Looped<L> {
     pub line: L,
     pub plant: Plant,
+    /// The devices that the real robot does not have.
+    pub lacks: Vec<&'static str>,
 }
 
 impl<L: Line> Line for Looped<L> {
@@ -59,7 +61,14 @@ impl<L: Line> Line for Looped<L> {
 
 impl<L: Line> Behind for Looped<L> {
     fn press(&self, control: Control, held: bool) -> Result<(), Refused> {
-        self.plant.with(|robot| robot.press(control, held))
+        let device = match control {
+            Control::ButtonsEscape => "buttons",
+            Control::Touch => "touch",
+        };
+        match self.lacks.contains(&device) {
+            true => Err(Refused),
+            false => self.plant.with(|robot| robot.press(control, held)),
+        }
     }
 
     fn set_faults(&self, active: &Active<'_, Fault>) -> Result<(), Refused> {

@@ -26,10 +26,15 @@ impl Robot {
 
     /// A robot with a project file.
     fn with(project: &str) -> Robot {
+        Robot::in_environment(project, &[])
+    }
+
+    /// A robot whose service has these variables.
+    fn in_environment(project: &str, variables: &[(&str, &str)]) -> Robot {
         let place = Place::with_plan();
         place.write("robot/afp.toml", project);
         place.write("afp.toml", project);
-        let service = serve(&place);
+        let service = serve(&place, variables);
         let robot = Robot { place, service };
         robot.answers();
         robot
@@ -43,7 +48,7 @@ impl Robot {
     fn serve_again(&mut self) {
         self.signal("-TERM", self.service.id());
         self.service.wait().unwrap();
-        self.service = serve(&self.place);
+        self.service = serve(&self.place, &[]);
         self.answers();
     }
 
@@ -96,8 +101,9 @@ impl Robot {
     }
 }
 
-fn serve(place: &Place) -> Child {
+fn serve(place: &Place, variables: &[(&str, &str)]) -> Child {
     let mut command = place.command();
+    command.envs(variables.iter().copied());
     command.args(["agent", "--serve", "--root", "robot"]).stdin(Stdio::null());
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }

@@ -88,6 +88,24 @@ fn a_robot_from_parts_is_simulated_and_driven_without_cargo() {
 }
 
 #[test]
+fn scenarios_run_with_the_real_driver_and_a_simulated_robot_behind_its_protocol() {
+    let place = Place::new();
+    // Without the scenarios that take a minute, or press a button that the robot does not have.
+    for (profile, filters) in [("carbot", "bumper escape"), ("ugv", "square")] {
+        let _ = fs::remove_dir_all(place.path("mycar"));
+        place.afpc(&format!("new mycar --profile {profile}")).succeeds();
+        // On a busy machine the driver may lose the controller.
+        let test = format!("test --in-the-loop {filters}");
+        let passed = (0..3).any(|_| inside(&place, &test).out.contains(" 0 failed"));
+        assert!(passed, "{profile}: no run of three passed");
+    }
+    let plain = Place::with_plan();
+    plain.write("t.afp", "use \"wall_following.afp\"\nscenario \"a\" for WallFollowing {\n    never collision\n    until 1 s\n}\n");
+    let refused = plain.afpc("test t.afp --in-the-loop");
+    refused.fails(2, &["'--in-the-loop' needs a robot with a profile"]);
+}
+
+#[test]
 fn a_controller_that_restarts_in_mid_drive_ends_the_run_and_stays_stopped() {
     let place = Place::new();
     place.afpc("new mycar --profile carbot").succeeds();

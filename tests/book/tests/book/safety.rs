@@ -5,12 +5,14 @@ use std::fs;
 use crate::docs;
 
 /// The files with these tests.
-const FILES: [&str; 7] = [
+const FILES: [&str; 9] = [
     "crates/afp-platform/src/device.rs",
+    "crates/afp-run/src/run/armed.rs",
     "crates/afp-run/src/stop.rs",
     "crates/afp-run/tests/ways_out.rs",
     "crates/afp-session/tests/control_thread.rs",
     "crates/afp-session/tests/session/broken.rs",
+    "crates/afpc/tests/afpc/deploy/failures.rs",
     "examples/vacuum/board/src/line.rs",
     "examples/vacuum/board/tests/board.rs",
 ];

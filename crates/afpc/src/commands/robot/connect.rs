@@ -115,7 +115,7 @@ pub fn no_ssh(program: &str, why: &std::io::Error) -> RunError {
     }
 }
 
-/// Shows the errors of a program as they come, and keeps their beginning.
+/// Prints the errors of a program at once, and keeps their beginning.
 fn shown(mut errors: ChildStderr) -> JoinHandle<String> {
     thread::spawn(move || {
         let (mut all, mut part) = (Vec::new(), [0; 1024]);

@@ -81,3 +81,33 @@ fn old_logs_are_removed_and_the_new_one_stays() {
     let logs = robot.robot("logs", "").out;
     assert!(!logs.contains("Old-0-1.mcap") && logs.contains("Old-0-2.mcap"), "{logs}");
 }
+
+/// A library that gives a program another wall clock.
+const FAKE_TIME: &str = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1";
+
+#[test]
+fn a_robot_whose_clock_is_in_1970_runs_plans_and_keeps_their_logs_in_order() {
+    if !std::path::Path::new(FAKE_TIME).exists() {
+        println!("left out: there is no {FAKE_TIME}");
+        return;
+    }
+    let clock = [
+        ("LD_PRELOAD", FAKE_TIME),
+        ("FAKETIME", "@1970-01-01 00:00:05"),
+        ("FAKETIME_DONT_FAKE_MONOTONIC", "1"),
+    ];
+    let robot = Robot::in_environment(CARBOT, &clock);
+    for change in ["", " --set walldist=50cm"] {
+        robot.deploy(&format!("{DEPLOY}{change}")).succeeds();
+        robot.robot("arm", "").succeeds();
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        robot.robot("stop", "").succeeds();
+    }
+    for name in ["WallFollowing-1-1.mcap", "WallFollowing-2-1.mcap"] {
+        robot.robot("logs", name).succeeds();
+        robot.place.afpc(&format!("log {name}")).succeeds();
+    }
+    let before = robot.status();
+    robot.robot("rollback", "").succeeds();
+    assert_ne!(robot.status().lines().next(), before.lines().next());
+}

@@ -66,17 +66,23 @@ fn slow_down() -> bool {
     slow
 }
 
-#[test]
-fn from_a_new_project_to_a_log_in_an_empty_folder() {
-    let Some(server) = computer() else { return };
-    let controller = Running::start(|_| {});
+/// A new, calibrated project for a robot at a port, whose scenarios pass.
+fn project_for<'a>(controller: &Running, server: &'a Server) -> Project<'a> {
     assert!(Command::new("chmod").args(["666", &controller.port]).status().unwrap().success());
-    let project = Project { place: Place::new(), server: &server };
+    let project = Project { place: Place::new(), server };
     project.place.afpc("new mycar --profile carbot").succeeds();
     let text = project.place.read("mycar/afp.toml").replace("/dev/ttyACM0", &controller.port);
     project.place.write("mycar/afp.toml", &format!("{text}\n[robot.realtime]\nstall = \"10 s\"\n"));
     project.place.write("mycar/calibration.toml", "date = \"2026-11-29\"\n[drive]\ntrim = 1.0\n");
     assert!(project.succeeds("test").contains(" 0 failed"));
+    project
+}
+
+#[test]
+fn from_a_new_project_to_a_log_in_an_empty_folder() {
+    let Some(server) = computer() else { return };
+    let controller = Running::start(|_| {});
+    let project = project_for(&controller, &server);
     let emulated = std::env::var(EMULATED);
     let program = emulated.as_ref().map_or(String::new(), |path| format!(" --afpc {path}"));
     project.succeeds(&format!("robot setup pi@robot.test --yes{program}"));
@@ -119,9 +125,9 @@ fn from_a_new_project_to_a_log_in_an_empty_folder() {
     project.succeeds("robot stop afp@robot.test");
     project.until("it waits again", |status| status.starts_with("disarmed: "));
     let logs = project.succeeds("robot logs afp@robot.test");
-    let name = logs.lines().rev().filter_map(|line| line.split_whitespace().last());
+    let mut names = logs.lines().rev().filter_map(|line| line.split_whitespace().last());
     // The log of the simulated run has the higher numbers.
-    let name = name.filter(|name| !name.contains("-1-")).next_back().unwrap();
+    let name = names.rfind(|name| !name.contains("-1-")).unwrap();
     let elsewhere = project.fetched(name);
     let talk = [
         framed("launch", r#"{"log":"run.mcap","stopOnEntry":true}"#),
