@@ -106,7 +106,7 @@ inBrowser("an entry is added by a form, and the sign and an operation of a formu
   await value(page, "P.go", "distance");
   const form = page.locator(".inspector .value");
   await form.getByRole("button", { name: "flip the sign" }).click();
-  assert.equal(await form.getByRole("textbox").inputValue(), "-gap");
+  assert.equal(await settled(() => form.getByRole("textbox").inputValue(), (now) => now === "-gap"), "-gap");
   await form.getByRole("button", { name: "+ and an entry" }).click();
   assert.doesNotMatch((await page.locator(".board-notice").allInnerTexts()).join(), /gap/);
   await form.locator(".entry-chip", { hasText: "far" }).click();
@@ -118,6 +118,7 @@ inBrowser("a declared computation is changed by a form", { "plan.afp": PLAN }, a
   const { page } = studio;
   await ready(page, "P.again");
   await page.mouse.click(...(await middle(page, name("P.again"))));
+  await page.locator(".inspector h3", { hasText: "Exits" }).waitFor();
   assert.deepEqual(await page.locator(".inspector h3").allInnerTexts(), ["Inputs", "Results", "Exits"]);
   const form = page.getByRole("group", { name: "Computation Next" });
   const condition = form.getByRole("region", { name: "Again" }).getByLabel("when");

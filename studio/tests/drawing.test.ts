@@ -11,7 +11,6 @@ import { added, between, header } from "../page/drawing/offers";
 import { spoken } from "../page/drawing/say";
 import { rectOf } from "../page/drawing/shapes";
 import type { Answer, Drawing, Edge, Element, Point, Rect } from "../page/drawing/shapes";
-import { quantity, slider, spelled, stepped } from "../page/drawing/value";
 import { first, fitted, shown, toPane, toPlan, zoomed } from "../page/drawing/view";
 
 const piece = (item: string, kind: string, rect: Rect, name = "") => ({ item, part: { kind, name, nth: 1 }, rect, severity: null, tag: null });
@@ -143,19 +142,6 @@ test("zooming keeps what is under the pointer, fitting shows everything, showing
   assert.ok(left >= 0 && top >= 0 && right <= 500 && bottom <= 300);
   assert.equal(shown({ x: 0, y: 0, zoom: 1 }, [100, 100, 50, 50], size).x, 0);
   assert.equal(shown({ x: 0, y: 0, zoom: 1 }, [500, 100, 50, 50], size).x, -74);
-});
-
-test("quantities are read, stepped on their grid and spelled", () => {
-  assert.deepEqual(quantity("-2.5 cm/s"), { number: -2.5, unit: "cm/s" });
-  assert.deepEqual(quantity("4"), { number: 4, unit: "" });
-  assert.equal(quantity("2 * gap"), null);
-  assert.equal(quantity("gap"), null);
-  assert.equal(stepped(30, 10, 1), 40);
-  assert.equal(stepped(0.3, 0.1, -1), 0.2);
-  assert.equal(stepped(0, 10, -1), -10);
-  assert.equal(spelled(0.1 + 0.2, "m"), "0.3 m");
-  assert.deepEqual(slider(["0 m/s", "31 cm/s"], "cm/s", 0.2), { least: 0, most: 31 });
-  assert.equal(slider(["-1 km", "1 km"], "cm", 10), null);
 });
 
 test("templates become texts, and what is between two elements leads on", () => {

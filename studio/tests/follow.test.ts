@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Socket } from "../page/server/lsp";
 import { connect } from "../page/server/dap";
-import { at, taken } from "../page/debug/follow";
+import { at, taken, within } from "../page/debug/follow";
 import { differs, hash } from "../page/documents/hash";
 
 test("a text has the hash that the debugger gives it, however its lines end", () => {
@@ -32,6 +32,14 @@ test("inside of a sub-plan, in whatever order the stack comes", () => {
     assert.deepEqual(at(frames, "Inner", stack, watching), { active: [{ item: "Inner.second", inside: false }], watching: ["Inner.late", "Inner.second.touch"] });
     assert.deepEqual(at(frames, "Outer", stack, watching), { active: [{ item: "Outer.work", inside: true }], watching: ["Outer.limit"] });
   }
+});
+
+test("a sub-plan shows the names of what is active inside", () => {
+  const frames = [outer, { path: "work", plan: "Inner" }];
+  const stack = ["work", "work.second.third", "work.second"];
+  assert.equal(within(frames, "Outer", stack, "Outer.work"), "second › third");
+  assert.equal(within(frames, "Inner", stack, "Inner.second"), "third");
+  assert.equal(within(frames, "Inner", stack, "Inner.other"), "");
 });
 
 test("a plan inside of itself shows the innermost", () => {

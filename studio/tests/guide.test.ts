@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Element } from "../page/drawing/shapes";
 import { facts, next, progress, STEPS, type Facts } from "../page/plan/guide";
+import { isDone, LATER, type Later, type Now } from "../page/plan/chapter";
 import { inBrowser, shows } from "./browser";
 
 const NOTHING: Facts = { actors: 0, errors: 1, watched: 0, stoppers: 0, crates: 0, runs: 0 };
@@ -38,6 +39,85 @@ test("a drawing is read: elements, supervisors of an element and of the plan", (
     element("P.go", "actor", [piece("P.go", "exit"), piece("P.go.touch", "exit"), piece("P.go.touch", "whole")]),
   ]);
   assert.deepEqual(facts({ plan: "P", elements }, { errors: 2, crates: 3, runs: 1 }), { actors: 1, errors: 2, watched: 1, stoppers: 1, crates: 3, runs: 1 });
+});
+
+const QUIET: Now = { isChanged: false, errors: 0, runs: 0, files: 0, isTested: false };
+
+test("each step of the second chapter ends with what it asks for", () => {
+  const ends: Record<Later, Partial<Now>> = {
+    change: { isChanged: true },
+    rerun: { runs: 1 },
+    break: { errors: 1 },
+    mend: { errors: 0 },
+    scenario: { files: 1 },
+    test: { isTested: true },
+  };
+  for (const step of LATER) {
+    assert.ok(isDone(step, { ...QUIET, ...ends[step] }), step);
+    if (step !== "mend") assert.ok(!isDone(step, QUIET), step);
+  }
+  assert.ok(!isDone("change", { ...QUIET, isChanged: true, errors: 1 }));
+  assert.ok(!isDone("mend", { ...QUIET, errors: 2 }));
+});
+
+const WHOLE = `use carbot
+
+plan Plan {
+    start forward
+
+    supervise checkEscapeButton: CheckEscapeButton { EscapeButtonPressed -> terminate }
+
+    actor forward: Forward(distance = 60 cm) {
+        supervise checkTouchSensor: CheckTouchSensor { TouchSensorPressed -> forward2 }
+        ForwardSuccessful -> terminate
+    }
+
+    actor forward2: Forward(distance = -10 cm) { ForwardSuccessful -> turn }
+
+    actor turn: Turn(angle = 90 deg) { TurnSuccessful -> terminate }
+}
+`;
+
+inBrowser("the second chapter: change a value, break it, repair it, write and run scenarios, and the last card", { "plan.afp": WHOLE }, async ({ page, becomes }) => {
+  const card = page.locator(".guide-card");
+  const says = (words: string) => card.getByRole("heading", { name: words }).waitFor();
+  await page.locator('.node [data-item="Plan.turn"]').first().waitFor();
+  await page.evaluate(() => sessionStorage.setItem("afp-studio-guide", JSON.parse(sessionStorage.getItem("afp-studio-plan")!).uri));
+  await page.reload();
+  await says("Run it again");
+  await page.getByLabel("Speed").selectOption("null");
+  const run = async (): Promise<void> => {
+    await page.locator("button.run").click();
+    await page.locator(".end-card").waitFor();
+    await page.locator(".end-card").getByRole("button", { name: "OK" }).click();
+  };
+  await run();
+  await run();
+  await says("Your plan is complete");
+  await card.getByRole("button", { name: "Next chapter" }).click();
+  await says("Change a value");
+  await page.locator('.node [data-item="Plan.forward"] text.formula').first().click({ force: true });
+  await page.locator(".value-popup").getByRole("button", { name: "less" }).click();
+  await page.locator(".value-popup").getByRole("button", { name: "Set", exact: true }).click();
+  await becomes("plan.afp", /forward: Forward\(distance = (?!60)\d+ cm\)/);
+  await says("See the difference");
+  await run();
+  await says("Break it on purpose");
+  await page.locator('.node [data-item="Plan.turn"] text.name').first().click({ force: true });
+  await page.keyboard.press("Delete");
+  await says("Repair it");
+  await page.keyboard.press("Control+z");
+  await says("Write a test");
+  await page.locator(".count").click();
+  await page.getByRole("tab", { name: "Scenarios" }).click();
+  await page.getByRole("button", { name: "Generate scenarios" }).click();
+  await says("Test your plan");
+  await page.getByRole("button", { name: "Run scenarios" }).click();
+  await says("You did it!");
+  assert.equal(await card.getByRole("progressbar").getAttribute("value"), "6");
+  await card.getByRole("button").filter({ hasNotText: /Close/ }).first().click();
+  await card.waitFor({ state: "detached" });
+  await becomes("plan.afp", /Forward/);
 });
 
 inBrowser("the first plan: from nothing to a robot that drives, by the mouse alone", {}, async ({ page, read, isSaved }) => {

@@ -17,8 +17,8 @@ inBrowser("what sensors say is seen on the floor, in a list and as curves", { "w
   await page.keyboard.press("Control+Shift+Y");
   await page.getByLabel("Plot…").selectOption("ultrasonic.echo");
   await page.getByLabel("Plot…").selectOption("walldist");
-  await shows(page.locator(".plot-name").first(), /ultrasonic\.echo\s+\d[\d.]* m/);
-  await shows(page.locator(".plot-name").nth(1), /walldist\s+0\.3 m/);
+  await shows(page.locator(".plot-name").first(), /ultrasonic\.echo\s+\d[\d.]* cm/);
+  await shows(page.locator(".plot-name").nth(1), /walldist\s+30 cm/);
   await page.waitForFunction(() => document.querySelector(".plot-lane .curve")!.getAttribute("d")!.length > 60);
   const { violations } = await new AxeBuilder({ page }).include(".bottom").include(".world").analyze();
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);

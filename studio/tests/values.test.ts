@@ -98,8 +98,9 @@ inBrowser("a step goes to the next number of the grid, and another unit keeps th
   const popup = page.locator(".value-popup");
   const field = popup.locator("input[type=text]");
   await popup.getByRole("button", { name: "less" }).click();
-  assert.equal(await field.inputValue(), "0 cm");
+  const reads = async (wanted: string): Promise<void> => assert.equal(await settled(() => field.inputValue(), (now) => now === wanted), wanted);
+  await reads("0 cm");
   await field.fill("2 m");
   await popup.getByRole("combobox").selectOption("cm");
-  assert.equal(await field.inputValue(), "200 cm");
+  await reads("200 cm");
 });

@@ -255,6 +255,7 @@ impl<'h> Adapter<'h> {
             "afp/drop" => said(self.drop_into(parse(arguments)?)),
             "afp/picture" => said(self.picture()),
             "afp/force" => said(self.force(parse(arguments)?)),
+            "afp/fork" => said(self.fork(now)),
             "afp/release" => said(self.release(parse(arguments)?)),
             "afp/role" => said(self.role(parse(arguments)?, now)),
             "afp/why" => said(self.why(parse(arguments)?)),

@@ -18,6 +18,7 @@ mod adapter;
 mod breakpoints;
 mod hit_count;
 mod log_target;
+mod plotted;
 mod program;
 mod sensed;
 mod session_target;
@@ -28,6 +29,7 @@ mod watched;
 
 pub use adapter::{Adapter, ClientId, Host, Launch, Outgoing, Surroundings};
 pub use log_target::LogTarget;
+pub use plotted::Plotted;
 pub use program::{Entry, Place, Program, Spot, Times, Unit};
 pub use sensed::{Cone, Sensed};
 pub use session_target::SessionTarget;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use afp_session::{Pose2, Request, RunEvent};
+use afp_session::{Pose2, Request, RunEvent, Stimulus};
 
 use crate::program::Program;
 use crate::sensed::Sensed;
@@ -232,6 +232,10 @@ impl Target for LogTarget {
     }
 
     fn ask(&mut self, _: Duration, _: Request) -> Result<Instant, String> {
+        Err(READ_ONLY.to_owned())
+    }
+
+    fn repeat(&mut self, _: Instant, _: &Stimulus) -> Result<(), String> {
         Err(READ_ONLY.to_owned())
     }
 

@@ -3,12 +3,16 @@
 use afp_core::devices::{DeviceRow, SignalRow, SignalType, signals};
 use afp_session::{AnySession, Datum, Pose2, SampleRef};
 
+use crate::plotted::{Plotted, plotted};
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensed {
     /// Its device and name: `touch.touched`.
     pub signal: String,
     /// Its value with a unit.
     pub text: String,
+    /// Its value as a number.
+    pub plotted: Option<Plotted>,
     /// The view of a range sensor.
     pub cone: Option<Cone>,
 }
@@ -25,17 +29,23 @@ pub struct Cone {
 
 impl Sensed {
     pub fn value(device: &DeviceRow, row: &SignalRow, value: &Datum) -> Sensed {
-        Sensed::new(device, row, value.in_unit(row.ty.unit()).to_string(), None)
+        let unit = row.ty.unit();
+        let sensed = Sensed::new(device, row, value.in_unit(unit).to_string(), None);
+        Sensed { plotted: plotted(value, unit), ..sensed }
     }
 
     /// The value of a range sensor.
     pub fn range(device: &DeviceRow, row: &SignalRow, cone: Cone) -> Sensed {
-        let heard = cone.range.map(|range| Datum::Float(range).in_unit("m").to_string());
-        Sensed::new(device, row, heard.unwrap_or_else(|| "no echo".to_owned()), Some(cone))
+        let heard = cone.range.map(Datum::Float);
+        let text = heard.as_ref().map(|range| range.in_unit("m").to_string());
+        let text = text.unwrap_or_else(|| "no echo".to_owned());
+        let plotted = heard.and_then(|range| plotted(&range, "m"));
+        Sensed { plotted, ..Sensed::new(device, row, text, Some(cone)) }
     }
 
     fn new(device: &DeviceRow, row: &SignalRow, text: String, cone: Option<Cone>) -> Sensed {
-        Sensed { signal: format!("{}.{}", device.name, row.name), text, cone }
+        let signal = format!("{}.{}", device.name, row.name);
+        Sensed { signal, text, plotted: None, cone }
     }
 }
 

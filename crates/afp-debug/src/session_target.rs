@@ -326,14 +326,20 @@ impl Target for SessionTarget<'_> {
         Ok(self.run.session.requests().last().map_or(at, |(at, _)| *at))
     }
 
+    fn repeat(&mut self, at: Instant, what: &Stimulus) -> Result<(), String> {
+        let session = &self.run.session;
+        let request = what.request(session.devices(), session.names());
+        let later = at.max(session.now()) - session.now();
+        self.ask(later, request.map_err(|why| why.to_string())?).map(|_| ())
+    }
+
     fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String> {
         let session = &self.run.session;
         let named = session.names().component(component);
         let (component, ends) = (named.path.to_owned(), named.kind != ComponentKind::Supervisor);
         let report = Report { outcome: outcome.to_owned(), ends };
         let what = Stimulus::Inject(component, report, Vec::new());
-        let request = what.request(session.devices(), session.names());
-        self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?).map(|_| ())
+        self.repeat(session.now(), &what)
     }
 
     fn stop(&mut self, report: &mut dyn FnMut(&Happened, &State)) {

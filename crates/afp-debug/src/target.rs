@@ -122,6 +122,12 @@ pub trait Target {
     /// The reason.
     fn ask(&mut self, later: Duration, request: Request) -> Result<Instant, String>;
 
+    /// Repeats a stimulus of another run of the plan at its instant.
+    ///
+    /// # Errors
+    /// The reason.
+    fn repeat(&mut self, at: Instant, what: &Stimulus) -> Result<(), String>;
+
     /// Makes a component report a state or event at its next poll.
     ///
     /// # Errors

@@ -126,6 +126,47 @@ plan P {
 }
 
 #[test]
+fn a_fork_repeats_requests_with_the_new_text_and_goes_to_the_same_instant() {
+    let plan = "use std
+plan P {
+    in pause: duration = 1 s
+    start a
+    actor a: Wait(duration = pause) { Elapsed -> b }
+    actor b: Wait(duration = 5 s) { Elapsed -> a }
+}
+";
+    let entry = plan
+        .replace("    start", "    var long: duration = 5 s\n    start")
+        .replace("= 5 s)", "= long)");
+    let mut clients = Clients::new(Box::new(Edited(vec![plan.to_owned(), entry])));
+    for said in [
+        r#"initialize {"adapterID":"afp"}"#,
+        r#"launch {"program":"plan.afp","stopOnEntry":true,"set":{"pause":"2 s"}}"#,
+        "configurationDone",
+        r#"afp/seek {"at":4}"#,
+    ] {
+        clients.say(said);
+    }
+    clients.tick(None);
+    clients.say(r#"setExpression {"expression":"pause","value":"3 s"}"#);
+    clients.say(r#"afp/seek {"at":8}"#);
+    clients.tick(None);
+    clients.told.clear();
+    clients.say("afp/fork");
+    clients.tick(None);
+    assert!(clients.told.contains("went to another time at 8.000 s"), "{}", clients.told);
+    clients.told.clear();
+    // The write at 4 s counts: 'a' began at 7 s and waits for 3 s.
+    for said in [r#"evaluate {"expression":"long"}"#, r#"next {"threadId":1}"#] {
+        clients.say(said);
+        clients.tick(None);
+    }
+    let told = &clients.told;
+    assert!(told.contains(r#"evaluate {"result":"5 s""#), "{told}");
+    assert!(told.contains("b started at 10.000 s"), "{told}");
+}
+
+#[test]
 fn breakpoints_without_a_place_are_found_again() {
     let short = "use std
 plan P {

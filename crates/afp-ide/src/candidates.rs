@@ -1,14 +1,21 @@
-//! Candidates for an exit's target and for a port's binding.
+//! Candidates for an exit's target, for a port's binding and for an entry's value.
+
+mod reading;
 
 use crate::View;
 use crate::describe::{bound, units};
 use afp_draw::formula::constant;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{Component, Entry, ExitKind, Input};
+use afp_dsl::toolbox::Constant;
+use afp_dsl::types::text::worth;
 use afp_dsl::types::{Dimension, Type};
 use afp_syntax::item::Item;
 use afp_syntax::literal::Literal;
 use serde::Serialize;
+
+pub use reading::{Control, Reading};
+use reading::{Scale, round};
 
 /// A candidate, valid or not.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -36,8 +43,23 @@ pub struct PortCandidates {
     /// The usual unit; empty for a plain number.
     pub unit: String,
     pub units: Vec<String>,
-    /// The SI value of each of these units.
-    pub scales: Vec<f64>,
+    /// Whether a run accepts values from clients: for an `in` or `var` entry.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub writable: bool,
+    /// The value, or another text in its field.
+    pub reading: Reading,
+    #[serde(skip)]
+    scale: Scale,
+}
+
+impl PortCandidates {
+    /// Replaces the text in the field and then uses a control.
+    pub fn with_text(mut self, text: Option<&str>, control: Option<&Control>) -> PortCandidates {
+        let text = text.unwrap_or(&self.reading.text);
+        let after = control.map(|control| self.scale.after(text, control));
+        self.reading = self.scale.read(after.as_deref().unwrap_or(text));
+        self
+    }
 }
 
 /// Returns the targets of a state or event; `None` without such a component or exit.
@@ -116,75 +138,147 @@ fn of_input(entries: &[Entry], input: &Input) -> PortCandidates {
         Some(Candidate { text, refused: differs(entry.ty.as_ref(), ty) })
     });
     let mut list: Vec<_> = candidates.collect();
-    let value = |text: String| Candidate { text, refused: None };
-    match ty {
-        Some(Type::Bool) => list.extend(["true", "false"].map(|text| value(text.to_owned()))),
-        Some(Type::Enum(choices)) => {
-            list.extend(choices.variants.iter().map(|it| value(format!("{}.{it}", choices.name))));
-        }
-        _ => {}
-    }
+    list.extend(choices(ty));
     list.sort_by_key(|candidate| candidate.refused.is_some());
+    let bound_to = input.binding.as_ref().and_then(|it| it.value.as_ref());
+    let value = bound_to.map(|value| value.text.clone());
+    let default = input.default.as_ref().map(|default| constant(default, ty));
+    let usual = match input.default {
+        Some(Constant::Float(value)) => Some(value),
+        _ => None,
+    };
+    PortCandidates { list, ..of_value(ty, value, default, usual, input.range) }
+}
+
+/// Returns the candidates for the initial value of an entry; `None` without such an entry.
+///
+/// The range of an entry without one is that of the inputs that read the entry, or else reaches
+/// from zero to twice the initial value.
+pub fn of_entry(view: &View, item: &Item) -> Option<PortCandidates> {
+    let plan = view.outline().plan_of(view.file, item)?;
+    let entry = plan.entries.iter().find(|entry| entry.item == *item)?;
+    let name = &entry.name.as_ref()?.text;
+    let si = |text: &str| Literal::parse(text).and_then(|literal| literal.value());
+    let initial = entry.init.as_ref().and_then(|value| si(&value.text));
+    let written = entry.range.as_ref();
+    let written = written.and_then(|[from, to]| Some((si(&from.text)?, si(&to.text)?)));
+    let inputs = plan.components().flat_map(|component| &component.inputs);
+    let bound_to = |input: &&Input| {
+        let value = input.binding.as_ref().and_then(|it| it.value.as_ref());
+        value.is_some_and(|value| value.text == *name)
+    };
+    let ranges = inputs.filter(bound_to).filter_map(|input| input.range);
+    let read = ranges.reduce(|one, other| (one.0.max(other.0), one.1.min(other.1)));
+    let around = initial.map(|value| (0.0_f64.min(2.0 * value), 0.0_f64.max(2.0 * value)));
+    let sliding =
+        |range: &(f64, f64)| initial.is_none_or(|it| range.1 - range.0 <= 100.0 * it.abs());
+    let range = written.or(read.filter(sliding)).or(around.filter(|(from, to)| from < to));
+    let value = entry.init.as_ref().map(|value| value.text.clone());
+    let found = of_value(entry.ty.as_ref(), value, None, initial, range);
+    let writable = matches!(entry.kind, EntryKind::In | EntryKind::Var);
+    Some(PortCandidates { list: choices(entry.ty.as_ref()).collect(), writable, ..found })
+}
+
+/// The values of a small type.
+fn choices(ty: Option<&Type>) -> impl Iterator<Item = Candidate> {
+    let texts = match ty {
+        Some(Type::Bool) => vec!["true".to_owned(), "false".to_owned()],
+        Some(Type::Enum(choices)) => {
+            choices.variants.iter().map(|it| format!("{}.{it}", choices.name)).collect()
+        }
+        _ => Vec::new(),
+    };
+    texts.into_iter().map(|text| Candidate { text, refused: None })
+}
+
+/// A value without its candidates. `usual` is a typical value, in SI units like the range.
+fn of_value(
+    ty: Option<&Type>,
+    value: Option<String>,
+    default: Option<String>,
+    usual: Option<f64>,
+    range: Option<(f64, f64)>,
+) -> PortCandidates {
     let dimension = match ty {
         Some(Type::Quantity(dimension)) => Some(*dimension),
         _ => None,
     };
     let unit = dimension.map(Dimension::usual_unit).unwrap_or_default();
+    let one = worth(&unit).unwrap_or(1.0);
+    let step = step(ty, usual, range, one);
     let units = dimension.map(units).unwrap_or_default();
-    let bound_to = input.binding.as_ref().and_then(|it| it.value.as_ref());
+    let scale = Scale { units: units.clone(), step, range };
+    let reading = scale.read(value.as_ref().or(default.as_ref()).map_or("", String::as_str));
     PortCandidates {
-        list,
+        list: Vec::new(),
         ty: ty.map(Type::to_string).unwrap_or_default(),
-        value: bound_to.map(|value| value.text.clone()),
-        default: input.default.as_ref().map(|default| constant(default, ty)),
-        range: input.range.map(|(from, to)| (bound(from, ty), bound(to, ty))),
-        step: step(input, &unit),
-        scales: units.iter().map(|unit| worth(unit)).collect(),
+        value,
+        default,
+        range: range.map(|(from, to)| (bound(from, ty), bound(to, ty))),
+        step: step.map(|step| round(step / one)),
         units,
         unit,
+        writable: false,
+        reading,
+        scale,
     }
 }
 
-fn worth(unit: &str) -> f64 {
-    let one = Literal::parse(&format!("1 {unit}")).and_then(|literal| literal.value());
-    one.filter(|one| *one > 0.0).unwrap_or(1.0)
-}
-
-/// About a tenth of the default, at most a hundredth of the range, rounded to 1, 2 or 5 times a
-/// power of ten.
-fn step(input: &Input, unit: &str) -> Option<f64> {
-    use afp_dsl::toolbox::Constant;
-
-    match &input.ty {
+/// About a tenth of the usual value, at most a hundredth of the range; without both, one unit.
+fn step(ty: Option<&Type>, usual: Option<f64>, range: Option<(f64, f64)>, one: f64) -> Option<f64> {
+    match ty {
         Some(Type::Int) => return Some(1.0),
         Some(Type::Quantity(_) | Type::Number) => {}
         _ => return None,
     }
-    let one = worth(unit);
-    let default = match input.default {
-        Some(Constant::Float(value)) if value != 0.0 => Some(value.abs() / 10.0),
-        _ => None,
-    };
+    let usual = usual.filter(|value| *value != 0.0).map(|value| value.abs() / 10.0);
     let range =
-        input.range.map(|(from, to)| (to - from) / 100.0).filter(|it| it.is_finite() && *it > 0.0);
-    let about = match (default, range) {
-        (Some(default), Some(range)) => default.min(range),
+        range.map(|(from, to)| (to - from) / 100.0).filter(|it| it.is_finite() && *it > 0.0);
+    Some(match (usual, range) {
+        (Some(usual), Some(range)) => usual.min(range),
         (known, other) => known.or(other).unwrap_or(one),
-    };
-    Some(round(about / one))
+    })
 }
 
-/// Rounds a positive number down to 1, 2 or 5 times a power of ten.
-fn round(value: f64) -> f64 {
-    let mut power = 1.0;
-    while power * 10.0 <= value {
-        power *= 10.0;
+#[cfg(test)]
+mod tests {
+    use super::{PortCandidates, of_entry};
+    use crate::View;
+    use afp_dsl::{Toolboxes, compile};
+    use afp_syntax::item::Item;
+    use afp_syntax::source::Source;
+
+    const PLAN: &str = "use carbot
+plan P {
+    in  far:   length = 30 cm from 10 cm to 1 m
+    var slow:  speed = 10 cm/s
+    var turns: int = 3
+    out done:  bool = false
+    start go
+    actor go: Forward(distance = far, speed = slow) { ForwardSuccessful -> terminate }
+}
+";
+
+    fn of(name: &str) -> PortCandidates {
+        let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+        let none = |_: &str| Err(String::new());
+        let compiled = compile(&Source::new("p.afp", PLAN), &toolboxes, &none);
+        let file = compiled.plan_files.start as u16;
+        let view = View::new(&compiled, &toolboxes, file);
+        of_entry(&view, &Item::inner("P", name)).expect("it is there")
     }
-    while power > value && power > 1e-9 {
-        power /= 10.0;
+
+    #[test]
+    fn an_entry_has_a_slider_in_its_range_in_that_of_its_readers_or_around_its_value() {
+        let slider = |name: &str| {
+            let found = of(name);
+            (found.reading.slider, found.reading.unit, found.writable)
+        };
+        assert_eq!(slider("far"), (Some([10.0, 100.0]), "cm".to_owned(), true));
+        assert_eq!(slider("turns"), (Some([0.0, 6.0]), String::new(), true));
+        assert_eq!(slider("slow"), (Some([1.0, 31.0]), "cm/s".to_owned(), true));
+        let done = of("done");
+        let texts: Vec<_> = done.list.iter().map(|each| &*each.text).collect();
+        assert_eq!((texts, done.writable), (vec!["true", "false"], false));
     }
-    let least = [5.0, 2.0].into_iter().find(|digit| digit * power <= value);
-    // A quotient of powers of ten adds no digits.
-    let step = least.unwrap_or(1.0) * power;
-    (step * 1e9).round() / 1e9
 }

@@ -87,6 +87,16 @@ pub enum Change {
         /// The next item; by default items follow the last item of their kind.
         before: Option<String>,
     },
+    /// Adds an entry from its parts.
+    AddEntry {
+        plan: String,
+        /// `in`, `out`, `var` or `const`.
+        keyword: String,
+        name: String,
+        /// Its type; by default that of the value.
+        ty: Option<String>,
+        value: Option<String>,
+    },
     /// Removes an item and its comments. Removing an element also removes edges and a `start` to
     /// it. Removing an entry also removes the outputs bound to it.
     Remove {
@@ -342,6 +352,7 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
                 case::assign(workspace.buffer(), state, output, formula.as_deref())
             });
         }
+        Change::AddEntry { .. } => return make(workspace, &entry::added(change.clone())?),
         Change::Remove { item: item @ Item::Plan { .. } } => workspace.check_inside(item)?,
         Change::Remove { item } | Change::Move { item, .. } => workspace.check_unused(item)?,
         Change::Extract { plan, elements, new_plan, element } => {
@@ -390,7 +401,8 @@ fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
         Change::SetDoc { item, text } => doc::set(buffer, item, text, Kind::Doc),
         Change::SetNote { item, text } => doc::set(buffer, item, text, Kind::Comment),
         Change::Move { item, plan, owner } => relocate::shift(buffer, item, plan, owner.as_deref()),
-        Change::Rename { .. }
+        Change::AddEntry { .. }
+        | Change::Rename { .. }
         | Change::Extract { .. }
         | Change::RenameColumn { .. }
         | Change::RenameValue { .. }

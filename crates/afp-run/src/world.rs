@@ -126,8 +126,8 @@ pub fn check(asked: &Path) -> Result<(), RunError> {
 }
 
 /// Lists possible worlds for a plan as arguments of `--world`, each with its origin in words: first
-/// the default of [`find`], then the other files in the same folders, then a generated one. The
-/// built-in world has no name.
+/// the default of [`find`], then the other files in the same folders and in the folder `worlds` next
+/// to the plan, then a generated one. The built-in world has no name.
 ///
 /// # Errors
 /// The project file is wrong.
@@ -148,7 +148,8 @@ pub fn all(plan: &Path, robot: &dyn AnyRobot) -> Result<Vec<(String, &'static st
     if beside.is_file() {
         add(&beside, "beside the plan");
     }
-    for like in named.iter().chain([&beside]) {
+    let inside = plan.with_file_name("worlds").join("world.toml");
+    for like in named.iter().chain([&beside, &tidy(&inside)]) {
         files_like(like).iter().for_each(|path| add(path, "a file"));
     }
     if all.is_empty() || named.is_none() && !beside.is_file() {

@@ -23,6 +23,7 @@ mod room;
 mod server;
 mod sockets;
 mod trust;
+mod world;
 
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;

@@ -1,8 +1,8 @@
 // Curves of a run: values of entries and sensors over time.
 import { signal } from "@preact/signals";
-import { quantity } from "../drawing/value";
 import { sensed } from "../world/sensed";
 import { records, state } from "./run";
+import type { Plotted } from "./told";
 
 export interface Curve {
   unit: string;
@@ -12,17 +12,6 @@ export interface Curve {
 
 /** Maximum number of points per curve. */
 const MOST = 2000;
-
-/** Conversion of small units to larger ones. */
-const PARTS: Record<string, [unit: string, factor: number]> = { cm: ["m", 0.01], "cm/s": ["m/s", 0.01], ms: ["s", 0.001] };
-
-/** Parses a number to plot; null for other text. */
-export function plotted(text: string): { number: number; unit: string } | null {
-  if (text === "true" || text === "false") return { number: Number(text === "true"), unit: "" };
-  const found = quantity(text);
-  const [unit, factor] = PARTS[found?.unit ?? ""] ?? [found?.unit ?? "", 1];
-  return found && { number: found.number * factor, unit };
-}
 
 /** Number of points up to a moment. */
 function until(points: Curve["points"], at: number): number {
@@ -50,9 +39,7 @@ function thinned(all: Curve["points"]): Curve["points"] {
 export const valueAt = ({ points }: Curve, at: number): number | null => points[until(points, at) - 1]?.[1] ?? null;
 
 /** Adds a point, possibly between others, since a run can go back. */
-export function extended(curve: Curve | undefined, at: number, text: string): Curve | undefined {
-  const told = plotted(text);
-  if (!told || (curve && curve.unit !== told.unit && told.number !== 0)) return curve;
+export function extended(curve: Curve | undefined, at: number, told: Plotted): Curve | undefined {
   const { points, unit } = curve ?? { points: [], unit: told.unit };
   const place = until(points, at);
   const before = points[place - 1];
@@ -68,10 +55,10 @@ export const cut = (curve: Curve, at: number): Curve => ({ ...curve, points: cur
 /** Curves of the displayed run, by entry or signal. */
 export const curves = signal<ReadonlyMap<string, Curve>>(new Map());
 
-export function tell(at: number, values: Iterable<readonly [name: string, text: string]>): void {
+export function tell(at: number, values: Iterable<readonly [name: string, value: Plotted]>): void {
   const known = curves.peek();
-  const changed = [...values].flatMap(([name, text]) => {
-    const [before, after] = [known.get(name), extended(known.get(name), at, text)];
+  const changed = [...values].flatMap(([name, value]) => {
+    const [before, after] = [known.get(name), extended(known.get(name), at, value)];
     return after && after !== before ? [[name, after] as const] : [];
   });
   if (changed.length) curves.value = new Map([...known, ...changed]);
@@ -81,8 +68,8 @@ export function tell(at: number, values: Iterable<readonly [name: string, text: 
 export function begin(): () => void {
   let last = 0;
   const ends = [
-    state.subscribe((now) => now && tell(now.at, Object.entries(now.entries))),
-    sensed.subscribe((now) => now && tell(now.at, now.sensed.map(({ signal, text }) => [signal, text] as const))),
+    state.subscribe((now) => now && tell(now.at, Object.entries(now.numbers))),
+    sensed.subscribe((now) => now && tell(now.at, now.sensed.flatMap(({ signal, plotted }) => (plotted ? [[signal, plotted] as const] : [])))),
     records.subscribe((known) => {
       const at = known.at(-1)?.at;
       // A rewound run has a new future.

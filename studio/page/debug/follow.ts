@@ -39,6 +39,15 @@ export function at(frames: readonly Frame[], plan: string | null, stack: readonl
   return { active, watching: watches.map((path) => `${plan}.${own(path).join(".")}`) };
 }
 
+/** The active element inside an active sub-plan, by its names from there; empty without one. */
+export function within(frames: readonly Frame[], plan: string | null, stack: readonly string[], item: string): string {
+  const frame = frameOf(frames, plan);
+  const name = item.slice(item.lastIndexOf(".") + 1);
+  const begin = `${frame?.path ? `${frame.path}.` : ""}${name}.`;
+  const [deepest = ""] = stack.filter((path) => path.startsWith(begin)).sort((a, b) => b.length - a.length);
+  return deepest.slice(begin.length).split(".").join(" › ");
+}
+
 interface Way {
   id: string;
   from: string;

@@ -4,7 +4,7 @@ import { svg } from "../drawing/fragment";
 import { drawing } from "../drawing/model";
 import { rectOf, type Drawing, type Rect } from "../drawing/shapes";
 import { stops, type Stop } from "./breakpoints";
-import { at, taken, type At } from "./follow";
+import { at, taken, within, type At } from "./follow";
 import { onDrawing } from "../jobs/results";
 import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
@@ -61,12 +61,13 @@ export function marks(layers: Layers): () => void {
     }
     // After the end of a run no supervisor is active.
     const found = at(frames.value, drawn.plan, now.stack, active.value ? now.watching : []);
-    const key = JSON.stringify([found, phase.value]);
+    const inner = found.active.filter(({ inside }) => inside).map(({ item }) => [item, within(frames.value, drawn.plan, now.stack, item)] as const);
+    const key = JSON.stringify([found, inner, phase.value]);
     if (key === shown && drawn === before) return;
     [shown, before] = [key, drawn];
     const innermost = found.active.find((each) => !each.inside)?.item ?? null;
     const held = phase.value === "held";
-    show(layers, borders(drawn, found, held), signs(drawn, found, held), new Set(found.active.map(({ item }) => item)));
+    show(layers, borders(drawn, found, held), [...signs(drawn, found, held), ...inner.flatMap(([item, name]) => place(drawn, item, name))], new Set(found.active.map(({ item }) => item)));
     const isPassed = (item: string): boolean => drawn.elements.get(item)?.kind === "computation";
     flash(layers, drawn, taken(drawn.edges.values(), last, innermost, isPassed));
     last = innermost ?? last;
@@ -117,6 +118,15 @@ function signs(drawn: Drawing, found: At, held: boolean): SVGElement[] {
     return rect && !inside ? sign(rect, held) : [];
   });
   return [...watching, ...active];
+}
+
+/** The name of the active element inside a sub-plan, on the top border of the sub-plan. */
+function place(drawn: Drawing, item: string, name: string): SVGElement[] {
+  const rect = name ? rectOf(drawn, { item }) : null;
+  if (!rect) return [];
+  const text = svg("text", { class: "run-place-text", x: rect[0] + 20, y: rect[1] + 4 });
+  text.textContent = `▶ ${name}`;
+  return [svg("rect", { class: "run-place", x: rect[0] + 14, y: rect[1] - 9, width: (name.length + 2) * 7 + 12, height: 18, rx: 9 }), text];
 }
 
 /** Highlights the edges that were just taken: wider, with rings at their exits and a moving dot. */

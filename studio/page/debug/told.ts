@@ -9,12 +9,19 @@ export interface Forced {
   until: number;
 }
 
+/** A value as a number, in a unit that stays during the run. */
+export interface Plotted {
+  number: number;
+  unit: string;
+}
+
 /** The state, sent about twenty times a second. */
 export interface State {
   at: number;
   stack: string[];
   watching: string[];
   entries: Record<string, string>;
+  numbers: Record<string, Plotted>;
   held: boolean;
   /** Robot pose in metres and radians; null if unknown. */
   pose: readonly [number, number, number] | null;

@@ -1,6 +1,6 @@
 // Values of entries during a run, as chips over their declarations.
 import { svg } from "../drawing/fragment";
-import { nameOf, rectOf, type Drawing, type Entry, type Point } from "../drawing/shapes";
+import { inside, nameOf, rectOf, type Drawing, type Entry, type Point, type Rect } from "../drawing/shapes";
 import { frameOf, type Frame } from "./follow";
 import type { State } from "./told";
 
@@ -39,8 +39,15 @@ export function holding(frames: readonly Frame[], plan: string | null, now: Pick
 
 const short = (value: string, longest: number): string => (value.length > longest ? `${value.slice(0, longest - 1)}…` : value);
 
+/** The places of the chips, by entry. */
+const places = new Map<string, Rect>();
+
+/** The entry whose chip is at a point of the plan. */
+export const chipAt = (at: Point): string | null => [...places].find(([, rect]) => inside(rect, at, 2))?.[0] ?? null;
+
 /** Chips of entries with values; `fresh` were just written. */
 export function chips(drawn: Drawing, values: ReadonlyMap<string, Held>, fresh: ReadonlySet<string>): SVGElement[] {
+  places.clear();
   const rights = drawn.entries.map(({ item }) => rectOf(drawn, { item })).map((rect) => (rect ? rect[0] + rect[2] : 0));
   const left = Math.max(...rights) + GAP;
   const start = drawn.elements.get(`${drawn.plan}.start`);
@@ -57,7 +64,9 @@ function chip(drawn: Drawing, { item }: Entry, [x, end]: Point, value: Held | un
   const room = Math.floor((end - x - 2 * PAD - sign) / CHARACTER) - left.length;
   const text = short(value.text, Math.max(SHORTEST, Math.min(LONGEST, room))) + left;
   const middle = rect[1] + rect[3] / 2;
-  const body = svg("rect", { class: `run-value${fresh ? " fresh" : ""}${forced ? " forced" : ""}`, x, y: middle - HEIGHT / 2, width: text.length * CHARACTER + 2 * PAD + sign, height: HEIGHT, rx: 4 });
+  const width = text.length * CHARACTER + 2 * PAD + sign;
+  places.set(item, [x, middle - HEIGHT / 2, width, HEIGHT]);
+  const body = svg("rect", { class: `run-value${fresh ? " fresh" : ""}${forced ? " forced" : ""}`, x, y: middle - HEIGHT / 2, width, height: HEIGHT, rx: 4 });
   const words = svg("text", { class: "run-value-text", x: x + PAD + sign, y: middle + 4.3, "data-item": item });
   words.textContent = text;
   return [body, ...(forced ? [lock(x + PAD, middle)] : []), words];

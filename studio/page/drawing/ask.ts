@@ -39,8 +39,32 @@ export interface PortAnswer {
   step: number | null;
   unit: string;
   units: string[];
-  /** SI value of each unit. */
-  scales: number[];
+  /** Whether a run accepts values for the entry. */
+  writable?: boolean;
+  reading: Reading;
+}
+
+/** A text in the field of a value, as the engine reads it. */
+export interface Reading {
+  text: string;
+  /** Null for another formula. */
+  number: number | null;
+  unit: string;
+  step: number | null;
+  /** The ends of a slider. */
+  slider: [least: number, most: number] | null;
+  /** Whether an operation waits for its right operand. */
+  pending: boolean;
+}
+
+/** A control next to a value, which changes its text. */
+export type Control = "more" | "less" | "negate" | { number: number } | { unit: string } | { operation: string } | { operand: string };
+
+/** A value: the port of a component, or an entry of a file. */
+export interface Valued {
+  uri?: string;
+  item: string;
+  port?: string;
 }
 
 const document = (): { textDocument: { uri: string } } => ({ textDocument: { uri: current.peek() } });
@@ -52,7 +76,9 @@ export const palette = async (query: string): Promise<Offer[]> => (await ask<Off
 export const targets = async (item: string, outcome: string): Promise<Candidate[]> =>
   (await ask<{ candidates: Candidate[] } | null>("afp/candidates", { item, outcome }))?.candidates ?? [];
 
-export const port = (item: string, port: string): Promise<PortAnswer | null> => ask<PortAnswer | null>("afp/candidates", { item, port });
+/** A value with its candidates; `text` replaces it, and `control` then changes the text. */
+export const value = ({ uri, ...of }: Valued, text?: string, control?: Control): Promise<PortAnswer | null> =>
+  ask<PortAnswer | null>("afp/candidates", { ...of, text, control, ...(uri ? { textDocument: { uri } } : {}) });
 
 /** The parts of an item, as `afp/parts` returns them. */
 export interface Parts {

@@ -38,6 +38,7 @@ import { size, stage, view } from "./stage";
 import { editing } from "./value";
 import { first, shown as broughtIn, STEP, toPane, zoomed, type Size, type View } from "./view";
 import { words } from "./words";
+import { LivePopup } from "../panes/live";
 import { ValuePopup } from "../panes/value";
 
 /** Mounts the drawing of the current document; returns a function that removes it. */
@@ -196,6 +197,7 @@ function Over() {
       <NoteField />
       <SeekBar />
       <ValuePopup />
+      <LivePopup />
       <Tip />
       {notice.value && <p class="over board-notice">{notice.value}</p>}
       <div class="over board-tools" role="group">

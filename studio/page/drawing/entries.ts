@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import * as actions from "./actions";
 import * as ask from "./ask";
 import { refuse } from "./say";
+import { planOf, type Part } from "./shapes";
 
 /** The open form, with the types to choose from. */
 export const adding = signal<{ plan: string; types: readonly string[] } | null>(null);
@@ -23,12 +24,15 @@ export async function add(): Promise<void> {
   if (at && found) adding.value = { plan: at.plan, types: found.types };
 }
 
+/** Moves the value of an input to a new variable of the same name, and selects the variable. */
+export const moved = ({ item, part }: Part, text: string): Promise<string[] | null> => {
+  const name = part?.name ?? "";
+  const addEntry = { plan: planOf(item), keyword: "var", name, value: text };
+  return ask.edit([{ addEntry }, { bind: { component: item, port: name, to: { in: name } } }]);
+};
+
 /** Adds an entry; returns whether it was accepted. */
 export async function take({ name, kind, type, value }: Entry): Promise<boolean> {
-  const plan = adding.peek()?.plan ?? "";
-  const entry = `${plan}.${name}`;
-  // A type or a value is enough; the engine reads each of them.
-  const changes: ask.Change[] = [{ add: { plan, text: `${kind} ${name}: int` } }, { setEntryType: { entry, ty: type || null } }, { setEntryValue: { entry, value: value || null } }];
-  const order = type ? changes : [changes[0]!, changes[2]!, changes[1]!];
-  return (await ask.edit(order)) !== null;
+  const addEntry = { plan: adding.peek()?.plan ?? "", keyword: kind, name, ty: type || null, value: value || null };
+  return (await ask.edit([{ addEntry }])) !== null;
 }

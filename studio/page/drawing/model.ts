@@ -33,6 +33,9 @@ export function hold(): void {
   held += 1;
 }
 
+/** Whether a drag holds the drawing. */
+export const isHeld = (): boolean => held > 0;
+
 export function release(): void {
   held -= 1;
   const waiting = held === 0 ? kept.splice(0) : [];

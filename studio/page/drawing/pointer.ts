@@ -17,6 +17,8 @@ import { planOf, same, touches, type Point, type Rect } from "./shapes";
 import { size, view, type Stage } from "./stage";
 import { pressed } from "./turn";
 import { editing } from "./value";
+import * as live from "../debug/live";
+import { chipAt } from "../debug/values";
 import { panned, toPane, toPlan, wheelFactor, zoomed } from "./view";
 import { words } from "./words";
 
@@ -198,10 +200,13 @@ const scaled = ([x, y]: Point): Point => [x / view.peek().zoom, y / view.peek().
 
 function click(found: Hit | null, at: Point, add: boolean): void {
   const before = selected.peek();
+  const held = add ? null : chipAt(toPlan(view.peek(), at));
+  if (held !== null) return void (live.open({ item: held }) || select([{ item: held }], "drawing"));
   if (!found) return add ? undefined : select([], "drawing");
   const { part } = found;
   const known = before.some((other) => same(other, part));
   select(add ? (known ? before.filter((other) => !same(other, part)) : [...before, part]) : [part], "drawing");
+  if (!add && found.on === "entry") live.open(part);
   if (add || !pen.peek()) return;
   // Below the click, so that it stays visible.
   if (found.on === "exit") void actions.whatThen(part);

@@ -180,6 +180,8 @@ export const words = {
   typeOf: "Type",
   valueTitle: "Value",
   removeEntry: (name: string) => `Remove ${name}`,
+  asEntry: "Make it a variable",
+  asEntryHint: "A variable of a running plan has a slider.",
   entryKinds: {
     in: "in: input",
     out: "out: output",

@@ -4,9 +4,10 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { start } from "../debug/arranged";
 import { active, state } from "../debug/run";
 import { frame, placeOf, points, scaleIn, sector, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
-import { grab, nudged } from "../world/grab";
+import { grab, nudged, placeOn } from "../world/grab";
 import { ghost, held, poseNow, putDown, reach, robotAt, standing, takeAway, type Held } from "../world/hand";
 import { shown, towards, type Motion } from "../world/motion";
+import { draw, outlined, sketch, tool } from "../world/room";
 import { sensed } from "../world/sensed";
 import { path, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
@@ -24,12 +25,15 @@ export function Floor({ world }: { world: Surroundings }) {
     measure.observe(host.current!);
     return () => measure.disconnect();
   }, [world]);
+  const begin = (event: PointerEvent): void => {
+    if (tool.value === "box" || tool.value === "wall") sketching(event);
+  };
   const pixels = (number: number): string => short(number / scale);
   const things = standing.value;
   return (
-    <svg class="floor" viewBox={viewBox(box)} role="group" aria-label={words.seenFromAbove(robotAt(world))} ref={host}>
+    <svg class={`floor ${tool.value ?? ""}`} viewBox={viewBox(box)} role="group" aria-label={words.seenFromAbove(robotAt(world))} ref={host}>
       <g class="metres" transform="scale(1 -1)">
-        <rect class="ground" x={short(box.x)} y={short(box.y)} width={short(box.width)} height={short(box.height)} />
+        <rect class="ground" x={short(box.x)} y={short(box.y)} width={short(box.width)} height={short(box.height)} onPointerDown={begin} />
         {world.patches.map(({ corners, color }, at) => <polygon class="patch" points={points(corners)} fill={`rgb(${color.join()})`} key={at} />)}
         {things.map((thing) => <Obstacle thing={thing} world={world} key={thing.id} />)}
         {world.lights.map(([x, y], at) => <circle class="light" cx={short(x)} cy={short(y)} r={pixels(6)} key={at} />)}
@@ -38,6 +42,7 @@ export function Floor({ world }: { world: Surroundings }) {
         {things.filter(({ labelled }) => labelled).map(({ name, outline, id }) => <Label name={name} at={placeOf(outline, box, [(name.length * LETTER) / scale, TALL / scale])} size={pixels(TALL)} key={id} />)}
         <Robot world={world} />
         <Ghost world={world} />
+        {sketch.value && <polygon class="ghost" points={points(sketch.value)} />}
       </g>
     </svg>
   );
@@ -48,7 +53,7 @@ const grip = (what: Held, name: string, world: Surroundings) => ({
   tabindex: 0,
   role: "button" as const,
   "aria-label": words.grip(name),
-  onPointerDown: (event: PointerEvent) => grab(event, what, world),
+  onPointerDown: (event: PointerEvent) => pressed(event, what, world),
   onKeyDown: (event: KeyboardEvent) => {
     const to = nudged(poseNow(what, world), event.key, event.shiftKey);
     if (event.key === "Delete") takeAway(what);
@@ -60,12 +65,44 @@ const grip = (what: Held, name: string, world: Surroundings) => ({
   },
 });
 
+function pressed(event: PointerEvent, what: Held, world: Surroundings): void {
+  if (tool.peek() === "remove") takeAway(what);
+  else if (tool.peek() === "box" || tool.peek() === "wall") sketching(event);
+  else grab(event, what, world);
+}
+
+/** Draws a box or a wall with the pressed pointer. */
+function sketching(event: PointerEvent): void {
+  if (event.button !== 0) return;
+  const target = event.currentTarget as SVGGraphicsElement;
+  const floor = target.ownerSVGElement!.querySelector<SVGGraphicsElement>(".metres")!;
+  const from = placeOn(floor, event);
+  target.setPointerCapture(event.pointerId);
+  const move = (moved: PointerEvent): void => void (sketch.value = outlined(from, placeOn(floor, moved)));
+  const end = (up: PointerEvent | null): void => {
+    target.removeEventListener("pointermove", move);
+    document.removeEventListener("keydown", cancel, true);
+    const isDrawn = sketch.peek() !== null;
+    sketch.value = null;
+    if (up && isDrawn) draw(from, placeOn(floor, up));
+  };
+  const cancel = (key: KeyboardEvent): void => {
+    if (key.key !== "Escape") return;
+    key.stopPropagation();
+    end(null);
+  };
+  target.addEventListener("pointermove", move);
+  target.addEventListener("pointerup", end, { once: true });
+  target.addEventListener("pointercancel", () => end(null), { once: true });
+  document.addEventListener("keydown", cancel, true);
+}
+
 function Obstacle({ thing, world }: { thing: Thing; world: Surroundings }) {
   const { id, name, outline, low, movable, path } = thing;
   return (
     <>
       {path.length > 1 && <polyline class="course" points={points(path)} />}
-      <polygon class={`thing${low ? " low" : ""}${movable ? " loose" : ""}`} points={points(outline)} {...(movable ? grip({ id }, name, world) : {})} />
+      <polygon class={`thing${low ? " low" : ""}${movable ? " loose" : ""}`} points={points(outline)} {...(movable || tool.value ? grip({ id }, name, world) : {})} />
     </>
   );
 }

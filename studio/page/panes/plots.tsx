@@ -3,7 +3,6 @@ import { signal } from "@preact/signals";
 import { Tool } from "../screen/bar";
 import { curves, valueAt, type Curve } from "../debug/curves";
 import type { Window } from "../debug/trace";
-import { spelled } from "../drawing/value";
 import { words } from "../words";
 
 /** Plotted names, in the order of selection. */
@@ -47,9 +46,9 @@ function Plot({ name, curve, of, x, now, width }: Seen & { name: string; curve: 
       <div class="plot-name">
         <span title={name}>{name}</span>
         <Tool icon="close" label={words.plotNot(name)} run={() => (chosen.value = chosen.value.filter((other) => other !== name))} />
-        <strong>{value === null ? "" : spelled(Number(value.toPrecision(4)), curve.unit)}</strong>
+        <strong>{value === null ? "" : words.number(value, curve.unit)}</strong>
       </div>
-      <svg class="plot-lane" width={width} height={TALL} role="img" aria-label={words.plotOf(name, spelled(least, curve.unit), spelled(most, curve.unit))}>
+      <svg class="plot-lane" width={width} height={TALL} role="img" aria-label={words.plotOf(name, words.number(least, curve.unit), words.number(most, curve.unit))}>
         <line class="edge" x2={width} y1={TALL - 0.5} y2={TALL - 0.5} />
         <path class="curve" d={line} />
         <line class="now" x1={x(now)} x2={x(now)} y2={TALL} />

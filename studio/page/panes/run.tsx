@@ -4,6 +4,7 @@ import { Tool } from "../screen/bar";
 import { active, log, phase, revealSaid, said, state, why } from "../debug/run";
 import { words } from "../words";
 import { Force } from "./forced";
+import { Live } from "./live";
 import { Stops } from "./stops";
 
 /** Maximum number of displayed lines; the newest are last. */
@@ -34,6 +35,7 @@ export function RunPane() {
               ) : (
                 <dd>
                   {String(value)}
+                  {active.value && !log.value && !name.includes(".") && <Live name={name} value={String(value)} />}
                   {active.value && !log.value && !name.includes(".") && <Tool icon="lock" label={words.forceEntry(name)} run={() => setForcing(name)} />}
                 </dd>
               )}

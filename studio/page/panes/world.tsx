@@ -1,12 +1,15 @@
 // The world of a run: its selection, the floor, and interaction.
 import { useEffect, useRef } from "preact/hooks";
 import { Tool } from "../screen/bar";
-import { active, given, seed, world as chosen } from "../debug/run";
+import { active, given, log, seed, world as chosen } from "../debug/run";
 import { putBack } from "../debug/arranged";
 import { arranged } from "../world/hand";
 import { refuse } from "../drawing/say";
 import { show, watched } from "../world/camera";
 import { again, awaited, choose, missing, sow, surroundings, type Surroundings } from "../world/surroundings";
+import { begin, chosenTool, file, tool } from "../world/room";
+import { current } from "../documents/documents";
+import { pen } from "../server/session";
 import { words } from "../words";
 import { Floor } from "./floor";
 import { Drops, Faults, Stimuli } from "./outside";
@@ -73,10 +76,25 @@ const Given = ({ name, text }: { name: string; text: string }) => (
 /** Objects to drop, reset, camera. */
 const Hand = ({ world }: { world: Surroundings }) => (
   <div class="hand">
-    <Drops world={world} />
+    {tool.value ? <RoomTools /> : <Drops world={world} />}
+    {!active.value && !log.value && <EditRoom />}
     {arranged.value && !active.value && <button onClick={putBack}>{words.putBack}</button>}
     {world.camera && <button aria-pressed={watched.value} onClick={() => (watched.value = !watched.value)}>{words.camera}</button>}
   </div>
+);
+
+/** Begins and ends the editor of the room; without a world file, makes a new room. */
+function EditRoom() {
+  if (file.value) return <button aria-pressed={tool.value !== null} disabled={!pen.value} onClick={() => (chosenTool.value = tool.value ? null : "move")}>{tool.value ? words.roomDone : words.editRoom}</button>;
+  return <button disabled={!pen.value || !current.value} title={words.newRoomHint} onClick={() => void begin()}>{words.newRoom}</button>;
+}
+
+const RoomTools = () => (
+  <span class="drops" role="group" aria-label={words.editRoom}>
+    {(["move", "box", "wall", "remove"] as const).map((each) => (
+      <button key={each} aria-pressed={tool.value === each} title={words.roomToolHints[each]} onClick={() => (chosenTool.value = each)}>{words.roomTools[each]}</button>
+    ))}
+  </span>
 );
 
 function Camera() {

@@ -9,6 +9,8 @@ import type { Drawing } from "../drawing/shapes";
 import * as layout from "../screen/layout";
 import { freeStart } from "../world/free";
 import { surroundings } from "../world/surroundings";
+import * as chapter from "./chapter";
+import { LATER, later, type Later } from "./chapter";
 import { number } from "./problems";
 
 export const STEPS = ["drive", "connect", "run", "crate", "notice", "react", "follow", "stop", "lead", "again"] as const;
@@ -58,13 +60,21 @@ const guided = signal("");
 const runs = signal(0);
 
 /** The displayed step; null without a guide for this plan. */
-export const step = computed<Step | "done" | null>(() => {
+export const step = computed<Step | Later | "done" | "end" | null>(() => {
+  if (later.value) return chapter.home.value === current.value ? later.value : null;
   if (!guided.value || guided.value !== current.value || !drawing.value) return null;
   return next(facts(drawing.value, { errors: number("error"), crates: drops.value.length, runs: runs.value })) ?? "done";
 });
 
-/** Completed steps and their total. */
-export const progress = (now: Step | "done"): [number, number] => [now === "done" ? STEPS.length : STEPS.indexOf(now), STEPS.length];
+/** Completed steps of the chapter and their total. */
+export function progress(now: Step | Later | "done" | "end"): [number, number] {
+  const steps: readonly string[] = later.peek() ? LATER : STEPS;
+  const at = steps.indexOf(now);
+  return [at < 0 ? steps.length : at, steps.length];
+}
+
+/** Begins the second chapter with the guided plan. */
+export const goOn = (): void => chapter.open(guided.peek());
 
 export function guide(uri: string): void {
   [guided.value, runs.value] = [uri, 0];
@@ -72,12 +82,14 @@ export function guide(uri: string): void {
 }
 
 export function leave(): void {
+  chapter.close();
   guided.value = "";
   sessionStorage.removeItem(KEY);
 }
 
 /** Restores the guide after a reload, and counts runs. */
 export function begin(): void {
+  chapter.begin();
   guided.value = sessionStorage.getItem(KEY) ?? "";
   ended.subscribe((end) => {
     if (!end) return;
@@ -88,6 +100,7 @@ export function begin(): void {
       if (element) explain(element);
     }
     runs.value = runs.peek() + 1;
+    chapter.ran();
   });
   // Before its first run, the robot of a first plan faces free floor.
   effect(() => {

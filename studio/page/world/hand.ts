@@ -4,6 +4,7 @@ import { computed, signal } from "@preact/signals";
 import { active, dismiss, order, phase, state } from "../debug/run";
 import { drops, start, things, type Moves } from "../debug/arranged";
 import { middle, placed, type Point, type Pose, type Thing, type World } from "./geometry";
+import * as room from "./room";
 import { surroundings, type Surroundings } from "./surroundings";
 
 /** The robot, or an object by id. */
@@ -83,7 +84,8 @@ export function reach(): void {
 
 /** Drops the dragged object. */
 export function putDown(what: Held, at: Pose): void {
-  if (active.peek()) void order("afp/move", { ...(what === "robot" ? {} : { thing: what.id }), to: at });
+  if (room.tool.peek()) room.put(what, at);
+  else if (active.peek()) void order("afp/move", { ...(what === "robot" ? {} : { thing: what.id }), to: at });
   else if (what === "robot") start.value = at;
   else if (numberOf(what.id) >= 0) drops.value = drops.peek().map((one, number) => (dropId(number) === what.id ? { ...one, at } : one));
   else things.value = { ...things.peek(), [what.id]: at };
@@ -99,6 +101,7 @@ export function drop(shape: string, [x, y]: Point): void {
 
 /** Removes an object that was dropped before a run. */
 export function takeAway(what: Held): void {
+  if (room.tool.peek()) return room.remove(what);
   if (active.peek() || what === "robot") return;
   drops.value = drops.peek().filter((_, number) => dropId(number) !== what.id);
 }

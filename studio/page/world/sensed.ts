@@ -1,5 +1,6 @@
 // Sensor values in the displayed run, sent about twenty times a second.
 import { signal } from "@preact/signals";
+import type { Plotted } from "../debug/told";
 import type { Pose } from "./geometry";
 
 export interface Sensed {
@@ -7,6 +8,8 @@ export interface Sensed {
   signal: string;
   /** Formatted with a unit. */
   text: string;
+  /** Null for another value than a number. */
+  plotted: Plotted | null;
   /**
    * A range sensor's pose, half its opening in radians, and the range in metres; null without an
    * echo.

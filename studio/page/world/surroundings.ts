@@ -81,6 +81,9 @@ function refuse(why: string, chosen: string | null): void {
   });
 }
 
+/** Loads the selected world again. */
+export const reload = (): Promise<void> => askWorld(current.peek(), world.peek());
+
 /** Retries, and asks for trust if that was the reason. */
 export const again = async (): Promise<void> => void ((await trusted(current.peek())) && (await askWorld(current.peek(), null)));
 

@@ -288,6 +288,33 @@ impl Adapter<'_> {
         self.start(now)
     }
 
+    /// Starts the run again with the current text, repeats its requests, and goes to the same
+    /// instant. If the text has an equal meaning, the run is in the same state.
+    pub(super) fn fork(&mut self, now: Wall) -> Answer<()> {
+        let run = self.run()?;
+        if run.target.is_recorded() {
+            return Err("a log cannot change: run its plan first".into());
+        }
+        let (at, speed) = (run.target.now(), run.pace.factor);
+        let (launch, traced) = (run.launch.clone(), run.traced.is_some());
+        // The host makes the requests before the start again.
+        let requests = run.target.requests().into_iter().skip(launch.set.len());
+        let requests: Vec<_> = requests.take_while(|(asked, _)| *asked <= at).collect();
+        let goes_on = !matches!(run.mode, Mode::Held | Mode::Over);
+        self.begin(Launch { stop_on_entry: true, ..launch.clone() }, now)?;
+        let run = self.run()?;
+        (run.launch, run.traced) = (launch, traced.then(Vec::new));
+        run.pace = Pace::new(speed, run.target.now(), now);
+        for (asked, what) in requests {
+            run.target.repeat(asked, &what)?;
+        }
+        let program = run.target.program().clone();
+        run.has_begun = true;
+        run.mode = Mode::Seek { to: at, goes_on };
+        self.find_breakpoints(&program);
+        Ok(())
+    }
+
     /// Ends the plan, stops the robot and sends the result to all clients.
     pub(super) fn terminate(&mut self) -> Answer<()> {
         let Some(mut run) = self.run.take() else { return Ok(()) };

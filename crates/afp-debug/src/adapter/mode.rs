@@ -21,8 +21,12 @@ pub(super) enum Mode {
     One,
     /// Until an element is active, along forced edges.
     Goto(ComponentId),
-    /// Up to an instant, without stops.
-    Seek(Instant),
+    /// Up to an instant, without stops on the way.
+    Seek {
+        to: Instant,
+        /// Whether the run then continues at its speed.
+        goes_on: bool,
+    },
     Over,
 }
 

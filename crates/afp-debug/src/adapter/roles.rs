@@ -28,6 +28,7 @@ const STEERS: &[&str] = &[
     "afp/drop",
     "afp/fault",
     "afp/force",
+    "afp/fork",
     "afp/move",
     "afp/press",
     "afp/release",

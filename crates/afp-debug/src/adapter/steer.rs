@@ -52,7 +52,7 @@ impl Adapter<'_> {
         let run = self.run.as_ref()?;
         let due = match run.mode {
             Mode::Held | Mode::Over => None,
-            Mode::Seek(_) => Some(Wall::ZERO),
+            Mode::Seek { .. } => Some(Wall::ZERO),
             _ if run.pace.factor.is_none() => Some(Wall::ZERO),
             _ => Some(Wall::from_millis(10)),
         };
@@ -106,7 +106,7 @@ impl Adapter<'_> {
         let Some(mut run) = self.run.take() else { return };
         match run.mode {
             Mode::Held | Mode::Over => {}
-            Mode::Seek(at) => self.seek_on(&mut run, at),
+            Mode::Seek { to, goes_on } => self.seek_on(&mut run, to, goes_on, now),
             _ => self.drive_run(&mut run, now),
         }
         if run.mode != Mode::Held && now.saturating_sub(run.told_at) >= STATES {
@@ -260,7 +260,7 @@ impl Run<'_> {
             Mode::Out(plan) => ended(plan),
             Mode::One => stepped,
             Mode::Goto(to) => is_there(happened, to),
-            Mode::On | Mode::Seek(_) | Mode::Held | Mode::Over => false,
+            Mode::On | Mode::Seek { .. } | Mode::Held | Mode::Over => false,
         }
     }
 }

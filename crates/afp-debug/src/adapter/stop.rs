@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use afp_core::Instant;
-use afp_session::{Done, EventKind, Requested};
+use afp_session::{Datum, Done, EventKind, Requested};
 use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
 
@@ -11,7 +11,8 @@ use super::clients::Client;
 use super::mode::{By, Mode};
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Kind;
-use crate::program::Program;
+use crate::plotted::plotted;
+use crate::program::{Entry, Program};
 use crate::sensed::{Cone, Sensed};
 use crate::target::Happened;
 
@@ -131,20 +132,23 @@ impl Adapter<'_> {
         }
         let (program, state) = (run.target.program(), run.target.state());
         let path = |id| program.unit(id).map_or("", |unit| &*unit.path);
-        let entries: serde_json::Map<_, _> = (0..)
-            .zip(&program.entries)
-            .filter_map(|(number, entry)| {
-                let value = state.entry(afp_core::trace::TraceEntryId(number))?;
-                Some((entry.path.clone(), json!(value.in_unit(&entry.unit).to_string())))
-            })
-            .collect();
+        let numbered = (0..).map(afp_core::trace::TraceEntryId).zip(&program.entries);
+        let values: Vec<_> = numbered.filter_map(|(id, it)| Some((it, state.entry(id)?))).collect();
+        let text = |(entry, value): &(&Entry, &Datum)| {
+            (entry.path.clone(), json!(value.in_unit(&entry.unit).to_string()))
+        };
+        let number = |(entry, value): &(&Entry, &Datum)| {
+            Some((entry.path.clone(), json!(plotted(value, &entry.unit)?)))
+        };
+        let entries: serde_json::Map<_, _> = values.iter().map(text).collect();
+        let numbers: serde_json::Map<_, _> = values.iter().filter_map(number).collect();
         let stack: Vec<_> = state.stack().into_iter().map(path).collect();
         let watching: Vec<_> = state.watching().map(path).collect();
         let held = matches!(run.mode, Mode::Held | Mode::Over);
         let at = run.target.now().as_secs_f64();
         let body = json!({
             "forced": run.forced(), "at": at, "stack": stack, "watching": watching, "entries": entries,
-            "held": held,
+            "numbers": numbers, "held": held,
             "sources": program.hashes().collect::<BTreeMap<_, _>>(),
             "moving": run.target.moving().into_iter().map(outline).collect::<Vec<_>>(),
             "pose": run.target.pose().map(|it| [it.x, it.y, it.heading].map(rounded)),
@@ -185,13 +189,13 @@ fn outline((id, outline): (String, Vec<[f64; 2]>)) -> serde_json::Value {
     json!({"id": id, "outline": outline})
 }
 
-fn in_json(Sensed { signal, text, cone }: &Sensed) -> serde_json::Value {
+fn in_json(Sensed { signal, text, plotted, cone }: &Sensed) -> serde_json::Value {
     let cone = cone.map(|cone| {
         let Cone { pose, half_angle, range } = cone;
         let pose = [pose.x, pose.y, pose.heading].map(rounded);
         json!({"pose": pose, "half": rounded(half_angle), "range": range.map(rounded)})
     });
-    json!({"signal": signal, "text": text, "cone": cone})
+    json!({"signal": signal, "text": text, "plotted": plotted, "cone": cone})
 }
 
 /// Four decimals; a tenth of a millimetre is enough for pictures.

@@ -1,10 +1,12 @@
 //! Seeking to a different time: back, and ahead without breakpoints.
 
+use std::time::Duration as Wall;
+
 use afp_core::{Duration, Instant};
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 
-use super::mode::Mode;
+use super::mode::{Mode, Pace};
 use super::steer::{BATCH, Step, is_transition};
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Hits;
@@ -76,7 +78,7 @@ impl Adapter<'_> {
             Mode::Over if at >= now => return Ok(()),
             _ if at > now => {
                 run.forces.clear();
-                run.mode = Mode::Seek(at);
+                run.mode = Mode::Seek { to: at, goes_on: false };
                 return Ok(());
             }
             _ if at < now => self.go_back(Position::At(at))?,
@@ -97,8 +99,8 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    /// Advances to the requested instant, or the end of the run.
-    pub(super) fn seek_on(&mut self, run: &mut Run<'_>, at: Instant) {
+    /// Advances to the requested instant, or the end of the run. Then the run stops or goes on.
+    pub(super) fn seek_on(&mut self, run: &mut Run<'_>, at: Instant, goes_on: bool, now: Wall) {
         let limit = at.min(run.end);
         let program = run.target.program().clone();
         for _ in 0..BATCH {
@@ -115,6 +117,11 @@ impl Adapter<'_> {
             }
             match advance {
                 Ok(Advance::On) => {}
+                Ok(Advance::Limit) if goes_on && limit < run.end => {
+                    run.pace = Pace::new(run.pace.factor, run.target.now(), now);
+                    run.mode = Mode::On;
+                    return self.send_state_of(run);
+                }
                 Ok(Advance::Limit) => {
                     return self.stopped_at(run, Reason::Goto, "went to another time", Vec::new());
                 }

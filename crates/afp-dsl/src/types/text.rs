@@ -31,6 +31,23 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     shortest.unwrap_or_else(|| format!("{} {}", number(value), dimension.si_unit()))
 }
 
+/// The value of a unit's step from 0 to 1, in SI units; `None` for an unknown unit. The empty unit
+/// is that of a plain number.
+pub fn worth(unit: &str) -> Option<f64> {
+    Some(si_value(1.0, unit)? - si_value(0.0, unit)?).filter(|one| *one > 0.0)
+}
+
+/// A number in a unit as a value in SI units.
+pub fn si_value(value: f64, unit: &str) -> Option<f64> {
+    Literal::parse(&format!("{} {unit}", number(value)))?.value()
+}
+
+/// A value in SI units as a number in a unit, with ten significant digits.
+pub fn number_in(value: f64, unit: &str) -> Option<f64> {
+    let exact = (value - si_value(0.0, unit)?) / worth(unit)?;
+    format!("{exact:.9e}").parse().ok()
+}
+
 /// An exact time in usual units: `20 s`, `1.5 ms`.
 pub fn duration(nanoseconds: u64) -> String {
     Nanoseconds(nanoseconds).to_string()

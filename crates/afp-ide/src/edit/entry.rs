@@ -2,7 +2,7 @@
 
 use super::buffer::TextBuffer;
 use super::tree::{self, children, name_token, range, solid_range};
-use super::{Item, Refused, fragment};
+use super::{Change, Item, Refused, fragment, name};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -14,16 +14,37 @@ fn find(buffer: &TextBuffer, entry: &Item) -> Result<Node, Refused> {
     }
 }
 
+/// Converts the addition of an entry from its parts to that of its text; keeps other changes.
+pub(super) fn added(change: Change) -> Result<Change, Refused> {
+    let Change::AddEntry { plan, keyword, name, ty, value } = change else { return Ok(change) };
+    check_keyword(&keyword)?;
+    name::check(&name)?;
+    ty.as_deref().map_or(Ok(()), fragment::ty)?;
+    value.as_deref().map_or(Ok(()), fragment::formula)?;
+    if ty.is_none() && value.is_none() {
+        return Err(Refused::new(format!("the entry '{name}' needs a type or a value")));
+    }
+    let ty = ty.map(|ty| format!(": {}", ty.trim())).unwrap_or_default();
+    let value = value.map(|value| format!(" = {}", value.trim())).unwrap_or_default();
+    let text = format!("{keyword} {name}{ty}{value}");
+    Ok(Change::Add { plan, owner: None, text, before: None })
+}
+
+fn check_keyword(keyword: &str) -> Result<(), Refused> {
+    match keyword {
+        "in" | "out" | "var" | "const" => Ok(()),
+        _ => {
+            Err(Refused::new(format!("an entry is 'in', 'out', 'var' or 'const', not '{keyword}'")))
+        }
+    }
+}
+
 pub(super) fn set_kind(
     buffer: &mut TextBuffer,
     entry: &Item,
     keyword: &str,
 ) -> Result<(), Refused> {
-    if !matches!(keyword, "in" | "out" | "var" | "const") {
-        return Err(Refused::new(format!(
-            "an entry is 'in', 'out', 'var' or 'const', not '{keyword}'"
-        )));
-    }
+    check_keyword(keyword)?;
     let node = find(buffer, entry)?;
     let old = tree::keyword(&node).ok_or_else(|| Refused::new("the entry has no keyword"))?;
     if old.text() == keyword {

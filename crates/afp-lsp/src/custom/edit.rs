@@ -103,7 +103,10 @@ fn label(changes: &[Change]) -> String {
         return "change".to_owned();
     };
     match last {
-        Change::Add { .. } | Change::AddPlan { .. } | Change::AddUse { .. } => "add".to_owned(),
+        Change::Add { .. }
+        | Change::AddEntry { .. }
+        | Change::AddPlan { .. }
+        | Change::AddUse { .. } => "add".to_owned(),
         Change::Remove { item } => format!("remove '{}'", item.name()),
         Change::Rename { item, .. } => format!("rename '{}'", item.name()),
         Change::RenameColumn { column: name, .. } | Change::RenameValue { value: name, .. } => {

@@ -1,6 +1,6 @@
 //! The templates for a plan, and the candidates for an exit or a port.
 
-use afp_ide::candidates::{of_exit, of_port};
+use afp_ide::candidates::{Control, of_entry, of_exit, of_port};
 use afp_ide::edit::item;
 use afp_ide::palette::Offer;
 use afp_ide::parts;
@@ -55,7 +55,7 @@ pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
     ok(offers.iter().map(shown).collect::<Vec<_>>())
 }
 
-/// An exit or port of an element or supervisor.
+/// An exit or port of an element or supervisor, or an entry.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Candidates {
@@ -63,6 +63,10 @@ pub(crate) struct Candidates {
     item: String,
     outcome: Option<String>,
     port: Option<String>,
+    /// The text in the field of the value; the default is the value.
+    text: Option<String>,
+    /// The control to use on the text.
+    control: Option<Control>,
 }
 
 /// Returns candidates, best first, followed by the others with a reason.
@@ -76,7 +80,13 @@ pub(crate) fn candidates(server: &mut Server, params: Candidates) -> Answer {
             let list = of_exit(&view, &item, outcome).ok_or_else(|| none(outcome))?;
             ok(json!({ "candidates": list }))
         }
-        (None, Some(port)) => ok(of_port(&view, &item, port).ok_or_else(|| none(port))?),
+        (None, port) => {
+            let found = match port {
+                Some(port) => of_port(&view, &item, port).ok_or_else(|| none(port)),
+                None => of_entry(&view, &item).ok_or_else(|| no_item(&params.item)),
+            };
+            ok(found?.with_text(params.text.as_deref(), params.control.as_ref()))
+        }
         _ => Err(Failure::Malformed("name either 'outcome' or 'port'".to_owned())),
     }
 }

@@ -8,19 +8,21 @@ use serde_json::{Value, json};
 
 use crate::examples::{self, Example};
 
-use crate::files;
+use crate::{files, world};
 
 use super::document::Keep;
 use super::{ClientId, Out, Room};
 
 /// The requests that the room answers, instead of the language server.
-const OURS: [&str; 10] = [
+const OURS: [&str; 12] = [
     "afp/hello",
     "afp/read",
     "afp/create",
     "afp/rename",
     "afp/remove",
     "afp/choose",
+    "afp/newWorld",
+    "afp/furnish",
     "afp/pen",
     "afp/trust",
     "afp/job",
@@ -65,6 +67,8 @@ pub(super) fn answer(
         "afp/job" => room.begin_job(client, params),
         "afp/endJob" => room.end_job(params),
         "afp/create" => create(room, params, &mut out),
+        "afp/newWorld" => new_world(room, params, &mut out),
+        "afp/furnish" => furnish(room, params),
         "afp/rename" => rename(room, params, now, &mut out),
         "afp/remove" => remove(room, params, now, &mut out),
         "afp/choose" => choose(room, params, now).map(|path| {
@@ -73,7 +77,9 @@ pub(super) fn answer(
         }),
         _ => Err(format!("there is no '{method}'")),
     };
-    if matches!(method, "afp/create" | "afp/rename" | "afp/remove") && answer.is_ok() {
+    if matches!(method, "afp/create" | "afp/newWorld" | "afp/rename" | "afp/remove")
+        && answer.is_ok()
+    {
         out.extend(room.look_at_files());
     }
     (answer, out)
@@ -143,6 +149,35 @@ fn create(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, Strin
         }
     }
     told_anew(room, &path, out)
+}
+
+/// Creates an empty room in the folder `worlds` of a plan, where runs of the plan look for worlds.
+fn new_world(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, String> {
+    let plan = room.folder.inside(&path(params, "plan")?)?;
+    let name = params["name"].as_str().unwrap_or_default();
+    if name.is_empty() || name.contains(['/', '\\', '.']) {
+        return Err("the name of a room has no '/' and no '.'".to_owned());
+    }
+    let folder = plan.parent().unwrap_or(Path::new(""));
+    let is_plans = folder.file_name().is_some_and(|name| name == "plans");
+    let folder = if is_plans { folder.parent().unwrap_or(folder) } else { folder }.join("worlds");
+    if !folder.starts_with(room.folder.root()) {
+        return Err(format!("'{}' is outside of the studio's folder", folder.display()));
+    }
+    std::fs::create_dir_all(&folder)
+        .map_err(|why| format!("cannot make '{}': {why}", folder.display()))?;
+    let file = folder.join(name).with_extension("toml");
+    let file = file.to_string_lossy();
+    create(room, &json!({ "uri": uri_of(&file), "text": world::empty(name) }), out)
+}
+
+/// Returns the text of a world after a change; the client applies it.
+fn furnish(room: &mut Room, params: &Value) -> Result<Value, String> {
+    let path = path(params, "uri")?;
+    let change: world::Change = serde_json::from_value(params["change"].clone())
+        .map_err(|why| format!("not a change of a world: {why}"))?;
+    let text = world::changed(&room.document(&path)?.text, &change)?;
+    Ok(json!({ "text": text }))
 }
 
 /// Rejects a request if an unsaved text of that address would be lost.

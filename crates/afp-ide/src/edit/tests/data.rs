@@ -121,6 +121,32 @@ fn entries_change_part_by_part() {
 }
 
 #[test]
+fn an_entry_is_added_from_its_parts() {
+    let add = |keyword: &str, name: &str, ty: Option<&str>, value: Option<&str>| Change::AddEntry {
+        plan: "P".into(),
+        keyword: keyword.into(),
+        name: name.into(),
+        ty: ty.map(str::to_owned),
+        value: value.map(str::to_owned),
+    };
+    for (ty, value, wanted) in [
+        (Some("int"), Some("3"), "    var turns: int = 3\n"),
+        (Some("int"), None, "    var turns: int\n"),
+        (None, Some("1 m + gap"), "    var turns = 1 m + gap\n"),
+    ] {
+        let text = after(PLAN, add("var", "turns", ty, value));
+        assert!(text.contains(wanted.trim_end()), "{text}");
+    }
+    refused(PLAN, add("var", "x", None, None), "the entry 'x' needs a type or a value");
+    refused(PLAN, add("var", "x", Some("int = 3"), None), "'int = 3' is not a type");
+    refused(
+        PLAN,
+        add("let", "x", Some("int"), None),
+        "an entry is 'in', 'out', 'var' or 'const', not 'let'",
+    );
+}
+
+#[test]
 fn an_entry_keeps_its_range() {
     let text = PLAN.replace("length = 30 cm", "length = 30 cm from 0 m to 1 m");
     let value = |value: Option<&str>| Change::SetEntryValue {

@@ -79,6 +79,19 @@ fn an_assigned_name_is_not_looked_up_again() {
 }
 
 #[test]
+fn an_entry_from_parts_gets_a_free_name_that_later_changes_use() {
+    let speed = Change::AddEntry {
+        plan: "P".into(),
+        keyword: "var".into(),
+        name: "speed".into(),
+        ty: None,
+        value: Some("3".into()),
+    };
+    let bound = bind("low", "limit", Binding::In("speed".into()));
+    has(&[speed, bound], &["var speed2 = 3", "limit = speed2"]);
+}
+
+#[test]
 fn formulas_and_outputs_mean_what_was_added() {
     let speed = add("var speed: float = 2");
     let inner = add("subplan part: Inner(far = 1) { OK -> terminate }");
