@@ -22,6 +22,7 @@ export const words = {
   putFileBack: "Put it back",
   saved: "saved",
   save: "Save",
+  aside: (since: number) => `⏸ since ${since.toFixed(1)} s`,
   follow: "Follow the run into sub-plans",
   follows: (on: boolean) => (on ? "The drawing follows the run into sub-plans" : "The drawing stays where it is"),
   savedBySelf: "Everything is saved. The studio does that by itself.",

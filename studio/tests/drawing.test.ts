@@ -7,7 +7,7 @@ import { calledNow, changed, itemsNow, whole } from "../page/drawing/differences
 import { hit } from "../page/drawing/hit";
 import { movable, places, snapped } from "../page/drawing/lift";
 import { home, step } from "../page/drawing/navigate";
-import { added, between, header } from "../page/drawing/offers";
+import { added, between, freeName } from "../page/drawing/offers";
 import { spoken } from "../page/drawing/say";
 import { rectOf } from "../page/drawing/shapes";
 import type { Answer, Drawing, Edge, Element, Point, Rect } from "../page/drawing/shapes";
@@ -144,14 +144,14 @@ test("zooming keeps what is under the pointer, fitting shows everything, showing
   assert.equal(shown({ x: 0, y: 0, zoom: 1 }, [500, 100, 50, 50], size).x, -74);
 });
 
-test("templates become texts, and what is between two elements leads on", () => {
+test("templates become changes, and what is between two elements leads on", () => {
   const offer = { template: "Wait", name: "wait", kind: "actor" as const, toolbox: "std", icon: null, help: "", ports: [], exits: ["Elapsed"], missingUse: "std" };
-  assert.deepEqual(header(offer), { name: "wait", text: "actor wait: Wait {}" });
-  assert.equal(header(offer, new Set(["wait", "wait2"])).text, "actor wait3: Wait {}");
+  assert.equal(freeName(offer), "wait");
+  assert.equal(freeName(offer, new Set(["wait", "wait2"])), "wait3");
   const from = { item: "P.a", part: { kind: "exit", name: "Done" } };
   assert.deepEqual(added("P", null, offer, from), [
     { addUse: { toolbox: "std" } },
-    { add: { plan: "P", text: "actor wait: Wait {}" } },
+    { addComponent: { plan: "P", owner: null, keyword: "actor", name: "wait", template: "Wait" } },
     { connect: { from: "P.a", outcome: "Done", to: "wait" } },
   ]);
   assert.deepEqual(between("P", offer, edge("P.a", "P.b", [])).at(-1), { connect: { from: "P.wait", outcome: "Elapsed", to: "b" } });

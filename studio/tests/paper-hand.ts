@@ -18,10 +18,8 @@ export async function search(hand: Hand): Promise<void> {
   await hand.entry("in walldist: length = 30 cm");
   await hand.help("Distance to keep to the wall.");
   await hand.entry("var wallangle: angle");
-  await hand.ground();
   await hand.add("CheckEscapeButton", "escape");
   await hand.connect("EscapeButtonPressed", "end the plan");
-  await hand.ground();
   await hand.add("Forward", "searchFirstWall");
   await hand.value("distance", "10000 cm");
   await hand.add("CheckTouchSensor", "touch");
@@ -58,7 +56,23 @@ export async function follow(hand: Hand): Promise<void> {
 
 /** Actions of a user with a finger or the mouse; names, help and formulas are typed. */
 export class Hand {
-  constructor(private readonly page: Page, private readonly read: () => Promise<string>, private readonly pointer: Pointer) {}
+  /** Presses of the pointer and typed fields. */
+  gestures = 0;
+  private readonly pointer: Pointer;
+
+  constructor(private readonly page: Page, private readonly read: () => Promise<string>, pointer: Pointer) {
+    const counted = <T extends unknown[]>(take: (...given: T) => Promise<void>) => (...given: T): Promise<void> => {
+      this.gestures++;
+      return take(...given);
+    };
+    this.pointer = { press: counted(pointer.press), pressAt: counted(pointer.pressAt), menuAt: counted(pointer.menuAt) };
+  }
+
+  /** Types into a field. */
+  private async type(field: Locator, text: string): Promise<void> {
+    this.gestures++;
+    await field.fill(text);
+  }
 
   private async has(wanted: string): Promise<void> {
     const end = Date.now() + 5000;
@@ -71,25 +85,23 @@ export class Hand {
     await this.page.locator(".inspector-head strong", { hasText: name instanceof RegExp ? name : new RegExp(`^${name}$`) }).waitFor();
   }
 
-  /** Scrolls an element into view and selects it. */
+  /** Whether a place of the drawing can be pressed. */
+  private isInSight = (x: number, y: number): Promise<boolean> =>
+    this.page.evaluate(([x, y]) => document.elementFromPoint(x, y)?.closest(".board") != null && document.elementFromPoint(x, y)!.closest(".over") === null, [x, y] as const);
+
+  /** Selects an element; if it is out of sight, shows the whole plan first. */
   async on(name: string): Promise<void> {
-    await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
-    const box = (await this.page.locator(`.node [data-item="${PLAN}.${name}"] text.name`).first().boundingBox())!;
+    const label = this.page.locator(`.node [data-item="${PLAN}.${name}"] text.name`).first();
+    const seen = (await label.count()) ? await label.boundingBox() : null;
+    if (!seen || !(await this.isInSight(seen.x + seen.width / 2, seen.y + seen.height / 2))) await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
+    const box = (await label.boundingBox())!;
     await this.pointer.pressAt(box.x + box.width / 2, box.y + box.height / 2);
     await this.stands(name);
   }
 
-  /** Taps the ground, which clears the selection. */
-  async ground(): Promise<void> {
-    await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
-    const board = (await this.page.locator(".board").boundingBox())!;
-    await this.pointer.pressAt(board.x + 20, board.y + board.height - 90);
-    await this.stands(PLAN);
-  }
-
   /** Fills a field of the inspector. */
   private async field(label: string, text: string, wanted: string): Promise<void> {
-    await this.page.locator(".inspector").getByLabel(label, { exact: true }).fill(text);
+    await this.type(this.page.locator(".inspector").getByLabel(label, { exact: true }), text);
     await this.page.keyboard.press("Enter");
     await this.has(wanted);
   }
@@ -103,6 +115,9 @@ export class Hand {
     await this.pointer.menuAt(start.x + start.width / 2, start.y + start.height / 2);
     await this.pointer.press(this.page.getByRole("menuitem", { name: "Add an entry" }));
     await fillEntry(this.page, line);
+    // The fields that differ from the form's defaults.
+    const [, kind, , type, value] = /^(\w+) (\w+): (\w+)(?: = (.*))?$/.exec(line)!;
+    this.gestures += 1 + Number(kind !== "var") + Number(type !== "length") + Number(value !== undefined);
     await this.pointer.press(this.page.getByRole("dialog").getByRole("button", { name: "Add an entry" }));
     await this.has(line);
     await this.stands(/(\w+):/.exec(line)![1]!);
@@ -124,7 +139,6 @@ export class Hand {
   private async then(exit: string, choice: string): Promise<void> {
     await this.pointer.press(this.page.locator(".inspector .row", { hasText: new RegExp(`^${exit}`) }));
     const list = this.page.locator(".chooser");
-    await list.getByRole("combobox").fill(choice);
     await this.pointer.press(list.locator(".choice-label", { hasText: new RegExp(`^${choice}$`) }));
     await list.waitFor({ state: "detached" });
   }
@@ -146,8 +160,13 @@ export class Hand {
 
   async value(port: string, value: string): Promise<void> {
     await this.port(port);
-    await this.page.locator(".inspector .value input[type=text]").fill(value);
-    await this.pointer.press(this.page.locator(".inspector .value").getByRole("button", { name: "Set", exact: true }));
+    const chip = this.page.locator(".inspector .value .entry-chip", { hasText: new RegExp(`^${value}$`) });
+    await this.page.locator(".inspector .value").waitFor();
+    if (await chip.count()) await this.pointer.press(chip);
+    else {
+      await this.type(this.page.locator(".inspector .value input[type=text]"), value);
+      await this.page.keyboard.press("Enter");
+    }
     await this.has(`${port} = ${value}`);
   }
 

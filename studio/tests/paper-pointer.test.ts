@@ -30,6 +30,9 @@ const HANDS: [string, (page: Page) => Pointer, BrowserContextOptions][] = [
   ["the mouse", mouse, {}],
 ];
 
+/** Maximum number of gestures: presses, and typed names and numbers. */
+const MOST = 90;
+
 for (const [name, pointer, options] of HANDS) {
   inBrowser(`the paper's plan from an empty file by ${name}`, { "plan.afp": `use carbot\n\nplan ${PLAN} {\n}\n` }, async ({ page, read }) => {
     await page.locator(`.node [data-item="${PLAN}.start"]`).waitFor();
@@ -40,5 +43,6 @@ for (const [name, pointer, options] of HANDS) {
     const paper = await readFile(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
     assert.equal(words(await read("plan.afp")), words(paper));
     await page.locator(".count", { hasText: "ready" }).waitFor();
+    assert.ok(hand.gestures <= MOST, `${hand.gestures} gestures`);
   }, options);
 }

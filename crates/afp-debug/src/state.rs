@@ -16,6 +16,8 @@ use crate::text::Line;
 pub struct State {
     /// The active element of each plan, by the plan's number.
     active: BTreeMap<ComponentId, ComponentId>,
+    /// The elements that are set aside, and since when.
+    suspended: BTreeMap<ComponentId, Instant>,
     /// The supervisors that watch, and since when.
     watching: BTreeMap<ComponentId, Instant>,
     /// Values of written entries.
@@ -58,11 +60,20 @@ impl State {
         self.follow(event, program);
         match &event.kind {
             EventKind::Started => self.start(id, event.at, program),
-            EventKind::Finished(_)
-            | EventKind::Interrupted
-            | EventKind::Diverted { .. }
-            | EventKind::Suspended { .. } => self.leave(id, program),
-            EventKind::Returned { .. } => self.start(id, event.at, program),
+            EventKind::Finished(_) | EventKind::Interrupted | EventKind::Diverted { .. } => {
+                self.leave(id, program);
+            }
+            EventKind::Suspended { .. } => {
+                self.leave(id, program);
+                self.suspended.insert(id, event.at);
+            }
+            EventKind::Returned { .. } => {
+                self.suspended.remove(&id);
+                self.start(id, event.at, program);
+            }
+            EventKind::Abandoned { .. } => {
+                self.suspended.remove(&id);
+            }
             EventKind::Committed { entry_id, new, .. } => {
                 self.entries.insert(*entry_id, new.clone());
             }
@@ -167,8 +178,9 @@ impl State {
     /// Ends everything in a plan.
     fn close(&mut self, plan: ComponentId, program: &Program) {
         let inner = self.active.remove(&plan);
-        let of = |supervisor: &ComponentId| program.unit(*supervisor).map(|it| it.plan);
+        let of = |id: &ComponentId| program.unit(*id).map(|it| it.plan);
         self.watching.retain(|supervisor, _| of(supervisor) != Some(plan));
+        self.suspended.retain(|element, _| of(element) != Some(plan));
         inner.into_iter().for_each(|inner| self.close(inner, program));
     }
 
@@ -176,6 +188,11 @@ impl State {
     pub fn stack(&self) -> Vec<ComponentId> {
         let next = |plan: &ComponentId| self.active.get(plan).copied();
         std::iter::successors(next(&ComponentId(0)), next).collect()
+    }
+
+    /// The elements that are set aside, by number, and since when.
+    pub fn suspended(&self) -> impl Iterator<Item = (ComponentId, Instant)> + '_ {
+        self.suspended.iter().map(|(id, since)| (*id, *since))
     }
 
     /// The watching supervisors, by number.

@@ -37,8 +37,9 @@ const MARGIN: f64 = 24.0;
 /// Distance between the drawings and the legend.
 const LEGEND: f64 = 32.0;
 
-/// The routes of more edges than this take too long to compute after each change.
-const FEW: usize = 40;
+/// The routes of more edges than this take too long to compute after each change: plans of about 80
+/// elements.
+const FEW: usize = 200;
 
 /// A drawing of plans.
 #[derive(Clone, Debug, Default)]

@@ -265,7 +265,7 @@ plan P {
         let compiled = compile(&Source::new("p.afp", PLAN), &toolboxes, &none);
         let file = compiled.plan_files.start as u16;
         let view = View::new(&compiled, &toolboxes, file);
-        of_entry(&view, &Item::inner("P", name)).expect("it is there")
+        of_entry(&view, &Item::inner("P", name)).expect("the entry exists")
     }
 
     #[test]

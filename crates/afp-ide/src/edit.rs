@@ -87,6 +87,17 @@ pub enum Change {
         /// The next item; by default items follow the last item of their kind.
         before: Option<String>,
     },
+    /// Adds an element or supervisor without bindings and edges, from its parts.
+    AddComponent {
+        plan: String,
+        /// The element, for supervisors.
+        owner: Option<String>,
+        /// `actor`, `computation`, `subplan` or `supervise`.
+        keyword: String,
+        name: String,
+        /// `Name` or `home.Name`
+        template: String,
+    },
     /// Adds an entry from its parts.
     AddEntry {
         plan: String,
@@ -352,7 +363,9 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
                 case::assign(workspace.buffer(), state, output, formula.as_deref())
             });
         }
-        Change::AddEntry { .. } => return make(workspace, &entry::added(change.clone())?),
+        Change::AddComponent { .. } | Change::AddEntry { .. } => {
+            return make(workspace, &add::from_parts(change.clone())?);
+        }
         Change::Remove { item: item @ Item::Plan { .. } } => workspace.check_inside(item)?,
         Change::Remove { item } | Change::Move { item, .. } => workspace.check_unused(item)?,
         Change::Extract { plan, elements, new_plan, element } => {
@@ -401,7 +414,8 @@ fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
         Change::SetDoc { item, text } => doc::set(buffer, item, text, Kind::Doc),
         Change::SetNote { item, text } => doc::set(buffer, item, text, Kind::Comment),
         Change::Move { item, plan, owner } => relocate::shift(buffer, item, plan, owner.as_deref()),
-        Change::AddEntry { .. }
+        Change::AddComponent { .. }
+        | Change::AddEntry { .. }
         | Change::Rename { .. }
         | Change::Extract { .. }
         | Change::RenameColumn { .. }

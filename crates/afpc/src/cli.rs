@@ -172,7 +172,12 @@ fn parse(linked: &Linked<'_>) -> Command {
         Err(error) => match better(&error, &arguments) {
             Some(refusal) => refuse(&refusal),
             None if !error.use_stderr() => tell(&error),
-            None => error.exit(),
+            None => {
+                if asks("--json") {
+                    println!("{}", wrong_option(&error));
+                }
+                error.exit()
+            }
         },
     };
     if let Some((name, _)) = matches.subcommand()
@@ -184,6 +189,20 @@ fn parse(linked: &Linked<'_>) -> Command {
         Ok(cli) => cli.command,
         Err(error) => error.exit(),
     }
+}
+
+/// A wrong option as an object, for programs: option, value and message.
+fn wrong_option(error: &clap::Error) -> serde_json::Value {
+    let context = |kind| error.get(kind).map(ToString::to_string);
+    let option = context(ContextKind::InvalidArg);
+    let name = option.as_deref().and_then(|it| it.split(' ').next()).map(|it| it.trim_matches('-'));
+    let text = error.to_string();
+    let why = std::error::Error::source(error).map(ToString::to_string);
+    let message = why.as_deref().or(text.lines().next()).unwrap_or_default();
+    serde_json::json!({
+        "severity": "error", "option": name, "value": context(ContextKind::InvalidValue),
+        "message": message.trim_start_matches("error: "),
+    })
 }
 
 /// The answer to `--version`: the build, and the robot and toolboxes that are linked in.

@@ -39,6 +39,17 @@ export function at(frames: readonly Frame[], plan: string | null, stack: readonl
   return { active, watching: watches.map((path) => `${plan}.${own(path).join(".")}`) };
 }
 
+/** The suspended items of the displayed plan, each with the time since when. */
+export function suspendedIn(frames: readonly Frame[], plan: string | null, suspended: Readonly<Record<string, number>>): [item: string, since: number][] {
+  const frame = frameOf(frames, plan);
+  if (!frame) return [];
+  const begin = frame.path ? `${frame.path}.` : "";
+  return Object.entries(suspended).flatMap(([path, since]) => {
+    const name = path.startsWith(begin) ? path.slice(begin.length) : "";
+    return name && !name.includes(".") ? [[`${plan}.${name}`, since] as [string, number]] : [];
+  });
+}
+
 /** The active element inside an active sub-plan, by its names from there; empty without one. */
 export function within(frames: readonly Frame[], plan: string | null, stack: readonly string[], item: string): string {
   const frame = frameOf(frames, plan);

@@ -4,10 +4,11 @@ import { svg } from "../drawing/fragment";
 import { drawing } from "../drawing/model";
 import { rectOf, type Drawing, type Rect } from "../drawing/shapes";
 import { stops, type Stop } from "./breakpoints";
-import { at, taken, within, type At } from "./follow";
+import { at, suspendedIn, taken, within, type At } from "./follow";
 import { onDrawing } from "../jobs/results";
 import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
+import { words } from "../words";
 import { chips, holding, type Held } from "./values";
 
 /** Duration of the highlight of a taken edge, milliseconds. */
@@ -62,12 +63,13 @@ export function marks(layers: Layers): () => void {
     // After the end of a run no supervisor is active.
     const found = at(frames.value, drawn.plan, now.stack, active.value ? now.watching : []);
     const inner = found.active.filter(({ inside }) => inside).map(({ item }) => [item, within(frames.value, drawn.plan, now.stack, item)] as const);
-    const key = JSON.stringify([found, inner, phase.value]);
+    const aside = active.value ? suspendedIn(frames.value, drawn.plan, now.suspended ?? {}) : [];
+    const key = JSON.stringify([found, inner, aside, phase.value]);
     if (key === shown && drawn === before) return;
     [shown, before] = [key, drawn];
     const innermost = found.active.find((each) => !each.inside)?.item ?? null;
     const held = phase.value === "held";
-    show(layers, borders(drawn, found, held), [...signs(drawn, found, held), ...inner.flatMap(([item, name]) => place(drawn, item, name))], new Set(found.active.map(({ item }) => item)));
+    show(layers, borders(drawn, found, held), [...signs(drawn, found, held), ...inner.flatMap(([item, name]) => place(drawn, item, `▶ ${name}`)), ...aside.flatMap(([item, since]) => setAside(drawn, item, since))], new Set(found.active.map(({ item }) => item)));
     const isPassed = (item: string): boolean => drawn.elements.get(item)?.kind === "computation";
     flash(layers, drawn, taken(drawn.edges.values(), last, innermost, isPassed));
     last = innermost ?? last;
@@ -120,13 +122,29 @@ function signs(drawn: Drawing, found: At, held: boolean): SVGElement[] {
   return [...watching, ...active];
 }
 
-/** The name of the active element inside a sub-plan, on the top border of the sub-plan. */
-function place(drawn: Drawing, item: string, name: string): SVGElement[] {
-  const rect = name ? rectOf(drawn, { item }) : null;
+/** A text on the top border of an element: the active element inside a sub-plan, or a time. */
+function place(drawn: Drawing, item: string, words: string, name = ""): SVGElement[] {
+  const rect = rectOf(drawn, { item });
   if (!rect) return [];
-  const text = svg("text", { class: "run-place-text", x: rect[0] + 20, y: rect[1] + 4 });
-  text.textContent = `▶ ${name}`;
-  return [svg("rect", { class: "run-place", x: rect[0] + 14, y: rect[1] - 9, width: (name.length + 2) * 7 + 12, height: 18, rx: 9 }), text];
+  const text = svg("text", { class: `run-place-text${name}`, x: rect[0] + 20, y: rect[1] + 4 });
+  text.textContent = words;
+  return [svg("rect", { class: `run-place${name}`, x: rect[0] + 14, y: rect[1] - 9, width: words.length * 7 + 12, height: 18, rx: 9 }), text];
+}
+
+/** Distance of the stripes over a suspended element. */
+const STRIPES = 8;
+
+/** A suspended element: striped, with the time since when. */
+function setAside(drawn: Drawing, item: string, since: number): SVGElement[] {
+  const rect = rectOf(drawn, { item });
+  if (!rect) return [];
+  const [x, y, width, height] = rect;
+  const lines = Array.from({ length: Math.floor((width + height) / STRIPES) }, (_, nth) => {
+    const along = (nth + 1) * STRIPES;
+    const [left, right] = [Math.max(0, along - height), Math.min(width, along)];
+    return `M${x + left} ${y + along - left}L${x + right} ${y + along - right}`;
+  });
+  return [svg("path", { class: "run-aside", d: lines.join("") }), ...place(drawn, item, words.aside(since), " aside")];
 }
 
 /** Highlights the edges that were just taken: wider, with rings at their exits and a moving dot. */

@@ -20,6 +20,8 @@ export interface State {
   at: number;
   stack: string[];
   watching: string[];
+  /** Times since when elements are suspended, by path. */
+  suspended: Record<string, number>;
   entries: Record<string, string>;
   numbers: Record<string, Plotted>;
   held: boolean;

@@ -74,7 +74,7 @@ export async function addAt(offer: ask.Offer, to: { place: Point } | { owner: Pa
   const at = here();
   if (!at) return beginPlan(offer);
   const names = offers.taken(at.drawn);
-  const { name } = offers.header(offer, names);
+  const name = offers.freeName(offer, names);
   const supervises = offer.kind === "supervise";
   if ("owner" in to && supervises) {
     await ask.edit(offers.added(at.plan, ownerOf(at.drawn, to.owner), offer, null));
@@ -112,7 +112,7 @@ export async function whatThen(from: Part, at: Point | null = below(from), place
     const offer = fresh.find((offer) => offers.choice(offer).id === chosen.id);
     if (!offer) return void (await lead(from, chosen.id));
     const names = offers.taken(found.drawn);
-    const places = place ? { [offers.pathOf(found.plan, null, offers.header(offer, names).name)]: place } : {};
+    const places = place ? { [offers.pathOf(found.plan, null, offers.freeName(offer, names))]: place } : {};
     await ask.edit(offers.added(found.plan, null, offer, from, names), places);
   } catch (why) {
     refuse(why);

@@ -12,15 +12,17 @@ const ATTRIBUTES = new Set([
 ]);
 
 const SVG = "http://www.w3.org/2000/svg";
-/** Only symbols of the drawing itself. */
-const REFERENCE = /^#afp-[\w-]+$/;
+/** The ids of the drawing's own symbols begin so. */
+const REFERENCE = "#afp-";
+
+const loads = (value: string): boolean => value.toLowerCase().includes("url");
 
 function allowed(element: Element): boolean {
   if (element.namespaceURI !== SVG || !ELEMENTS.has(element.localName)) return false;
   for (const { name, value } of element.attributes) {
     if (name === "xmlns" && value === SVG) continue;
-    const known = name === "href" ? element.localName === "use" && REFERENCE.test(value) : ATTRIBUTES.has(name);
-    if (!known || /url\s*\(/i.test(value)) return false;
+    const known = name === "href" ? element.localName === "use" && value.startsWith(REFERENCE) : ATTRIBUTES.has(name);
+    if (!known || loads(value)) return false;
   }
   return [...element.children].every(allowed);
 }
@@ -53,7 +55,7 @@ export function icon(svg: string): SVGSVGElement | null {
   const root = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
   if (root.localName !== "svg" || root.namespaceURI !== SVG) return null;
   const frame = new Set(["xmlns", "version", "role"]);
-  const fine = [...root.attributes].every(({ name, value }) => frame.has(name) || (ATTRIBUTES.has(name) && !/url\s*\(/i.test(value)));
+  const fine = [...root.attributes].every(({ name, value }) => frame.has(name) || (ATTRIBUTES.has(name) && !loads(value)));
   if (!fine || ![...root.children].every(allowed)) return null;
   const made = document.importNode(root, true) as unknown as SVGSVGElement;
   made.setAttribute("aria-hidden", "true");

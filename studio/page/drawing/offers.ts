@@ -11,13 +11,13 @@ export function taken(drawing: Drawing): Set<string> {
 }
 
 /**
- * The header of an element or supervisor, without ports and exits. Its name is free: the engine
- * would apply later references of a taken name to the new item.
+ * A free name for an item of a template: the engine would apply later references of a taken name to
+ * the new item.
  */
-export function header({ kind, name: wished, template }: Offer, taken: ReadonlySet<string> = new Set()): { text: string; name: string } {
+export function freeName({ name: wished }: Offer, taken: ReadonlySet<string> = new Set()): string {
   let name = wished;
   for (let nth = 2; taken.has(name); nth++) name = `${wished}${nth}`;
-  return { name, text: `${kind} ${name}: ${template} {}` };
+  return name;
 }
 
 /** The change that imports the toolbox. */
@@ -34,15 +34,15 @@ export const leading = (from: Part, to: string): Change =>
 
 /** Adds an item, and connects an exit to it. */
 export function added(plan: string, owner: string | null, offer: Offer, from: Part | null, names?: ReadonlySet<string>): Change[] {
-  const { text, name } = header(offer, names);
-  const add = { add: { plan, text, ...(owner ? { owner } : {}) } };
-  return [...using(offer), add, ...(from ? [leading(from, name)] : [])];
+  const name = freeName(offer, names);
+  const addComponent = { plan, owner, keyword: offer.kind, name, template: offer.template };
+  return [...using(offer), { addComponent }, ...(from ? [leading(from, name)] : [])];
 }
 
 /** Adds an element between the ends of an edge. */
 export function between(plan: string, offer: Offer, edge: Edge, names?: ReadonlySet<string>): Change[] {
   const from: Part = { item: edge.from, part: edge.part };
-  const { name } = header(offer, names);
+  const name = freeName(offer, names);
   const on = offer.exits[0];
   const leads = on === undefined ? [] : [{ connect: { from: pathOf(plan, null, name), outcome: on, to: nameOf(edge.to) } }];
   return [...added(plan, null, offer, from, names), ...leads];

@@ -2,6 +2,7 @@
 import { computed } from "@preact/signals";
 import { select, selected } from "../plan/selection";
 import { sought } from "../plan/seek";
+import { nodes } from "./fragment";
 import { drawing } from "./model";
 import { reading } from "./navigate";
 import { reveal } from "./reveal";
@@ -15,7 +16,8 @@ const texts = new WeakMap<Element, string>();
 function textOf(element: Element): string {
   const known = texts.get(element);
   if (known !== undefined) return known;
-  const text = `${nameOf(element.item)} ${element.svg.replace(/<[^>]*>/g, " ")}`.toLowerCase();
+  const shown = nodes(element.svg).flatMap((node) => [...node.querySelectorAll("text")]);
+  const text = [nameOf(element.item), ...shown.map((each) => each.textContent)].join(" ").toLowerCase();
   texts.set(element, text);
   return text;
 }

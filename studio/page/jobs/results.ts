@@ -16,6 +16,8 @@ import { words } from "../words";
 /** An expectation that was not met. */
 export interface Broken {
   text: string;
+  /** The paths and words in it. */
+  names: readonly string[];
   at_s: number;
   why: string;
 }
@@ -85,7 +87,7 @@ const KINDS: { readonly [kind: string]: Kind } = {
     title: words.writeSome,
     meanwhile: words.writing,
     take(done) {
-      if (!done.ok) throw new Error(plain(done.said) || words.jobFailed);
+      if (!done.ok) failed(done);
       // The other results no longer cover all scenarios.
       results.value = null;
     },
@@ -97,15 +99,16 @@ const KINDS: { readonly [kind: string]: Kind } = {
       const all = done.results.filter((one): one is Result => typeof one.scenario === "string");
       coverage.value = done.results.filter((one) => typeof one.coverage === "string");
       results.value = all.length ? [...all.filter(({ passed }) => !passed), ...all.filter(({ passed }) => passed)] : null;
-      if (!all.length) throw new Error(plain(done.said) || words.jobFailed);
+      if (!all.length) failed(done);
     },
   },
   sweep: {
     title: words.sweep,
     meanwhile: words.sweeping,
     take(done, { world }) {
-      batch(() => ([swept.value, sweptIn.value] = [done.results, typeof world === "string" ? world : null]));
-      if (!done.results.length) throw new Error(plain(done.said) || words.jobFailed);
+      const runs = done.results.filter(({ severity }) => severity !== "error");
+      batch(() => ([swept.value, sweptIn.value] = [runs, typeof world === "string" ? world : null]));
+      if (!runs.length) failed(done);
     },
   },
   build: {
@@ -166,17 +169,16 @@ async function placed(mistake: Mistake): Promise<Wrong> {
 
 export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1, character: column - 1 });
 
-const FIELDS = { seeds: words.seeds, vary: words.vary, until: words.until } as const;
+/** The page's fields, by option of the command line. */
+const FIELDS: { readonly [option: string]: string } = { seeds: words.seeds, vary: words.vary, until: words.until };
 
-/**
- * Text of the command line, with the page's fields instead of options, and without
- * advice for the command line.
- */
-export const plain = (text: string): string =>
-  text
-    .replace(/^error: invalid value '(.*)' for '--(seeds|vary|until) <[^>]*>': /gm, (_, value, option: keyof typeof FIELDS) => words.fieldWrong(FIELDS[option], value))
-    .replace(/^For more information, try '--help'\.\s*$/m, "")
-    .trim();
+/** Throws the reason why a job has no result. */
+function failed({ results, said }: Done): never {
+  const wrong = results.find(({ severity, option }) => severity === "error" && option !== undefined);
+  const field = FIELDS[wrong?.option ?? ""];
+  if (wrong && field) throw new Error(`${words.fieldWrong(field, wrong.value ?? "")}${wrong.message}`);
+  throw new Error(wrong?.message || said.trim() || words.jobFailed);
+}
 
 /** Shows the moment of a scenario's failure. */
 export async function showFailure({ log, broken, file }: Result): Promise<void> {
@@ -187,17 +189,13 @@ export async function showFailure({ log, broken, file }: Result): Promise<void> 
   await openLogAt(uriOf(log), broken?.[0]?.at_s ?? 0);
 }
 
-/** The items of a plan whose paths a text contains; the longest ones. */
-export function named(text: string, plan: string, items: Iterable<string>): string[] {
+/** The items of a plan that names of an expectation mean: for each name, the longest path. */
+export function named(names: readonly string[], plan: string, items: Iterable<string>): string[] {
   const known = new Set(items);
-  const words = text.match(/[A-Za-z_][\w.]*/g) ?? [];
-  const found = words.flatMap((word) => {
-    const parts = word.split(".");
-    for (let length = parts.length; length > 0; length--) {
-      const item = [plan, ...parts.slice(0, length)].join(".");
-      if (known.has(item)) return [item];
-    }
-    return [];
+  const found = names.flatMap((name) => {
+    const parts = name.split(".");
+    const items = parts.map((_, end) => [plan, ...parts.slice(0, end + 1)].join("."));
+    return items.findLast((item) => known.has(item)) ?? [];
   });
   return [...new Set(found)];
 }
@@ -216,7 +214,7 @@ export const onDrawing = computed<{ failed: ReadonlyMap<string, number>; unused:
   if (!all || !shown.value) return { failed, unused: new Set() };
   for (const { plan, passed, broken } of all) {
     if (passed || plan !== drawn.plan) continue;
-    const found = new Set((broken ?? []).flatMap(({ text }) => named(text, plan, items)));
+    const found = new Set((broken ?? []).flatMap(({ names }) => named(names, plan, items)));
     for (const item of found) failed.set(item, (failed.get(item) ?? 0) + 1);
   }
   const parts = coverage.value.find(({ coverage }) => coverage === drawn.plan)?.parts ?? [];

@@ -1,12 +1,15 @@
 // Builds and sweeps, with the output of jobs.
 import { effect, signal } from "@preact/signals";
+import { useEffect, useState } from "preact/hooks";
+import * as ask from "../drawing/ask";
 import { Code } from "../screen/book";
 import { nameOf } from "../documents/documents";
 import { drawing } from "../drawing/model";
+import type { Entry } from "../drawing/shapes";
 import { Severity } from "../screen/icons";
 import { said } from "../jobs/jobs";
 import { reveal } from "../plan/places";
-import { build, built, busy, placeOf, plain, sweep, type Wrong } from "../jobs/results";
+import { build, built, busy, placeOf, sweep, type Wrong } from "../jobs/results";
 import { words } from "../words";
 import { report } from "./files";
 import { Busy } from "./scenarios";
@@ -31,6 +34,7 @@ export function begin(storage: Storage): void {
 
 export function Jobs() {
   const idle = busy.value === "";
+  const ranges = useSuggested();
   return (
     <div class="jobs-pane">
       <form class="do" onSubmit={(event) => { event.preventDefault(); void sweep(seeds.value, vary.value.filter((each) => each.trim()), until.value); }}>
@@ -38,7 +42,7 @@ export function Jobs() {
         <label>{words.seeds}<input value={seeds.value} size={7} onInput={(event) => (seeds.value = event.currentTarget.value)} /></label>
         <label>{words.vary}<input value={vary.value[0]} size={24} list="ranges" placeholder={words.varyHint} onInput={(event) => (vary.value = [event.currentTarget.value, vary.value[1]])} /></label>
         {vary.value[0] && <label>{words.varyToo}<input value={vary.value[1]} size={24} list="ranges" onInput={(event) => (vary.value = [vary.value[0], event.currentTarget.value])} /></label>}
-        <datalist id="ranges">{suggested().map((range) => <option value={range} key={range} />)}</datalist>
+        <datalist id="ranges">{ranges.map((range) => <option value={range} key={range} />)}</datalist>
         <label>{words.until}<input value={until.value} size={5} onInput={(event) => (until.value = event.currentTarget.value)} /></label>
         <button type="submit" disabled={!idle}>{words.sweep}</button>
         <Busy />
@@ -46,7 +50,7 @@ export function Jobs() {
       {built.value && <p class="sum" role="status">{built.value.ok ? words.buildDone : words.buildFailed}</p>}
       {built.value && built.value.wrong.length > 0 && <ul class="results" aria-label={words.buildErrors}>{built.value.wrong.map((one, at) => <Failed of={one} key={at} />)}</ul>}
       <Sweep />
-      <pre class="output" role="log" tabIndex={0} aria-label={words.output}>{said.value.slice(-300).map(plain).join("\n")}</pre>
+      <pre class="output" role="log" tabIndex={0} aria-label={words.output}>{said.value.slice(-300).join("\n")}</pre>
     </div>
   );
 }
@@ -77,13 +81,21 @@ function Failed({ of }: { of: Wrong }) {
   );
 }
 
-/** Suggested ranges for inputs, around their values. */
-function suggested(): string[] {
-  return (drawing.value?.entries ?? []).flatMap(({ kind, name, value }) => {
-    const found = /^(-?\d+(?:\.\d+)?) ?([A-Za-z%\u00b0/]*)$/.exec(value ?? "");
-    const number = Number(found?.[1]);
-    if (kind !== "in" || !name || !found || !number) return [];
-    const [low, high, step] = [number / 2, number * 1.5, Math.abs(number) / 4].map((each) => `${each}${found[2]}`);
-    return [number > 0 ? `${name}=${low}..${high}:${step}` : `${name}=${high}..${low}:${step}`];
-  });
+/** Suggested ranges for inputs, around their values as the engine reads them. */
+function useSuggested(): readonly string[] {
+  const [ranges, setRanges] = useState<readonly string[]>([]);
+  const drawn = drawing.value;
+  useEffect(() => {
+    let wanted = true;
+    const inputs = (drawn?.entries ?? []).filter(({ kind }) => kind === "in");
+    const range = async ({ item, name }: Entry): Promise<string[]> => {
+      const { number = null, unit = "" } = (await ask.value({ item }).catch(() => null))?.reading ?? {};
+      if (!name || !number) return [];
+      const [low, high] = [number / 2, number * 1.5].sort((one, two) => one - two);
+      return [`${name}=${low}${unit}..${high}${unit}:${Math.abs(number) / 4}${unit}`];
+    };
+    void Promise.all(inputs.map(range)).then((all) => wanted && setRanges(all.flat()));
+    return () => void (wanted = false);
+  }, [drawn]);
+  return ranges;
 }

@@ -144,10 +144,14 @@ impl Adapter<'_> {
         let numbers: serde_json::Map<_, _> = values.iter().filter_map(number).collect();
         let stack: Vec<_> = state.stack().into_iter().map(path).collect();
         let watching: Vec<_> = state.watching().map(path).collect();
+        let suspended: serde_json::Map<_, _> = (state.suspended())
+            .map(|(id, since)| (path(id).to_owned(), json!(since.as_secs_f64())))
+            .collect();
         let held = matches!(run.mode, Mode::Held | Mode::Over);
         let at = run.target.now().as_secs_f64();
         let body = json!({
             "forced": run.forced(), "at": at, "stack": stack, "watching": watching, "entries": entries,
+            "suspended": suspended,
             "numbers": numbers, "held": held,
             "sources": program.hashes().collect::<BTreeMap<_, _>>(),
             "moving": run.target.moving().into_iter().map(outline).collect::<Vec<_>>(),

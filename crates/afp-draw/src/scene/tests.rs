@@ -184,16 +184,26 @@ fn writing_all_positions_does_not_change_the_drawing() {
 
 /// A box that was moved once stayed there after an undo.
 #[test]
-fn a_small_scene_does_not_depend_on_the_one_before() {
-    let first = scene(LOOP, None);
-    let (all, mut moved) = (written(LOOP), written(LOOP));
-    moved.set(Item::inner("P", "b"), Position { x: 900, y: 900 });
-    let between = placed(LOOP, &moved, Some(&first));
-    for text in [LOOP, &LOOP.replace("Elapsed -> a, ", "")] {
-        for layout in [&all, &moved, &Layout::default()] {
-            let fresh = placed(text, layout, None);
-            for before in [&first, &between, &scene("", None)] {
-                assert_eq!(fragments(&placed(text, layout, Some(before))), fragments(&fresh));
+fn a_scene_does_not_depend_on_the_one_before() {
+    let large = generated(40, 3);
+    for (text, less, item) in [
+        (LOOP, LOOP.replace("Elapsed -> a, ", ""), Item::inner("P", "b")),
+        (
+            &large,
+            large.replacen("-> element3", "-> element5", 1),
+            Item::inner("Generated", "element7"),
+        ),
+    ] {
+        let first = scene(text, None);
+        let (all, mut moved) = (written(text), written(text));
+        moved.set(item, Position { x: 900, y: 900 });
+        let between = placed(text, &moved, Some(&first));
+        for text in [text, &less] {
+            for layout in [&all, &moved, &Layout::default()] {
+                let fresh = placed(text, layout, None);
+                for before in [&first, &between, &scene("", None)] {
+                    assert_eq!(fragments(&placed(text, layout, Some(before))), fragments(&fresh));
+                }
             }
         }
     }
@@ -290,7 +300,7 @@ fn the_start_is_above_a_placed_first_element() {
 
 #[test]
 fn a_moved_box_takes_only_its_own_edges_along() {
-    let text = generated(30, 5);
+    let text = generated(120, 5);
     let compiled = compiled(&text);
     let before = Scene::new(&compiled.outline, &Options::default(), None);
     let item = Item::inner("Generated", "element7");

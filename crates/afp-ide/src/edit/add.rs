@@ -4,7 +4,7 @@ use super::buffer::{self, Splice, TextBuffer};
 use super::list::{Page, Place};
 use super::name;
 use super::tree::{self, Scope, children, name_of};
-use super::{Item, Refused, TextEdit, braces, fragment};
+use super::{Change, Item, Refused, TextEdit, braces, entry, fragment};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -104,6 +104,25 @@ pub(super) fn below_plan(
     let splice = page.insert_lines(&root, place, lines, true)?;
     buffer.splice(vec![splice]);
     Ok(())
+}
+
+/// Converts the addition of an item from its parts to that of its text; keeps other changes.
+pub(super) fn from_parts(change: Change) -> Result<Change, Refused> {
+    let (plan, owner, text) = match change {
+        Change::AddEntry { plan, keyword, name, ty, value } => {
+            (plan, None, entry::text(&keyword, &name, ty.as_deref(), value.as_deref())?)
+        }
+        Change::AddComponent { plan, owner, keyword, name, template } => {
+            name::check_element(&name)?;
+            fragment::reference(&template)?;
+            if !matches!(&*keyword, "actor" | "computation" | "subplan" | "supervise") {
+                return Err(Refused::new(format!("there is no kind of component '{keyword}'")));
+            }
+            (plan, owner, format!("{keyword} {name}: {} {{}}", template.trim()))
+        }
+        other => return Ok(other),
+    };
+    Ok(Change::Add { plan, owner, text, before: None })
 }
 
 /// Adds items to a plan or supervisors to an element.

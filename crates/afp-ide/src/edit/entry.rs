@@ -2,7 +2,7 @@
 
 use super::buffer::TextBuffer;
 use super::tree::{self, children, name_token, range, solid_range};
-use super::{Change, Item, Refused, fragment, name};
+use super::{Item, Refused, fragment, name};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -14,20 +14,23 @@ fn find(buffer: &TextBuffer, entry: &Item) -> Result<Node, Refused> {
     }
 }
 
-/// Converts the addition of an entry from its parts to that of its text; keeps other changes.
-pub(super) fn added(change: Change) -> Result<Change, Refused> {
-    let Change::AddEntry { plan, keyword, name, ty, value } = change else { return Ok(change) };
-    check_keyword(&keyword)?;
-    name::check(&name)?;
-    ty.as_deref().map_or(Ok(()), fragment::ty)?;
-    value.as_deref().map_or(Ok(()), fragment::formula)?;
+/// The text of an entry.
+pub(super) fn text(
+    keyword: &str,
+    name: &str,
+    ty: Option<&str>,
+    value: Option<&str>,
+) -> Result<String, Refused> {
+    check_keyword(keyword)?;
+    name::check(name)?;
+    ty.map_or(Ok(()), fragment::ty)?;
+    value.map_or(Ok(()), fragment::formula)?;
     if ty.is_none() && value.is_none() {
         return Err(Refused::new(format!("the entry '{name}' needs a type or a value")));
     }
     let ty = ty.map(|ty| format!(": {}", ty.trim())).unwrap_or_default();
     let value = value.map(|value| format!(" = {}", value.trim())).unwrap_or_default();
-    let text = format!("{keyword} {name}{ty}{value}");
-    Ok(Change::Add { plan, owner: None, text, before: None })
+    Ok(format!("{keyword} {name}{ty}{value}"))
 }
 
 fn check_keyword(keyword: &str) -> Result<(), Refused> {

@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use super::tree::{self, Scope, children, name_of};
 use super::workspace::Workspace;
-use super::{Change, Item, Refused, TextEdit, begin, end, entry, fragment, make, name};
+use super::{Change, Item, Refused, TextEdit, add, begin, end, fragment, make, name};
 use afp_dsl::Toolboxes;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
@@ -43,7 +43,7 @@ pub fn edit_all(
     let errors = workspace.syntax_errors();
     let mut made = Made::default();
     for change in changes {
-        let change = entry::added(change.clone())?;
+        let change = add::from_parts(change.clone())?;
         let mut change = made.given.in_change(&mut workspace, change)?;
         if let Change::Add { plan, owner, text, .. } = &mut change {
             let to = (plan.as_str(), owner.as_deref());

@@ -104,6 +104,7 @@ fn label(changes: &[Change]) -> String {
     };
     match last {
         Change::Add { .. }
+        | Change::AddComponent { .. }
         | Change::AddEntry { .. }
         | Change::AddPlan { .. }
         | Change::AddUse { .. } => "add".to_owned(),

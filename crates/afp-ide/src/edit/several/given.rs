@@ -95,7 +95,8 @@ impl Given {
             }
             C::Remove { item } => C::Remove { item: self.item(item) },
             C::Rename { item, to } => C::Rename { item: self.item(item), to },
-            C::AddEntry { .. }
+            C::AddComponent { .. }
+            | C::AddEntry { .. }
             | C::RenameColumn { .. }
             | C::RenameValue { .. }
             | C::SetCondition { .. }

@@ -147,6 +147,24 @@ fn an_entry_is_added_from_its_parts() {
 }
 
 #[test]
+fn a_component_is_added_from_its_parts() {
+    let add =
+        |owner: Option<&str>, keyword: &str, name: &str, template: &str| Change::AddComponent {
+            plan: "P".into(),
+            owner: owner.map(str::to_owned),
+            keyword: keyword.into(),
+            name: name.into(),
+            template: template.into(),
+        };
+    let text = after(PLAN, add(None, "actor", "on", "home.Drive"));
+    assert!(text.contains("    actor on: home.Drive {}\n"), "{text}");
+    let text = after(PLAN, add(Some("back"), "supervise", "late", "Late"));
+    assert!(text.contains("supervise late: Late {}\n"), "{text}");
+    refused(PLAN, add(None, "plan", "on", "Drive"), "there is no kind of component 'plan'");
+    refused(PLAN, add(None, "actor", "on", "A {} }"), "'A {} }' is not the name of a template");
+}
+
+#[test]
 fn an_entry_keeps_its_range() {
     let text = PLAN.replace("length = 30 cm", "length = 30 cm from 0 m to 1 m");
     let value = |value: Option<&str>| Change::SetEntryValue {

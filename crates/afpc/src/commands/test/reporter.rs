@@ -160,13 +160,21 @@ fn verdict_object(verdict: &Verdict) -> serde_json::Value {
         Ending::Interrupted => "interrupted",
         Ending::Error(_) => "error",
     });
-    let broken = verdict.broken.iter().map(
-        |broken| json!({ "text": broken.text, "at_s": broken.at.as_secs_f64(), "why": broken.why }),
-    );
+    let broken = verdict.broken.iter().map(|broken| {
+        let names: Vec<_> = names(&broken.text).collect();
+        let at = broken.at.as_secs_f64();
+        json!({ "text": broken.text, "names": names, "at_s": at, "why": broken.why })
+    });
     json!({
         "simulated_s": verdict.length().as_secs_f64(), "ending": ending,
         "broken": broken.collect::<Vec<_>>(), "panic": verdict.panic, "trace": format!("{:016x}", verdict.trace),
     })
+}
+
+/// The paths and words of an expectation: `forward.touch.TouchSensorPressed`.
+fn names(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|each: char| !each.is_alphanumeric() && !matches!(each, '_' | '.'));
+    words.filter(|word| word.starts_with(|first: char| first.is_alphabetic() || first == '_'))
 }
 
 /// One object with the keys of both.
