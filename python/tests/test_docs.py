@@ -15,13 +15,17 @@ import pytest
 from conftest import ROOT
 
 NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))
-PAGES = [ROOT / "docs/python.md", ROOT / "docs/research.md"]
+PAGES = [ROOT / "docs/python.md", ROOT / "docs/research.md", ROOT / "docs/research-recipes.md"]
+NEEDS = {"research-recipes.md": ["minari", "optuna", "pyarrow", "scipy"]}
+"""The packages of a page's examples."""
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_what_a_page_shows_is_so(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for package in NEEDS.get(page.name, []):
+        pytest.importorskip(package)
     for folder in ("plans", "worlds"):
         shutil.copytree(ROOT / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)

@@ -7,7 +7,7 @@ import re
 import statistics
 from datetime import timedelta
 from functools import partial
-from typing import Any, Optional
+from typing import Any, Literal, Optional
 
 import numpy as np
 import pytest
@@ -65,6 +65,8 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("afp.sweep(plan, faults=[afp.Fault('wheels', 'slip', share=7)])", afp.AfpError, "such as 'wheels.slip=0.1@5s..7s'"),
     ("afp.sweep(plan, vary={'wal': [1]})", KeyError, "the plan has no entry 'wal'; there are: "),
     ("afp.sweep(plan, draw={'walldist': 3})", TypeError, "'walldist' is drawn by a function of a random generator"),
+    ("afp.sweep(plan, seeds=3, draw={'walldist': [0.3, 0.4]})", ValueError, "'walldist' has 2 values for 3 seeds; give one for each"),
+    ("afp.sweep(plan, lambda rng: 3)", TypeError, "a world is a file, a text such as 'random:7', or a World, not 3"),
     ("hall.polygon('p', [(1, 1), (2, 2)], height=1)", afp.AfpError, "a polygon has three corners or more, not 2"),
     ("simulate(log='')", FileNotFoundError, "cannot write the log: No such file or directory: ''"),
     ("simulate(camera=True)", ValueError, "what the camera sees goes into the log, and there is none: give log="),
@@ -103,6 +105,12 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("plan.set_entry_value('walldist', math.nan)", ValueError, "a value is nan; give a finite number"),
     ("plan.bind('backupCollision', 'distance', afp.m(math.inf))", ValueError, "a value is inf; give a finite number"),
     ("plan.set_every('searchFirstWall.touch', math.inf)", ValueError, "a time is inf; give a finite number of seconds"),
+    ("sim.sense('smell')", KeyError, "the robot has no 'smell'; its sensors are: distance"),
+    ("sim['wal']", KeyError, "the plan has no entry 'wal'; there are: "),
+    ("simulate(start=(1, 2, 90))", ValueError, "start has the heading 90 rad, more than a turn; write degrees as afp.deg(90)"),
+    ("afp.WorldBuilder('Hall', start=(1, 2, 90))", ValueError, "write degrees as afp.deg(90)"),
+    ("tools.actor(uses=['navigater'])(there)", ValueError, "the robot has no device 'navigater'; did you mean 'navigator'?"),
+    ("tools.actor(mute)", TypeError, "the actor 'mute' needs states=[...], or a return annotation"),
     ("tools.implement(3)", TypeError, "a component is a class or a function, not 3"),
 ]
 
@@ -121,7 +129,13 @@ def test_an_error_says_what_to_do(tried: str, kind: type[Exception], said: str, 
 
     async def maybe(robot: afp.Robot, far: Optional[float]) -> None: ...
 
-    components = {"looks": looks, "yields": yields, "hidden": hidden, "maybe": maybe, "partial": partial(looks, 1)}
+    async def there(robot: afp.Robot) -> Literal["There"]:
+        return "There"
+
+    async def mute(robot: afp.Robot) -> str:
+        return "There"
+
+    components = {"looks": looks, "yields": yields, "hidden": hidden, "maybe": maybe, "partial": partial(looks, 1), "there": there, "mute": mute}
     names = components | {"afp": afp, "math": math, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
     names["hall"] = afp.WorldBuilder("Hall", start=(1.0, 1.0)).room(4.0, 4.0)
     names["carbot"] = afp.Carbot(afp.World.random(1))
@@ -403,3 +417,26 @@ def test_what_cannot_be_declared_is_told_with_its_name_and_without_what_else_is_
 def test_a_sweep_names_what_it_cannot_take(given: dict[str, Any], said: str) -> None:
     with pytest.raises(TypeError, match=re.escape(said)):
         afp.sweep(afp.load(ROOT / "plans/wall_following.afp"), **given)
+
+
+def test_a_start_outside_of_the_room_is_reported(wall_following: afp.Plan) -> None:
+    with pytest.warns(UserWarning, match=r"start is \(-3, 1\): the robot starts outside of all that stands"):
+        afp.Simulation(wall_following, start=(-3.0, 1.0))
+
+
+def test_a_decorator_needs_no_parentheses() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation
+    def Parity(value: int) -> Literal["Odd", "Even"]:
+        return "Odd" if value % 2 else "Even"
+
+    @tools.supervisor
+    def Near(robot: afp.Robot) -> Literal["Close"] | None:
+        return None
+
+    @tools.actor
+    async def Creep(robot: afp.Robot) -> Literal["There"]:
+        return "There"
+
+    assert Parity(3) == "Odd" and tools.templates == ["Parity", "Near", "Creep"]

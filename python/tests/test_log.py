@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import afp
@@ -108,3 +109,29 @@ def test_a_log_of_a_plan_without_entries_says_so(tmp_path: Path) -> None:
             simulation["x"]
     with pytest.raises(KeyError, match="the log has no entry 'x'; it has none at all"):
         afp.Log(tmp_path / "run.mcap").entry("x")
+
+
+def test_a_log_has_signals_and_frames(wall_following: afp.Plan, tmp_path: Path) -> None:
+    file = tmp_path / "run.mcap"
+    with afp.Simulation(wall_following, seed=5, log=file, camera=True) as simulation:
+        simulation.run_to(2.0)
+        picture, heard = simulation.camera, simulation.sense("distance")
+    log = afp.Log(file)
+    assert "ultrasonic.echo" in log.signals
+    times, echoes = log.signal("ultrasonic.echo")
+    assert echoes.dtype == np.float64 and len(times) == len(echoes) > 20 and (np.diff(times) > 0).all()
+    assert echoes[-1] == pytest.approx(heard, rel=1e-6)
+    for name in log.signals:
+        times, values = log.signal(name)
+        assert len(times) == len(values) > 0
+    times, frames = log.frames()
+    assert frames.shape == (len(times), *picture.shape) and frames.dtype == np.uint8
+    assert times[-1] <= 2.0 and (frames != frames[0]).any()
+    with pytest.raises(KeyError, match="the log has no signal 'smell'; there are: "):
+        log.signal("smell")
+
+
+def test_a_log_without_pictures_has_no_frames(wall_following: afp.Plan, tmp_path: Path) -> None:
+    afp.Simulation(wall_following, log=tmp_path / "run.mcap").run(until=0.2)
+    with pytest.raises(ValueError, match="no pictures of the camera"):
+        afp.Log(tmp_path / "run.mcap").frames()

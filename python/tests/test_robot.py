@@ -56,8 +56,8 @@ async def Look(robot: afp.Robot):
     for wrong in ("robot.pose", "distance", "bumper.middle"):
         try:
             robot.sense(wrong)
-        except AttributeError as error:
-            seen.append(str(error))
+        except (KeyError, ValueError) as error:
+            seen.append(error.args[0])
     return "Done"
 
 mixed = afp.Plan("use vacuum\\nuse tools\\nplan P { start look actor look: Look { Done -> begin } "

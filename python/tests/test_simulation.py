@@ -238,7 +238,7 @@ def test_sensors_outlive_the_simulation(wall_following: afp.Plan) -> None:
     assert camera is not None and camera.dtype == np.uint8 and camera.ndim == 3 and camera.shape[2] == 3
     assert camera.flags.owndata or camera.base is not None
     assert camera.max() > 0 and odometry.shape == (5,) and odometry[0] > 0.1 and distance > 0.0
-    with pytest.raises(AttributeError, match="its sensors are: distance"):
+    with pytest.raises(KeyError, match="its sensors are: distance"):
         afp.Simulation(wall_following).sense("smell")
 
 

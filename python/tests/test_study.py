@@ -101,3 +101,58 @@ def test_a_plan_shows_its_structure(wall_following: afp.Plan) -> None:
     assert (walldist.name, walldist.kind, walldist.type, walldist.initial) == ("walldist", "in", "length", "30 cm")
     with pytest.raises(afp.PlanError):
         afp.Plan("plan").entries
+
+
+def test_a_function_draws_a_world_for_each_seed(wall_following: afp.Plan) -> None:
+    def hall(rng: np.random.Generator) -> afp.World:
+        robot = {"track": rng.uniform(0.14, 0.18), "sonar": rng.uniform(1.0, 2.0)}
+        return afp.WorldBuilder("Hall", start=(1.0, 1.0), **robot).room(rng.uniform(3, 5), 3.0).build()
+
+    vary = {"walldist": [0.3, 0.4]}
+    charge = {"world.robot.charge": lambda rng: rng.uniform(0.3, 1.0)}
+    runs = afp.sweep(wall_following, hall, seeds=[3, 5, 8], vary=vary, draw=charge, **GRID)
+    assert len(runs) == 6 and set(runs.columns["world"]) == {f"Hall of seed {seed}" for seed in (3, 5, 8)}
+    near, far = runs.by("walldist").values()
+    assert near.difference(far, "distance_m").count == 3
+    assert runs.result(4).trace_hash == runs[4]["trace"]
+    longer = runs.extended([9])
+    assert longer.where(seed=9)[0]["world"] == "Hall of seed 9"
+    rooms = afp.sweep(wall_following, lambda rng: f"random:{rng.integers(3)}", seeds=6, **GRID)
+    assert len(rooms) == 6 and rooms[0]["command"].startswith("afpc run")
+    same = afp.sweep(wall_following, rooms[2]["world"], seeds=[2], **GRID)
+    assert same[0]["trace"] == rooms[2]["trace"]
+
+
+def test_a_drawn_world_continues_from_its_journal(wall_following: afp.Plan, tmp_path: Any) -> None:
+    def hall(rng: np.random.Generator) -> afp.World:
+        return afp.WorldBuilder("Hall", start=(1.0, 1.0)).room(rng.uniform(3, 5), 3.0).build()
+
+    out = tmp_path / "runs.csv"
+    first = afp.sweep(wall_following, hall, 3, out=out, **GRID)
+    assert afp.sweep(wall_following, hall, 3, out=out, **GRID).columns == first.columns
+    with pytest.raises(afp.AfpError, match="a world has changed"):
+        afp.sweep(wall_following, lambda rng: hall(np.random.default_rng(1)), 3, out=out, **GRID)
+
+
+def test_numbers_in_a_csv_file_are_numbers(wall_following: afp.Plan, tmp_path: Any) -> None:
+    out = tmp_path / "runs.csv"
+    afp.sweep(wall_following, seeds=1, out=out, metrics={"five": lambda result: 5.0}, **GRID)
+    head, line = out.read_text().splitlines()
+    assert ",5.0," in line and "five" in head
+
+
+def test_a_parquet_file_is_compressed_and_says_what_it_is_of(wall_following: afp.Plan, tmp_path: Any) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    out = tmp_path / "runs.parquet"
+    afp.sweep(wall_following, seeds=[3, 5], presses=bumps, out=out, **GRID)
+    file = parquet.ParquetFile(out)
+    assert {file.metadata.row_group(0).column(column).compression for column in range(file.metadata.num_columns)} == {"ZSTD"}
+    facts = {key.decode(): value.decode() for key, value in file.metadata.metadata.items()}
+    assert afp.__version__ in facts["afp.program"] and facts["afp.seeds"] == "3,5" and len(facts["afp.plan_hash"]) == 16
+
+
+def test_each_seed_has_its_sample(wall_following: afp.Plan) -> None:
+    runs = afp.sweep(wall_following, seeds=[3, 5], draw={"walldist": [afp.cm(30), 0.4]}, **GRID)
+    assert runs.columns["walldist_si"] == [0.3, 0.4] and runs.columns["seed"] == [3, 5]
+    with pytest.raises(ValueError, match="one for each"):
+        runs.extended([7])

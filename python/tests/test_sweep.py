@@ -123,7 +123,7 @@ def test_a_sweep_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
 
 
 def test_outcomes_of_other_processes_count_once() -> None:
-    sweeper = Spec([None], (0, 6), [], 5.0, {}).sweeper(afp.Plan(GO))
+    sweeper = Spec(([None], False), (0, 6), [], 5.0, {}).sweeper(afp.Plan(GO))
     lines = sweeper.lines([0, 1, 2])
     beyond = json.dumps({**json.loads(lines[0]), "run": 6})
     assert sweeper.accept([*lines, lines[0], beyond]) == 3
@@ -135,7 +135,7 @@ def test_outcomes_of_other_processes_count_once() -> None:
 
 def test_what_makes_a_sweep_is_short_however_many_seeds_it_names() -> None:
     def identity(last: int) -> str:
-        return Spec([None], [*range(0, 30_000, 3), last], [], 5.0, {}).sweeper(afp.Plan(GO)).identity
+        return Spec(([None], False), [*range(0, 30_000, 3), last], [], 5.0, {}).sweeper(afp.Plan(GO)).identity
 
     assert identity(30_001) == identity(30_001) != identity(30_002)
     assert len(identity(30_001)) < 300

@@ -9,20 +9,23 @@ use crate::shell::{
 };
 
 /// The packages for building, testing and reading, as pip names them.
-const PACKAGES: [&str; 14] = [
+const PACKAGES: [&str; 17] = [
     "gymnasium==1.4.0",
     "hypothesis==6.170.15",
     "matplotlib==3.11.2",
     "maturin==1.16.0",
     "mcap-protobuf-support==0.6.0",
     "mcap==1.6.0",
+    "minari==0.5.4",
     "mypy==2.4.1",
     "numpy==2.4.6",
+    "optuna==5.0.0",
     "pandas==3.1.1",
     "polars==2.1.0",
     "pyarrow==26.0.1",
     "pytest-xdist==3.8.0",
     "pytest==9.2.0",
+    "scipy==1.17.1",
     "typing-extensions>=4.13",
 ];
 

@@ -43,6 +43,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Carbot>()?;
     module.add_class::<learn::Courses>()?;
     module.add_class::<learn::Judge>()?;
+    module.add_class::<learn::Moment>()?;
     module.add_function(wrap_pyfunction!(learn::target, module)?)?;
     module.add_class::<CarbotRobot>()
 }

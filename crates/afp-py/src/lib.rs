@@ -78,6 +78,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_function(wrap_pyfunction!(files::read_text, module)?)?;
     module.add_function(wrap_pyfunction!(files::write_text, module)?)?;
     module.add_function(wrap_pyfunction!(log::draw_log, module)?)?;
+    module.add_function(wrap_pyfunction!(log::pixels, module)?)?;
     module.add_function(wrap_pyfunction!(log::read_log, module)?)?;
     module.add_function(wrap_pyfunction!(log::read_recipe, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::faults, module)?)?;

@@ -13,7 +13,7 @@ use afp_project::{ProjectFile, RobotLink, shown};
 use afp_session::{
     AnyRobot, Kind, Loader, SessionError, Simulated, World, kind, read_signal, simulated,
 };
-use pyo3::exceptions::PyAttributeError;
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::component::AnyRegistry;
@@ -186,12 +186,12 @@ impl<R: Simulated> AnyLink for Link<R> {
                 read_signal(robot, id, &mut |sample| sensed = Sensed::of(sample));
                 Ok(sensed)
             }
-            Some(_) => Err(PyAttributeError::new_err(format!(
+            Some(_) => Err(PyValueError::new_err(format!(
                 "'{name}' is the truth, which only a judge may know: ask the simulation for it"
             ))),
             None => {
                 let own = self.named.map_or(&[][..], |(names, _)| names);
-                Err(PyAttributeError::new_err(no_sensor(own, name, truth)))
+                Err(PyKeyError::new_err(no_sensor(own, name, truth)))
             }
         }
     }

@@ -75,7 +75,7 @@ impl Sweeper {
     fn new(
         py: Python<'_>,
         plan: &Plan,
-        worlds: Vec<GivenWorld>,
+        worlds: (Vec<GivenWorld>, bool),
         seeds: GivenSeeds,
         vary: Vec<(String, GivenValues, bool)>,
         until: f64,
@@ -92,14 +92,17 @@ impl Sweeper {
         }
         let (file, toolboxes) = (plan.file(), plan.python_toolboxes(py));
         fits(&file)?;
+        let seeds = seeds.seeds()?;
+        let (worlds, worlds_by_seed) = worlds;
         let mut sweep = Sweep {
             caveat: plan.caveat(),
             presses: given::presses(&stimuli.0)?,
             failures: given::failures(&stimuli.1)?,
             plan: file.display().to_string(),
-            worlds: given::rooms(worlds),
+            worlds: given::rooms(worlds, worlds_by_seed.then_some(&seeds)),
+            worlds_by_seed,
             axes: Vec::new(),
-            seeds: seeds.seeds()?,
+            seeds,
             until: Duration::from_secs_f64(until),
         };
         let header = with_setting(py, &toolboxes, &compiled, |robot| {

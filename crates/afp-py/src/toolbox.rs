@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox as Declared};
+use afp_excerpt::words::nearest;
 use afp_syntax::source::Source;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -13,6 +14,7 @@ use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
 use crate::errors::error;
+use crate::link::devices;
 
 /// A toolbox file and the Python classes that implement its templates.
 #[pyclass(module = "afp", frozen, subclass)]
@@ -82,7 +84,9 @@ impl Toolbox {
             Some((_, known)) => *known = text,
             None => declared.push((name.to_owned(), text)),
         }
-        parse(&inner.file, &whole(&inner.text, &declared))?;
+        let toolbox = parse(&inner.file, &whole(&inner.text, &declared))?;
+        let template = toolbox.templates.iter().find(|template| template.name == name);
+        template.map_or(Ok(()), |template| known_devices(template, &toolbox))?;
         if inner.declared != declared {
             inner.declared = declared;
             inner.revision += 1;
@@ -205,6 +209,22 @@ fn read(source: Source) -> PyResult<Arc<Declared>> {
     }
     let toolbox = set.iter().next().cloned();
     toolbox.ok_or_else(|| PyValueError::new_err("the text declares no toolbox"))
+}
+
+/// Rejects a device that is almost a device of the robot. A toolbox in Python has no devices of its
+/// own, so that the compiler cannot find the error.
+fn known_devices(template: &Template, toolbox: &Declared) -> PyResult<()> {
+    for used in &template.uses {
+        let names = || devices().iter().map(|device| device.name);
+        if names().any(|name| name == used) || toolbox.devices.iter().any(|it| it.name == *used) {
+            continue;
+        }
+        if let Some(meant) = nearest(used, names()) {
+            let text = format!("the robot has no device '{used}'; did you mean '{meant}'?");
+            return Err(PyValueError::new_err(text));
+        }
+    }
+    Ok(())
 }
 
 fn describe<'py>(py: Python<'py>, template: &Template) -> PyResult<Bound<'py, PyDict>> {

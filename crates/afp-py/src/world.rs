@@ -1,13 +1,15 @@
 //! `World`: a room with its robot's start.
 
+use std::ffi::CString;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use afp_run::world::{LoadedWorld, find};
 use afp_session::Pose2;
 use numpy::PyArray2;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::errors::{error, run_error};
 use crate::link::{fits, link};
@@ -64,10 +66,22 @@ impl World {
         Ok(World::new(loaded))
     }
 
+    /// A copy with changed values of its file: `world.changed({"robot.charge": 0.5})`. Quantities are
+    /// numbers in the unit of the file's key, or strings with a unit.
+    fn changed(&self, py: Python<'_>, values: Bound<'_, PyDict>) -> PyResult<World> {
+        let spelled = py.import("afp.units")?.getattr("spelled")?;
+        let text = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+            Ok((key.extract()?, spelled.call1((value,))?.extract()?))
+        };
+        let values = values.iter().map(text).collect::<PyResult<_>>()?;
+        self._changed(py, values, None)
+    }
+
     /// A copy with changed values of its file, `robot.charge`, and with a different start of the
     /// robot.
     fn _changed(
         &self,
+        py: Python<'_>,
         values: Vec<(String, String)>,
         start: Option<(f64, f64, f64)>,
     ) -> PyResult<World> {
@@ -80,6 +94,12 @@ impl World {
             loaded = loaded
                 .started_at(Pose2 { x, y, heading })
                 .map_err(|why| PyValueError::new_err(format!("start: {why}")))?;
+            let usual = self.loaded.world.drawing().start;
+            if let Some(why) = loaded.warning(usual) {
+                let text = CString::new(format!("start is ({x}, {y}): {why}"))?;
+                // Three calls up is the program that makes the simulation.
+                PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 3)?;
+            }
         }
         // It differs from the file now.
         loaded.path = None;
@@ -147,11 +167,12 @@ impl World {
     /// Restore from a pickle.
     #[staticmethod]
     fn _again(
+        py: Python<'_>,
         text: String,
         path: Option<PathBuf>,
         start: Option<(f64, f64, f64)>,
     ) -> PyResult<World> {
-        let mut world = World::parse(text)?._changed(Vec::new(), start)?;
+        let mut world = World::parse(text)?._changed(py, Vec::new(), start)?;
         world.loaded.path.clone_from(&path);
         world.read = path;
         Ok(world)

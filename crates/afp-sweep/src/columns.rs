@@ -24,7 +24,10 @@ impl Column {
     pub(crate) fn text(&self, row: usize) -> String {
         match &self.cells {
             Cells::Counts(all) => all.get(row).copied().flatten().map(|count| count.to_string()),
-            Cells::Numbers(all) => all.get(row).copied().flatten().map(|number| number.to_string()),
+            // With a decimal point, so that readers infer the type of the whole column.
+            Cells::Numbers(all) => {
+                all.get(row).copied().flatten().map(|number| format!("{number:?}"))
+            }
             Cells::Texts(all) => all.get(row).cloned(),
         }
         .unwrap_or_default()
@@ -132,6 +135,7 @@ mod tests {
         let mut sweep = Sweep {
             plan: "p.afp".to_owned(),
             worlds: vec![WorldChoice::OfPlan],
+            worlds_by_seed: false,
             axes: vec![],
             seeds: Seeds::new(0..1),
             presses: vec![],

@@ -21,6 +21,8 @@ pub struct Sweep {
     pub plan: String,
     /// The worlds, at least one.
     pub worlds: Vec<WorldChoice>,
+    /// Whether there is one world for each seed, instead of all worlds for each seed.
+    pub worlds_by_seed: bool,
     /// The varied values.
     pub axes: Vec<Axis>,
     pub seeds: Seeds,
@@ -100,7 +102,8 @@ impl Sweep {
     pub fn len(&self) -> u64 {
         let axes = self.axes.iter().filter(|axis| !axis.by_seed);
         let points = axes.map(|axis| axis.points.len() as u64);
-        let combinations = points.fold(self.worlds.len() as u64, u64::saturating_mul);
+        let worlds = if self.worlds_by_seed { 1 } else { self.worlds.len() as u64 };
+        let combinations = points.fold(worlds, u64::saturating_mul);
         combinations.saturating_mul(self.seeds.len())
     }
 
@@ -129,7 +132,8 @@ impl Sweep {
             rest /= count;
         }
         values.reverse();
-        let world_number = (rest as usize).min(self.worlds.len().saturating_sub(1));
+        let of_world = if self.worlds_by_seed { of_seed } else { rest };
+        let world_number = (of_world as usize).min(self.worlds.len().saturating_sub(1));
         let world = self.worlds.get(world_number).unwrap_or(&WorldChoice::OfPlan);
         Row { run, world_number, world, seed, values }
     }
@@ -165,6 +169,8 @@ impl Sweep {
     /// The grid as text, equal for sweeps with the same runs, independent of number formats.
     pub fn signature(&self) -> String {
         let mut text = format!("seeds {}, until {}", self.seeds, spelled(self.until));
+        let by_seed = if self.worlds_by_seed { ", worlds by seed" } else { "" };
+        text += by_seed;
         for world in &self.worlds {
             let name = world.name().map_or("of the plan".into(), shell_word);
             let _ = write!(text, ", world {name}");
@@ -210,6 +216,7 @@ mod tests {
             caveat: None,
             plan: "my plan.afp".to_owned(),
             worlds: vec![WorldChoice::OfPlan, WorldChoice::Named("random:7".to_owned())],
+            worlds_by_seed: false,
             axes: vec![axis("a=1,2,3").unwrap(), axis("b=20cm..30cm:5cm").unwrap()],
             seeds: seeds("5..9").unwrap(),
             presses: vec![press("touch@2s").unwrap()],
@@ -227,6 +234,18 @@ mod tests {
         assert_eq!(sweep.row(1).seed, 6);
         assert_eq!(sweep.row(4).values[1].1.text, "25cm");
         assert_eq!(sweep.row(36).world.name(), Some("random:7"));
+    }
+
+    #[test]
+    fn each_seed_has_its_own_world() {
+        let worlds = (5..9).map(|seed| WorldChoice::Named(format!("random:{seed}")));
+        let sweep = Sweep { worlds: worlds.collect(), worlds_by_seed: true, ..sweep() };
+        assert_eq!(sweep.len(), 3 * 3 * 4);
+        for run in 0..sweep.len() {
+            let row = sweep.row(run);
+            assert_eq!(row.world.name(), Some(&*format!("random:{}", row.seed)));
+        }
+        assert_ne!(sweep.signature(), Sweep { worlds_by_seed: false, ..sweep.clone() }.signature());
     }
 
     #[test]

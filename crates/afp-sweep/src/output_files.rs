@@ -16,7 +16,7 @@ const WHAT: &str = "cannot write the table";
 /// The default folder of tables.
 const SWEEPS: &str = "target/afp/sweeps";
 
-pub type Make = fn(&Sweep, &[Outcome]) -> io::Result<Vec<u8>>;
+pub type Make = fn(&Sweep, &[Outcome], &Header) -> io::Result<Vec<u8>>;
 
 /// The formats of tables by file extension.
 const FORMATS: &[(&str, Make)] = &[
@@ -29,6 +29,8 @@ pub struct OutputFiles {
     pub journal: PathBuf,
     /// Tables, written at the end.
     pub tables: Vec<(PathBuf, Make)>,
+    /// The identity of the sweep, for tables that keep it.
+    header: Header,
 }
 
 impl OutputFiles {
@@ -43,12 +45,12 @@ impl OutputFiles {
         header: &Header,
     ) -> Result<OutputFiles, RunError> {
         let output = match asked {
-            Some(path) => named(path)?,
+            Some(path) => named(path, header)?,
             None => {
                 let stem = plan.file_stem().unwrap_or_default().to_string_lossy();
                 let grid = hash(&format!("{} {}", plan.display(), header.grid));
                 let name = format!("{stem}-{}.csv", grid.get(..8).unwrap_or_default());
-                single(&Path::new(SWEEPS).join(name), to_csv)
+                single(&Path::new(SWEEPS).join(name), to_csv, header)
             }
         };
         let folder = output.journal.parent().unwrap_or(Path::new("."));
@@ -67,7 +69,7 @@ impl OutputFiles {
     /// A file cannot be written.
     pub fn write(&self, sweep: &Sweep, outcomes: &[Outcome]) -> Result<(), RunError> {
         for (path, make) in &self.tables {
-            let bytes = make(sweep, outcomes).map_err(RunError::file(WHAT, path))?;
+            let bytes = make(sweep, outcomes, &self.header).map_err(RunError::file(WHAT, path))?;
             write_whole(WHAT, path, bytes)?;
         }
         Ok(())
@@ -75,7 +77,7 @@ impl OutputFiles {
 }
 
 /// The files of `-o`.
-fn named(path: &Path) -> Result<OutputFiles, RunError> {
+fn named(path: &Path, header: &Header) -> Result<OutputFiles, RunError> {
     let ends = path.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR]);
     if path.is_dir() || ends {
         let formats = FORMATS.iter();
@@ -84,11 +86,12 @@ fn named(path: &Path) -> Result<OutputFiles, RunError> {
         return Ok(OutputFiles {
             journal: path.join("outcomes.journal"),
             tables: tables.collect(),
+            header: header.clone(),
         });
     }
     let ending = path.extension().and_then(|extension| extension.to_str());
     match FORMATS.iter().find(|(known, _)| ending == Some(known)) {
-        Some((_, make)) => Ok(single(path, *make)),
+        Some((_, make)) => Ok(single(path, *make, header)),
         None if ending == Some("parquet") => Err(RunError::usage(
             format!("'{}': this program was built without Parquet", path.display()),
             "name a .csv file, or build afpc with its feature: \
@@ -109,8 +112,9 @@ fn unsupported(path: &Path) -> String {
 }
 
 /// A single table, with the journal next to it.
-fn single(path: &Path, make: Make) -> OutputFiles {
+fn single(path: &Path, make: Make, header: &Header) -> OutputFiles {
     let mut journal = path.as_os_str().to_owned();
     journal.push(".journal");
-    OutputFiles { journal: journal.into(), tables: vec![(path.to_owned(), make)] }
+    let (tables, header) = (vec![(path.to_owned(), make)], header.clone());
+    OutputFiles { journal: journal.into(), tables, header }
 }

@@ -47,7 +47,9 @@ impl<'a> Setting<'a> {
                 "give a part of the seeds or of the values at a time",
             ));
         }
-        different_worlds(&sweep.worlds)?;
+        if !sweep.worlds_by_seed {
+            different_worlds(&sweep.worlds)?;
+        }
         let worlds = sweep.worlds.iter().map(|room| match room {
             WorldChoice::Made(_, world) => Ok(world.clone()),
             room => world::find(room.name().map(Path::new), file, robot.kind()),
@@ -64,6 +66,7 @@ impl<'a> Setting<'a> {
         let session = self.robot.session(self.graph, &*world.world, 0, &[]);
         let mut session = session.map_err(|why| world.no_session(why))?;
         requests::make(&mut *session, &sweep.presses, &sweep.failures)?;
+        let worlds_by_seed = sweep.worlds_by_seed;
         for number in 0..sweep.axes.len() {
             let (before, rest) = sweep.axes.split_at_mut(number);
             let Some(axis) = rest.first_mut() else { continue };
@@ -73,6 +76,11 @@ impl<'a> Setting<'a> {
             }
             let mut whole = Vec::new();
             match change::key(&axis.name) {
+                Some(key) if axis.by_seed && worlds_by_seed => {
+                    for (world, point) in self.worlds.iter().zip(&mut axis.points) {
+                        point.si = world.si(key, &point.text)?;
+                    }
+                }
                 Some(key) => self.check_worlds(key, &mut axis.points)?,
                 None if varies_stimuli(&axis.name) => check_stimuli(axis)?,
                 None => {

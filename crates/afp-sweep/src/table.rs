@@ -10,6 +10,7 @@ use std::io;
 
 use crate::columns::columns;
 use crate::grid::Sweep;
+use crate::header::Header;
 use crate::outcome::Outcome;
 
 #[cfg(feature = "parquet")]
@@ -19,7 +20,7 @@ pub use parquet::to_parquet;
 ///
 /// # Errors
 /// The memory is exhausted.
-pub fn to_csv(sweep: &Sweep, outcomes: &[Outcome]) -> io::Result<Vec<u8>> {
+pub fn to_csv(sweep: &Sweep, outcomes: &[Outcome], _: &Header) -> io::Result<Vec<u8>> {
     let columns = columns(sweep, outcomes);
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(columns.iter().map(|column| &column.name))?;
@@ -42,9 +43,21 @@ mod tests {
             failures: Vec::new(),
             plan: "a.afp".to_owned(),
             worlds: vec![crate::WorldChoice::OfPlan],
+            worlds_by_seed: false,
             axes: vec![axis("d=20cm,30cm").unwrap()],
             seeds: seeds("3..5").unwrap(),
             until: afp_core::Duration::from_secs(60),
+        }
+    }
+
+    pub(super) fn header() -> Header {
+        Header {
+            sweep_journal: 2,
+            program: "afp 0.1.0".to_owned(),
+            plan: "1234".to_owned(),
+            worlds: "5678".to_owned(),
+            grid: sweep().signature(),
+            parts: crate::Parts::new(),
         }
     }
 
@@ -63,7 +76,7 @@ mod tests {
 
     #[test]
     fn csv_has_names_and_quotes() {
-        let text = String::from_utf8(to_csv(&sweep(), &outcomes()).unwrap()).unwrap();
+        let text = String::from_utf8(to_csv(&sweep(), &outcomes(), &header()).unwrap()).unwrap();
         let mut lines = text.lines();
         assert!(lines.next().unwrap().starts_with("run,world,seed,d,ending,where,why,time_s,"));
         let first = lines.next().unwrap();

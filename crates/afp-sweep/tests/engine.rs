@@ -67,6 +67,7 @@ fn sweep() -> Sweep {
         failures: Vec::new(),
         plan: "either.afp".to_owned(),
         worlds: vec![WorldChoice::Named("random:4".to_owned())],
+        worlds_by_seed: false,
         axes: vec![axis("way=5cm,5m").unwrap()],
         seeds: seeds("0..6").unwrap(),
         until: Duration::from_secs(4),

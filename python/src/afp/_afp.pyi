@@ -3,8 +3,11 @@
 import os
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ._afp_plans import AfpError, Broken, Diagnostic, Plan, PlanError, Scenario, Toolbox, Verdict, World
-from ._afp_runs import Carbot, Courses, Driven, Event, Judge, Names, Robot, Runner, Sweeper
+from ._afp_runs import Carbot, Courses, Driven, Event, Judge, Moment, Names, Robot, Runner, Sweeper
 
 __version__: str
 own_robot: str | None
@@ -17,6 +20,7 @@ __all__ = [
     "Driven",
     "Event",
     "Judge",
+    "Moment",
     "Names",
     "Plan",
     "PlanError",
@@ -34,6 +38,7 @@ __all__ = [
     "faults",
     "number_of",
     "own_robot",
+    "pixels",
     "read_log",
     "read_recipe",
     "read_text",
@@ -60,6 +65,9 @@ def faults() -> list[tuple[str, str]]:
 
 def number_of(text: str, unit: str) -> float | None:
     """The SI value of a string with a unit of that kind: `30 cm` is 0.3 in metres."""
+
+def pixels(file: bytes) -> NDArray[np.uint8] | None:
+    """The pixels of a camera's picture from a log, as rows x columns x 3; `None` for another file."""
 
 def read_log(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Read a log into a dictionary, up to its first defect."""

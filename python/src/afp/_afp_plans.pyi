@@ -152,6 +152,9 @@ class World:
     @staticmethod
     def of_plan(path: str | os.PathLike[str]) -> World:
         """The default world of a plan file, as in `afpc run`."""
+    def changed(self, values: dict[str, Any]) -> World:
+        """A copy with changed values of its file: `world.changed({"robot.charge": 0.5})`. Quantities are
+        numbers in the unit of the file's key, or strings with a unit."""
     def _changed(self, values: Sequence[tuple[str, str]], start: tuple[float, float, float] | None) -> World: ...
     @property
     def name(self) -> str:

@@ -334,6 +334,17 @@ class Courses:
         """The moving obstacles of an episode: their indices and current corners."""
     def sense(self, index: int, name: str) -> Any:
         """The value of a sensor in an episode."""
+    def save(self) -> Moment:
+        """Copy all episodes at this moment."""
+    def restore(self, moment: Moment) -> NDArray[np.float32]:
+        """Go back, or forwards, to a moment of episodes of the same task, and return all observations."""
+    def __deepcopy__(self, _memo: Any) -> Courses: ...
+    def __reduce__(self) -> NoReturn: ...
+
+@final
+class Moment:
+    """Episodes at a moment, from which they can continue any number of times."""
+
     def __reduce__(self) -> NoReturn: ...
 
 @final
@@ -358,7 +369,7 @@ class Sweeper:
     def __new__(
         cls,
         plan: Plan,
-        worlds: Sequence[World | str | None],
+        worlds: tuple[Sequence[World | str | None], bool],
         seeds: tuple[int, int] | list[int],
         vary: Sequence[tuple[str, str | list[tuple[str, str | None]], bool]],
         until: float,

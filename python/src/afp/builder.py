@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ._afp import AfpError, World, write_text
-from .units import number_in
+from .units import heading_in, number_in
 
 __all__ = ["WorldBuilder"]
 
@@ -266,7 +266,7 @@ def _pose(what: str, pose: Sequence[float]) -> list[Any]:
     """Convert to degrees for the file, without rounding noise."""
     if len(pose) not in (2, 3):
         raise ValueError(f"{what} has x, y and perhaps a heading, not {len(pose)} numbers")
-    heading = number_in(what, pose[2], "rad") if len(pose) == 3 else 0.0
+    heading = heading_in(what, pose[2]) if len(pose) == 3 else 0.0
     return [*_point(what, pose[:2]), round(math.degrees(heading), 10)]
 
 

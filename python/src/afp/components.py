@@ -26,7 +26,7 @@ import os
 import types
 from collections.abc import Awaitable, Callable, Generator, Mapping, Sequence, Set
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, overload
 
 from . import _afp
 from ._afp import Robot, read_text
@@ -101,8 +101,12 @@ class Toolbox(_afp.Toolbox):
         for template, component in components.items():
             self.implement(component, template)
 
+    @overload
+    def actor(self, component: Component, /) -> Component: ...
+    @overload
     def actor(
         self,
+        /,
         *,
         states: Outcomes | None = None,
         name: str | None = None,
@@ -110,16 +114,34 @@ class Toolbox(_afp.Toolbox):
         every: str | float = "10 ms",
         stop: str | float | None = None,
         icon: str | None = None,
-    ) -> Callable[[Component], Component]:
+    ) -> Callable[[Component], Component]: ...
+
+    def actor(
+        self,
+        component: Any = None,
+        /,
+        *,
+        states: Outcomes | None = None,
+        name: str | None = None,
+        uses: str | Sequence[str] = (),
+        every: str | float = "10 ms",
+        stop: str | float | None = None,
+        icon: str | None = None,
+    ) -> Any:
         """Declare and implement an actor: a class with `poll`, or an `async def` function.
 
         Without `states`, a return annotation such as `-> Literal["There", "Blocked"]` declares them.
+        `@tools.actor` alone does that, too.
         """
-        timing = _timing(every=every, stop=stop)
-        return self._declarer("actor", states, name, uses, timing, icon)
+        declare = self._declarer("actor", states, name, uses, _timing(every=every, stop=stop), icon)
+        return declare if component is None else declare(component)
 
+    @overload
+    def supervisor(self, component: Component, /) -> Component: ...
+    @overload
     def supervisor(
         self,
+        /,
         *,
         events: Outcomes | None = None,
         name: str | None = None,
@@ -128,22 +150,45 @@ class Toolbox(_afp.Toolbox):
         deadline: str | float | None = None,
         budget: str | float | None = None,
         icon: str | None = None,
-    ) -> Callable[[Component], Component]:
+    ) -> Callable[[Component], Component]: ...
+
+    def supervisor(
+        self,
+        component: Any = None,
+        /,
+        *,
+        events: Outcomes | None = None,
+        name: str | None = None,
+        uses: str | Sequence[str] = (),
+        every: str | float = "10 ms",
+        deadline: str | float | None = None,
+        budget: str | float | None = None,
+        icon: str | None = None,
+    ) -> Any:
         """Declare and implement a supervisor: a class with `poll`, or a function for each poll.
 
         Without `events`, a return annotation such as `-> Literal["Near"] | None` declares them.
+        `@tools.supervisor` alone does that, too.
         """
         timing = _timing(every=every, deadline=every if deadline is None else deadline, budget=budget)
-        return self._declarer("supervisor", events, name, uses, timing, icon)
+        declare = self._declarer("supervisor", events, name, uses, timing, icon)
+        return declare if component is None else declare(component)
+
+    @overload
+    def computation(self, component: Component, /) -> Component: ...
+    @overload
+    def computation(self, /, *, states: Outcomes | None = None, name: str | None = None, icon: str | None = None) -> Callable[[Component], Component]: ...
 
     def computation(
-        self, *, states: Outcomes | None = None, name: str | None = None, icon: str | None = None
-    ) -> Callable[[Component], Component]:
+        self, component: Any = None, /, *, states: Outcomes | None = None, name: str | None = None, icon: str | None = None
+    ) -> Any:
         """Declare and implement a computation: a function.
 
         Without `states`, a return annotation such as `-> Literal["Odd", "Even"]` declares them.
+        `@tools.computation` alone does that, too.
         """
-        return self._declarer("computation", states, name, (), "", icon)
+        declare = self._declarer("computation", states, name, (), "", icon)
+        return declare if component is None else declare(component)
 
     def _declarer(
         self, kind: str, given: Outcomes | None, name: str | None, uses: str | Sequence[str], timing: str, icon: str | None

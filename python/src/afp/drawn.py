@@ -13,7 +13,7 @@ import numpy as np
 from .stimuli import Fault, Faults, Press, Presses, Stimulus, several
 from .units import Quantity
 
-__all__ = ["Axis", "axes", "spelled", "text_of"]
+__all__ = ["Axis", "axes", "each", "spelled", "text_of"]
 
 Axis = tuple[str, str | list[tuple[str, str | None]], bool]
 """A name, a range or values with their units, and whether there is one value for each seed."""
@@ -24,10 +24,8 @@ def axes(seeds: Sequence[int], draw: Mapping[str, Any] | None, presses: Presses,
     if not isinstance(draw, (Mapping, type(None))):
         raise TypeError(f"draw gives entries functions of a random generator, such as {{'walldist': ...}}, not {draw!r}")
     made: list[Axis] = []
-    for name, function in (draw or {}).items():
-        if not callable(function):
-            raise TypeError(f"'{name}' is drawn by a function of a random generator, not by {function!r}; vary= takes values")
-        made.append((name, [_drawn(name, function, seed) for seed in seeds], True))
+    for name, given in (draw or {}).items():
+        made.append((name, _points(name, given, seeds), True))
     made += _lists("press.*", Press, presses, seeds)
     made += _lists("fail.*", Fault, faults, seeds)
     return made
@@ -36,7 +34,7 @@ def axes(seeds: Sequence[int], draw: Mapping[str, Any] | None, presses: Presses,
 def _lists(name: str, kind: type[Stimulus], given: Any, seeds: Sequence[int]) -> list[Axis]:
     if not callable(given):
         return []
-    every = [several(kind, given(_generator(name, seed))) for seed in seeds]
+    every = [several(kind, drawn) for drawn in each(name, given, seeds)]
     return [(name, [(" ".join(stimulus._spelled() for stimulus in these), None) for these in every], True)]
 
 
@@ -50,8 +48,26 @@ def _generator(name: str, seed: int) -> np.random.Generator:
     return np.random.default_rng([zlib.crc32(name.encode()), seed])
 
 
-def _drawn(name: str, function: Callable[[np.random.Generator], Any], seed: int) -> tuple[str, str | None]:
-    value = function(_generator(name, seed))
+def each(name: str, function: Callable[[np.random.Generator], Any], seeds: Sequence[int]) -> list[Any]:
+    """What a function draws for each seed."""
+    return [function(_generator(name, seed)) for seed in seeds]
+
+
+def _points(name: str, given: Any, seeds: Sequence[int]) -> list[tuple[str, str | None]]:
+    """The value of an axis for each seed."""
+    if callable(given):
+        values = each(name, given, seeds)
+    elif isinstance(given, Iterable) and not isinstance(given, str):
+        values = list(given)
+    else:
+        what = f"'{name}' is drawn by a function of a random generator, or has a list with a value for each seed"
+        raise TypeError(f"{what}, not {given!r}; vary= takes values for all seeds")
+    if len(values) != len(seeds):
+        raise ValueError(f"'{name}' has {len(values)} values for {len(seeds)} seeds; give one for each")
+    return [_point(name, value, seed) for value, seed in zip(values, seeds, strict=True)]
+
+
+def _point(name: str, value: Any, seed: int) -> tuple[str, str | None]:
     try:
         return text_of(value)
     except (TypeError, ValueError) as error:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import plots, tables
-from ._afp import Event, PlanError, Toolbox, draw_log, read_log, read_recipe
+from ._afp import Event, PlanError, Toolbox, draw_log, pixels, read_log, read_recipe
 from .picture import Picture
 from .plan import Plan
 from .simulation import Simulation
@@ -37,6 +37,8 @@ class Log(tables.Events):
     """The values of the entries at the end."""
     channels: dict[str, tuple[str, int]]
     """Schema and number of messages of each topic."""
+    signals: list[str]
+    """The names of the robot's signals in the log, by device and name: `ultrasonic.echo`."""
     path: NDArray[np.float64]
     """Where the robot was: rows of time, x, y, heading."""
     cut_short: str | None
@@ -51,6 +53,9 @@ class Log(tables.Events):
         self.configurations = told["entries"]
         self.entries = self.configurations[-1][1] if self.configurations else {}
         self.channels = told["channels"]
+        self._signals: dict[str, tuple[NDArray[np.float64], list[Any]]] = told["signals"]
+        self._frames: list[tuple[float, bytes]] = told["frames"]
+        self.signals = list(self._signals)
         self.path = told["path"]
         self.cut_short = told["cut_short"]
 
@@ -66,6 +71,31 @@ class Log(tables.Events):
             if value is not None and (not rows or rows[-1][1] != value):
                 rows.append((time, value))
         return np.array([time for time, _ in rows]), [value for _, value in rows]
+
+    def signal(self, name: str) -> tuple[NDArray[np.float64], NDArray[Any]]:
+        """The times and values of a signal: `log.signal("ultrasonic.echo")`.
+
+        A signal keeps a value until the next one. Numbers are an array of floats in SI units,
+        infinite for a range sensor without an echo, and not a number while the device is silent.
+        Truth values are an array of booleans, other values one of objects.
+        """
+        if name not in self._signals:
+            known = f"there are: {', '.join(self.signals)}" if self.signals else "it has none at all"
+            raise KeyError(f"the log has no signal '{name}'; {known}")
+        times, values = self._signals[name]
+        kinds = {type(value) for value in values}
+        if kinds <= {int, float, type(None)}:
+            return times.copy(), np.array([np.nan if value is None else value for value in values], np.float64)
+        return times.copy(), np.array([*values, None], object)[:-1] if kinds != {bool} else np.array(values)
+
+    def frames(self) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
+        """The times and the pictures of the camera: an array of pictures x rows x columns x 3; for
+        logs of `Simulation(..., log=..., camera=True)`.
+        """
+        pictures = [pixels(file) for _, file in self._frames]
+        if not pictures:
+            raise ValueError("the log has no pictures of the camera: log a run with Simulation(..., log=..., camera=True)")
+        return np.array([time for time, _ in self._frames]), np.stack([picture for picture in pictures if picture is not None])
 
     def simulation(self, at: float = 0.0, *, toolboxes: Sequence[Toolbox] = ()) -> Simulation:
         """Repeat the run up to a moment, from only the log. It continues like the original unless

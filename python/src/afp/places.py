@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ._afp import World
-from .units import number_in, plain, spelled
+from .units import heading_in, number_in, plain, spelled
 
 Place = World | str | os.PathLike[str]
 """A world, or where it is read from."""
@@ -47,7 +47,7 @@ def _pose(start: Sequence[float]) -> tuple[float, float, float]:
     if isinstance(start, str) or not isinstance(start, (Sequence, np.ndarray)) or len(start) not in (2, 3):
         raise TypeError(f"start is x, y and perhaps a heading, such as (1.0, 2.0, afp.deg(90)), not {start!r}")
     x, y, heading = [*start, 0.0][:3]
-    return number_in("start", x, "m"), number_in("start", y, "m"), number_in("start", heading, "rad")
+    return number_in("start", x, "m"), number_in("start", y, "m"), heading_in("start", heading)
 
 
 def _shown(value: Any) -> str:

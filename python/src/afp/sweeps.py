@@ -26,6 +26,7 @@ __all__ = ["Runs", "sweep"]
 
 Metric = Callable[[Result], float | None]
 Draw = Callable[[np.random.Generator], Any]
+DrawWorld = Callable[[np.random.Generator], Place]
 
 MOST_RUNS = 10_000_000
 """A sweep has at most so many runs."""
@@ -33,11 +34,11 @@ MOST_RUNS = 10_000_000
 
 def sweep(
     plan: Plan,
-    worlds: Place | Iterable[Place] | None = None,
+    worlds: Place | Iterable[Place] | DrawWorld | None = None,
     seeds: int | Iterable[int] = 1,
     vary: Mapping[str | Fault | Press, Any] | None = None,
     *,
-    draw: Mapping[str, Draw] | None = None,
+    draw: Mapping[str, Draw | Iterable[Any]] | None = None,
     until: float = 60.0,
     presses: Presses = (),
     faults: Faults = (),
@@ -51,7 +52,8 @@ def sweep(
 ) -> Runs:
     """Run a plan once for every combination of world, values and seed, on all cores.
 
-    `worlds` are files, `random:7`, or `World` objects; the default is the plan's world. `seeds` is
+    `worlds` are files, `random:7`, or `World` objects; the default is the plan's world. A function
+    of a `numpy.random.Generator` draws one world for each seed, with its robot. `seeds` is
     a number of seeds from 0 on, or the seeds: `range(0, 100, 10)`, `[1, 5]`. `vary` maps entries,
     or values of the world's file (`"world.robot.charge"`), to values: one (`afp.cm(30)`), several
     (`[afp.cm(30), "40cm", 0.5]`, an array) or a range as on the command line (`"20cm..60cm:5cm"`).
@@ -64,7 +66,8 @@ def sweep(
     `draw` maps entries, or values of the world's file, to functions of a `numpy.random.Generator`:
     `{"world.robot.charge": lambda rng: rng.uniform(0.2, 1.0)}`. `presses` and `faults` may be such
     functions, too. Each is called once for each seed, with a generator of its own, so that runs with
-    equal seeds have equal draws in every world and for all varied values.
+    equal seeds have equal draws in every world and for all varied values. `draw` also takes lists
+    with a value for each seed, such as the samples of a design of experiments.
 
     `metrics` adds columns: functions that take the `Result` of a run and return a number or `None`.
     `on_run` receives the row of each finished run. Both are called in the calling thread.
@@ -92,10 +95,12 @@ def sweep(
     if not isinstance(vary, (Mapping, type(None))):
         raise TypeError(f"vary gives entries lists of values, such as {{'walldist': [afp.cm(30), afp.cm(40)]}}, not {vary!r}")
     numbers = _seeds(seeds)
+    each = range(*numbers) if isinstance(numbers, tuple) else numbers
     axes = [_axis(name, given) for name, given in (vary or {}).items()]
-    axes += drawn.axes(range(*numbers) if isinstance(numbers, tuple) else numbers, draw, presses, faults)
+    axes += drawn.axes(each, draw, presses, faults)
     stimuli = (drawn.spelled(Press, presses), drawn.spelled(Fault, faults))
-    spec = Spec(_worlds(worlds), numbers, axes, until, _metrics(metrics), stimuli)
+    rooms = (drawn.each("world", worlds, each), True) if callable(worlds) else (worlds, False)
+    spec = Spec((_worlds(rooms[0]), rooms[1]), numbers, axes, until, _metrics(metrics), stimuli)
     sweeper = spec.sweeper(plan, out is not None or backend != "local")
     if out is not None:
         sweeper.open(os.fspath(out), restart)
@@ -136,7 +141,8 @@ def sweep(
 class Spec:
     """The arguments of a sweep, for the native half."""
 
-    worlds: list[World | str | None]
+    worlds: tuple[list[World | str | None], bool]
+    """The worlds, and whether there is one for each seed."""
     seeds: tuple[int, int] | list[int]
     vary: list[drawn.Axis]
     until: float

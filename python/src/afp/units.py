@@ -233,6 +233,14 @@ def number_in(what: str, value: Any, unit: str | None = None) -> Any:
     return number
 
 
+def heading_in(what: str, value: Any) -> Any:
+    """A heading in radians; a plain number of more than a turn is probably in degrees."""
+    number = number_in(what, value, "rad")
+    if number is not None and not isinstance(value, Quantity) and abs(number) > math.tau:
+        raise ValueError(f"{what} has the heading {number:g} rad, more than a turn; write degrees as afp.deg({number:g})")
+    return number
+
+
 def spelled(value: object) -> str:
     """A value in plan syntax: strings are unchanged, plain numbers have no unit."""
     value = plain(value)

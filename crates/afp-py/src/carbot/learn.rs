@@ -7,6 +7,7 @@ mod batch;
 mod course;
 mod courses;
 mod judge;
+mod moment;
 mod part;
 mod pool;
 mod score;
@@ -14,3 +15,4 @@ mod start;
 
 pub use courses::Courses;
 pub use judge::{Judge, target};
+pub use moment::Moment;

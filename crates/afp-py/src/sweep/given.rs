@@ -41,17 +41,22 @@ pub enum GivenValues {
     List(Vec<(String, Option<String>)>),
 }
 
-/// The worlds of a sweep; world objects with the same name get numbers.
-pub fn rooms(worlds: Vec<GivenWorld>) -> Vec<WorldChoice> {
+/// The worlds of a sweep. World objects with the same name get numbers; with one for each seed, the
+/// name contains the seed.
+pub fn rooms(worlds: Vec<GivenWorld>, by: Option<&Seeds>) -> Vec<WorldChoice> {
     let mut rooms: Vec<WorldChoice> = Vec::with_capacity(worlds.len());
-    for world in worlds {
+    for (number, world) in (0..).zip(worlds) {
         let room = match world {
             GivenWorld::Named(None) => WorldChoice::OfPlan,
             GivenWorld::Named(Some(name)) => WorldChoice::Named(name),
             GivenWorld::Made(world) => {
                 let loaded = world.get().loaded.clone();
                 let name = loaded.world.name().to_owned();
-                WorldChoice::Made(another(&rooms, name), loaded)
+                let name = match by {
+                    Some(seeds) => format!("{name} of seed {}", seeds.nth(number)),
+                    None => another(&rooms, name),
+                };
+                WorldChoice::Made(name, loaded)
             }
         };
         rooms.push(room);

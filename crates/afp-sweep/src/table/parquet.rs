@@ -3,31 +3,52 @@
 use std::io;
 use std::sync::Arc;
 
-use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
+use parquet::basic::{
+    Compression, ConvertedType, LogicalType, Repetition, Type as Physical, ZstdLevel,
+};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::Result;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
 use crate::columns::{Cells, Column, columns};
 use crate::grid::Sweep;
+use crate::header::Header;
 use crate::outcome::Outcome;
 
-/// Writes the outcomes as Parquet: counts as unsigned 64-bit integers, numbers as doubles, strings
-/// as UTF-8.
+/// Writes the outcomes as Parquet, compressed with Zstandard: counts as unsigned 64-bit integers,
+/// numbers as doubles, strings as UTF-8.
+///
+/// The file's metadata has the identity of the sweep: `afp.program`, `afp.plan_hash`,
+/// `afp.world_hash`, `afp.seeds`, `afp.grid`, and `afp.plan`, the plan's path.
 ///
 /// # Errors
 /// Two columns have the same name.
-pub fn to_parquet(sweep: &Sweep, outcomes: &[Outcome]) -> io::Result<Vec<u8>> {
-    write(&columns(sweep, outcomes)).map_err(io::Error::other)
+pub fn to_parquet(sweep: &Sweep, outcomes: &[Outcome], header: &Header) -> io::Result<Vec<u8>> {
+    let facts = [
+        ("afp.program", header.program.clone()),
+        ("afp.plan", sweep.plan.clone()),
+        ("afp.plan_hash", header.plan.clone()),
+        ("afp.world_hash", header.worlds.clone()),
+        ("afp.seeds", sweep.seeds.to_string()),
+        ("afp.grid", header.grid.clone()),
+    ];
+    let facts = facts.map(|(key, value)| KeyValue::new(key.to_owned(), value));
+    write(&columns(sweep, outcomes), facts.into()).map_err(io::Error::other)
 }
 
-fn write(columns: &[Column]) -> Result<Vec<u8>> {
+fn write(columns: &[Column], facts: Vec<KeyValue>) -> Result<Vec<u8>> {
     let fields = columns.iter().map(|column| Ok(Arc::new(field(column)?)));
     let fields = fields.collect::<Result<Vec<TypePtr>>>()?;
     let schema = Arc::new(Type::group_type_builder("outcomes").with_fields(fields).build()?);
     let mut bytes = Vec::new();
-    let mut file = SerializedFileWriter::new(&mut bytes, schema, Arc::default())?;
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::ZSTD(ZstdLevel::default()))
+        .set_key_value_metadata(Some(facts))
+        .build();
+    let mut file = SerializedFileWriter::new(&mut bytes, schema, Arc::new(properties))?;
     let mut group = file.next_row_group()?;
     let mut columns = columns.iter();
     while let Some(mut writer) = group.next_column()? {
@@ -90,12 +111,18 @@ mod tests {
     use parquet::record::RowAccessor;
 
     use super::*;
-    use crate::table::tests::{outcomes, sweep};
+    use crate::table::tests::{header, outcomes, sweep};
 
     #[test]
     fn parquet_keeps_types_and_gaps() {
-        let bytes = to_parquet(&sweep(), &outcomes()).unwrap();
+        let bytes = to_parquet(&sweep(), &outcomes(), &header()).unwrap();
         let reader = SerializedFileReader::new(parquet_bytes(bytes)).unwrap();
+        let facts = reader.metadata().file_metadata().key_value_metadata().unwrap();
+        let fact =
+            |key: &str| facts.iter().find(|it| it.key == key).unwrap().value.clone().unwrap();
+        assert_eq!((&*fact("afp.plan_hash"), &*fact("afp.seeds")), ("1234", "3..5"));
+        let group = reader.metadata().row_group(0);
+        assert!(matches!(group.column(0).compression(), Compression::ZSTD(_)));
         let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
         assert_eq!(rows.len(), 2);
         let at = |name| rows[0].get_column_iter().position(|(column, _)| column == name).unwrap();

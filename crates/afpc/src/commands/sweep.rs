@@ -148,6 +148,7 @@ impl Arguments {
         let sweep = Sweep {
             plan: self.plan.plan.clone(),
             worlds: if worlds.is_empty() { vec![WorldChoice::OfPlan] } else { worlds },
+            worlds_by_seed: false,
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
             caveat: None,

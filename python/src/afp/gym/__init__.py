@@ -47,6 +47,8 @@ A broken device keeps its last value; no fault raises. Ground truth is only in `
 | `reached` | 1 when the target is first reached, else 0; may end the episode |
 | `time` | the duration, s |
 
+**Plans.** `PlanEnv` is a plan as an environment whose policy chooses parameters or decisions.
+
 **Episodes.** `gymnasium.make` truncates them after 60 s (`max_episode_steps`). `reset(options=...)`
 takes `world`, `pose` (x and y in metres, heading in radians), `goal` (x, y) and `faults` for only
 this episode. Without a world each episode has a new random room. `faults` are `afp.Fault`, as in
@@ -67,7 +69,8 @@ if own_robot is not None:
 
 gymnasium = need("gymnasium")
 
-from .env import CarbotEnv  # noqa: E402
+from .env import CarbotEnv, Saved  # noqa: E402
+from .options import PlanEnv  # noqa: E402
 from .score import Score, evaluate, plan_of  # noqa: E402
 from .setting import PIXELS, RANGE, SPEED, STEP, TURN  # noqa: E402
 from .tasks import FIND_INFRARED, REACH_GOAL, ROAM, TASKS, WALL_FOLLOW, Task  # noqa: E402
@@ -86,6 +89,8 @@ __all__ = [
     "WALL_FOLLOW",
     "CarbotEnv",
     "CarbotVectorEnv",
+    "PlanEnv",
+    "Saved",
     "Score",
     "Task",
     "evaluate",

@@ -3,27 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .._afp import Courses, World
+from .._afp import Courses, Moment, World
 from . import picture
 from .screen import Screen
-from .setting import STEP, Faults, Given, Setting, Start, gymnasium, steps_of
+from .setting import STEP, Faults, Setting, Specified, Start, Worlds, gymnasium, named, steps_of
 from .tasks import ROAM, Task
 
-__all__ = ["CarbotEnv"]
+__all__ = ["CarbotEnv", "Saved"]
 
 CAMERA = (120, 160, 3)
 """The shape of the camera's pictures."""
 
 
-class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
+@dataclass(frozen=True)
+class Saved:
+    """Episodes at a moment, from which `restore` of their environment continues any number of
+    times.
+    """
+
+    moment: Moment
+    starts: list[Start | None]
+    rngs: list[np.random.Generator | None]
+    over: list[bool]
+
+
+class CarbotEnv(Specified, gymnasium.Env):  # type: ignore[misc]
     """The simulated Carbot; see `afp.gym` for actions, observations, reward and options.
 
-    `world` is a `World` or the path of its file; `None` gives each episode a random room. `task` is
+    `world` is a `World`, the path of its file or the text of its file; `None` gives each episode a
+    random room. A function of a random generator draws the world of each episode. `task` is
     a `Task` or its name; `observe`, `reward`, `ends`, `reach` and `fan` override the task's. With
     `point`, actions point the range sensor. `faults` apply in every episode. An episode is
     truncated after `time_limit` seconds; `gymnasium.make` sets `max_episode_steps` instead.
@@ -36,9 +51,9 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
 
     def __init__(
         self,
-        world: Given = None,
+        world: Worlds = None,
         *,
-        task: Task | str = ROAM,
+        task: Task | str | Mapping[str, Any] = ROAM,
         observe: Sequence[str] | None = None,
         reward: Mapping[str, float] | None = None,
         ends: Sequence[str] | None = None,
@@ -88,12 +103,32 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
         start = self._setting.start(self.np_random, options)
         seen = courses.reset([(0, start)])[0]
         self._start, self._world, self._background = start, None, None
-        world, target = courses.place(0)
-        info = {**self._info(courses), "world": world}
-        if target is not None:
-            info["target"] = np.array(target)
         self._show()
-        return seen, info
+        return seen, self._info(courses, start)
+
+    def save(self) -> Saved:
+        """Save the episode: robot, room, noise and reward. `restore` goes back to it.
+
+        `copy.deepcopy` copies a running environment with its wrappers, such as a limit of steps.
+        """
+        if self._start is None:
+            raise gymnasium.error.ResetNeeded("call reset() before save()")
+        return Saved(self._open().save(), [self._start], [deepcopy(self.np_random)], [False])
+
+    def restore(self, saved: Saved) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Go back, or forwards, to a saved moment; return its observation and the `info` of a
+        reset. The same actions then have the same results.
+        """
+        if not isinstance(saved, Saved):
+            raise TypeError(f"an environment is restored from what save() gave, not from {saved!r}")
+        courses = self._open()
+        seen = courses.restore(saved.moment)[0]
+        (start,), (rng,) = saved.starts, saved.rngs
+        assert start is not None and rng is not None
+        self.np_random = deepcopy(rng)
+        self._start, self._world, self._background = start, None, None
+        self._show()
+        return seen, self._info(courses, start)
 
     def step(self, action: Any) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Drive for 100 ms."""
@@ -153,9 +188,11 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
         return picture.with_robot(self._background, self.world, pose, courses.moving(0))
 
     @staticmethod
-    def _info(courses: Courses) -> dict[str, Any]:
+    def _info(courses: Courses, start: Start) -> dict[str, Any]:
         times, poses, collisions = courses.info()
-        return {"time": float(times[0]), "pose": poses[0], "collisions": int(collisions[0])}
+        target = courses.place(0)[1]
+        info = {"time": float(times[0]), "pose": poses[0], "collisions": int(collisions[0]), "world": named(start)}
+        return info if target is None else {**info, "target": np.array(target)}
 
 
 def _camera(courses: Courses) -> NDArray[np.uint8] | None:

@@ -17,7 +17,7 @@ from ..plan import Plan, load
 from ..seeds import seed_of
 from ..simulation import Simulation
 from ..stimuli import Fault, Faults
-from .setting import STEP, Given, Setting, gymnasium
+from .setting import STEP, Setting, Worlds, gymnasium
 from .tasks import Task, task_of
 from .vector import CarbotVectorEnv
 
@@ -74,7 +74,7 @@ def evaluate(
     task: Task | str,
     seeds: Iterable[int] = range(100),
     *,
-    world: Given = None,
+    world: Worlds = None,
     faults: Faults = (),
     **settings: Any,
 ) -> Score:
@@ -99,7 +99,7 @@ def evaluate(
     return _play(policy, task, seeds, world, {"faults": faults, **settings})
 
 
-def _play(policy: Any, task: Task, seeds: list[int], world: Given, settings: dict[str, Any]) -> Score:
+def _play(policy: Any, task: Task, seeds: list[int], world: Worlds, settings: dict[str, Any]) -> Score:
     """Score a policy; without one, random actions."""
     most = round(task.seconds / STEP)
     mode = gymnasium.vector.AutoresetMode.NEXT_STEP

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,9 @@ FOREVER = 2**63
 OPTIONS = ("world", "pose", "goal", "faults")
 
 Given = World | str | os.PathLike[str] | None
+"""A world, its file, the text of its file, or a random room."""
+Worlds = Given | Callable[[np.random.Generator], Given]
+"""A world, or a function that draws one for each episode."""
 Start = tuple[
     World | None,
     int,
@@ -51,7 +55,7 @@ class Setting:
     """The settings of an environment."""
 
     task: Task
-    world: World | None
+    world: World | Callable[[np.random.Generator], Given] | None
     faults: Faults
     point: bool
     steps: int
@@ -59,8 +63,8 @@ class Setting:
     @classmethod
     def of(
         cls,
-        world: Given,
-        task: Task | str,
+        world: Worlds,
+        task: Task | str | Mapping[str, Any],
         observe: Sequence[str] | None,
         reward: Mapping[str, float] | None,
         ends: Sequence[str] | None,
@@ -73,6 +77,9 @@ class Setting:
         """Read the arguments of an environment."""
         if isinstance(observe, str) or isinstance(ends, str):
             raise TypeError("observe and ends are lists of names, not one text")
+        if reward is not None and not isinstance(reward, Mapping):
+            what = "reward gives terms weights, such as {'ahead': 1.0, 'crash': -10.0}"
+            raise TypeError(f"{what}, not {reward!r}; gymnasium.wrappers.TransformReward takes a function")
         bearings = None if fan is None else tuple(number_in("fan", bearing, "rad") for bearing in fan)
         weights = None if reward is None else {name: number_in(f"the weight of '{name}'", reward[name]) for name in reward}
         changed = {"observe": observe and tuple(observe), "reward": weights, "ends": None if ends is None else tuple(ends)}
@@ -84,9 +91,9 @@ class Setting:
         if steps == 0:
             raise ValueError("an episode has at least one step; give a number from 1 on")
         if not callable(faults):
-            faults = tuple(several(Fault, faults))
+            faults = tuple(several(Fault, [Fault(**it) if isinstance(it, Mapping) else it for it in faults]))
         # Gymnasium's -1 means no limit.
-        return cls(task, world_of(world), faults, point, FOREVER if steps is None or steps < 0 else steps)
+        return cls(task, world if callable(world) else world_of(world), faults, point, FOREVER if steps is None or steps < 0 else steps)
 
     def courses(self, count: int) -> Courses:
         """Make a number of episodes."""
@@ -107,12 +114,13 @@ class Setting:
         if unknown:
             raise ValueError(f"no option '{unknown[0]}' of reset; there are: {', '.join(OPTIONS)}")
         room, noise = (int(number) for number in rng.integers(0, 2**32, 2))
+        world = options["world"] if options.get("world") is not None else self.world
+        world = world_of(world(rng) if callable(world) else world)
         faults = options.get("faults", self.faults)
         drawn = faults(rng) if callable(faults) else faults
         broken = [(it.device, it.kind, it.delay, it.share, it.at, it.lasting) for it in several(Fault, drawn)]
         if options.get("goal") is not None and self.task.reach != "goal":
             raise ValueError(f"'{self.task.name}' has no goal to drive to: make the environment with reach=\"goal\"")
-        world = world_of(options["world"]) if options.get("world") is not None else self.world
         return world, room, noise, _numbers("pose", options, ("m", "m", "rad")), _numbers("goal", options, ("m", "m")), broken
 
     def world_at(self, start: Start) -> World:
@@ -120,8 +128,59 @@ class Setting:
         return start[0] if start[0] is not None else World.random(start[1])
 
 
+def named(start: Start) -> str:
+    """The room of an episode in a form that `world` takes, or else its name."""
+    world = start[0]
+    if world is None:
+        return f"random:{start[1]}"
+    return world.name if world.path is None else os.fspath(world.path)
+
+
+def storable(spec: Any) -> Any:
+    """Gymnasium's specification of an environment with arguments that JSON can store."""
+    if spec is None:
+        return None
+    stored = copy(spec)
+    stored.kwargs = {name: _storable(value) for name, value in spec.kwargs.items()}
+    return stored
+
+
+def _storable(value: Any) -> Any:
+    if isinstance(value, World):
+        if value.path is not None:
+            return os.fspath(value.path)
+        # A start that differs from its text cannot be written exactly.
+        return value.text if World.parse(value.text) == value else value
+    if isinstance(value, Task):
+        return value._facts()
+    if isinstance(value, Fault):
+        return asdict(value)
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    return [_storable(one) for one in value] if isinstance(value, (list, tuple)) else value
+
+
+class Specified:
+    """A mixin for the specification that Gymnasium sets; tools such as Minari store it as JSON."""
+
+    _spec: Any = None
+
+    @property
+    def spec(self) -> Any:
+        """Gymnasium's specification, with worlds, tasks and faults as JSON can store them."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, spec: Any) -> None:
+        self._spec = storable(spec)
+
+
 def world_of(world: Given) -> World | None:
-    """A world, or the world of a file."""
+    """A world, or the world of a file or of a text."""
+    if isinstance(world, str) and "\n" in world:
+        return World.parse(world)
     place = None if world is None else place_of(world)
     return World.load(place) if isinstance(place, str) else place
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from types import MappingProxyType
+from typing import Any
 
 __all__ = ["FIND_INFRARED", "REACH_GOAL", "ROAM", "TASKS", "WALL_FOLLOW", "Task", "task_of"]
 
@@ -36,10 +37,14 @@ class Task:
     plan: str | None = None
     """The plan written by hand for it, a file of the package's."""
 
+    def _facts(self) -> dict[str, Any]:
+        """The arguments that make it, as JSON can store them."""
+        facts = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: list(fact) if isinstance(fact, tuple) else fact for name, fact in facts.items()} | {"reward": dict(self.reward)}
+
     def __reduce__(self) -> tuple[object, ...]:
         # A read-only mapping cannot be pickled.
-        parts = (self.name, dict(self.reward), self.ends, self.observe, self.reach, self.fan, self.seconds, self.plan)
-        return Task, parts
+        return task_of, (self._facts(),)
 
     def __hash__(self) -> int:
         return hash((self.name, tuple(sorted(self.reward.items())), self.ends, self.observe, self.reach, self.fan, self.seconds))
@@ -49,6 +54,8 @@ class Task:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "reward", MappingProxyType(dict(self.reward)))
+        for name in ("ends", "observe", "fan"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
 
 
 ROAM = Task("Roam", {"ahead": 1.0, "crash": -10.0})
@@ -96,8 +103,10 @@ TASKS: Mapping[str, Task] = MappingProxyType(
 """The tasks by the names of their environments."""
 
 
-def task_of(task: Task | str) -> Task:
-    """A task, or the task with that name."""
+def task_of(task: Task | str | Mapping[str, Any]) -> Task:
+    """A task, the task with that name, or one made from its facts."""
+    if isinstance(task, Mapping):
+        return Task(**task)
     if isinstance(task, Task):
         return task
     names = {known.name: known for known in TASKS.values()}

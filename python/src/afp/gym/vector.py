@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import picture
-from .setting import Faults, Given, Setting, Start, gymnasium
+from .env import Saved
+from .setting import Faults, Setting, Specified, Start, Worlds, gymnasium, named
 from .tasks import ROAM, Task
 
 __all__ = ["CarbotVectorEnv"]
@@ -17,7 +19,7 @@ __all__ = ["CarbotVectorEnv"]
 AutoresetMode = gymnasium.vector.AutoresetMode
 
 
-class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
+class CarbotVectorEnv(Specified, gymnasium.vector.VectorEnv):  # type: ignore[misc]
     """Many simulated Carbots; see `afp.gym`. Each gives the same results as a `CarbotEnv` with its
     seed.
 
@@ -32,9 +34,9 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
     def __init__(
         self,
         num_envs: int = 1,
-        world: Given = None,
+        world: Worlds = None,
         *,
-        task: Task | str = ROAM,
+        task: Task | str | Mapping[str, Any] = ROAM,
         observe: Sequence[str] | None = None,
         reward: Mapping[str, float] | None = None,
         ends: Sequence[str] | None = None,
@@ -74,7 +76,7 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Start all episodes, or those of `options["reset_mask"]`; `seed` is the first seed, or one
-        for each.
+        for each. `world`, `pose` and `goal` in `options` are for all, or lists with one for each.
         """
         super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
         options = dict(options or {})
@@ -83,7 +85,7 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         for index in which:
             if seeds[index] is not None or self._rngs[index] is None:
                 self._rngs[index], _ = gymnasium.utils.seeding.np_random(seeds[index])
-        seen = self._courses.reset([(index, self._begin(index, options)) for index in which])
+        seen = self._courses.reset([(index, self._begin(index, self._own(options, index))) for index in which])
         self._over[which] = False
         infos: dict[str, Any] = {}
         times, poses, collisions = self._courses.info()
@@ -111,6 +113,26 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         if self._mode == AutoresetMode.SAME_STEP and self._over.any():
             seen = self._begin_again(seen, infos)
         return seen, rewards, ended, late, {**infos, **self._figures()}
+
+    def save(self) -> Saved:
+        """Save all episodes: robots, rooms, noise and rewards. `restore` goes back to them."""
+        if any(rng is None for rng in self._rngs):
+            raise gymnasium.error.ResetNeeded("call reset() before save()")
+        return Saved(self._courses.save(), list(self._starts), deepcopy(self._rngs), self._over.tolist())
+
+    def restore(self, saved: Saved) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Go back, or forwards, to a saved moment; return its observations and the `infos` of a
+        reset. The same actions then have the same results.
+        """
+        if not isinstance(saved, Saved):
+            raise TypeError(f"environments are restored from what save() gave, not from {saved!r}")
+        seen = self._courses.restore(saved.moment)
+        self._starts, self._rngs, self._over = list(saved.starts), deepcopy(saved.rngs), np.array(saved.over)
+        self._backgrounds = {}
+        infos: dict[str, Any] = self._figures()
+        for index in range(self.num_envs):
+            infos = self._add_info(infos, self._place(index), index)
+        return seen, infos
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """The rooms from above."""
@@ -145,6 +167,19 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         self._starts[index] = start
         return start
 
+    def _own(self, options: Mapping[str, Any], index: int) -> dict[str, Any]:
+        """The options of one of them."""
+        own = dict(options)
+        for name, dimensions in (("world", 1), ("pose", 2), ("goal", 2)):
+            given = options.get(name)
+            many = isinstance(given, (list, tuple)) if name == "world" else given is not None and np.ndim(given) == dimensions
+            if given is None or not many:
+                continue
+            if len(given) != self.num_envs:
+                raise ValueError(f"'{name}' has {len(given)} for {self.num_envs} environments; give one for each")
+            own[name] = given[index]
+        return own
+
     def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
         if seed is None:
             return [None] * self.num_envs
@@ -166,8 +201,9 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         return [int(index) for index in np.flatnonzero(mask)]
 
     def _place(self, index: int) -> dict[str, Any]:
-        world, target = self._courses.place(index)
-        return {"world": world} if target is None else {"world": world, "target": np.array(target)}
+        start, target = self._starts[index], self._courses.place(index)[1]
+        world = {} if start is None else {"world": named(start)}
+        return world if target is None else {**world, "target": np.array(target)}
 
     def _figures(self) -> dict[str, Any]:
         times, poses, collisions = self._courses.info()

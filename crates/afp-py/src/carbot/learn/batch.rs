@@ -59,6 +59,13 @@ impl Batch {
         Batch { brief: Arc::new(brief), bounds, places }
     }
 
+    /// Makes as many places for the same task, without episodes.
+    pub fn empty_copy(&self) -> Batch {
+        let place = || Mutex::new(Place { seen: vec![0.0; self.bounds.len()], ..Place::default() });
+        let places = self.places.iter().map(|_| place()).collect();
+        Batch { brief: Arc::clone(&self.brief), bounds: self.bounds.clone(), places }
+    }
+
     pub fn len(&self) -> usize {
         self.places.len()
     }

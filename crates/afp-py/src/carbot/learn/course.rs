@@ -6,6 +6,7 @@ use afp_carbot::devices::{Navigator, Rotator};
 use afp_carbot::table::Fault;
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
 use afp_core::{Duration, Instant};
+use afp_session::Robot;
 use afp_sim::{Pose, Simulation, World};
 
 use super::part::{Part, Senses, seen_from};
@@ -77,6 +78,7 @@ pub struct Outcome {
 }
 
 /// An episode.
+#[derive(Clone)]
 pub struct Course {
     brief: Arc<Brief>,
     pub sim: Simulation,
@@ -110,6 +112,11 @@ impl Course {
         let score = Score::new(&sim, target, &brief.weights);
         let senses = Senses::new(&mut sim, &brief.fan);
         Ok(Course { brief: Arc::clone(brief), sim, world, target, score, senses, steps: 0 })
+    }
+
+    /// A copy that continues independently.
+    pub fn keyframe(&self) -> Option<Course> {
+        Some(Course { sim: Robot::keyframe(&self.sim)?, ..self.clone() })
     }
 
     /// Performs an action, given as shares from -1 to 1 of full values.

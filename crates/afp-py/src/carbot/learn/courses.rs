@@ -13,6 +13,7 @@ use pyo3::types::PyDict;
 use super::batch::{Batch, Place, Round, Task};
 use super::course::{Brief, Course, SPEED, STEP, Start, TURN};
 use super::judge::kind;
+use super::moment::Moment;
 use super::part::{Part, RANGE};
 use super::pool;
 use super::score::{NOTHING_TO_REACH, Weights};
@@ -239,6 +240,31 @@ impl Courses {
         let place = self.place_at(index)?;
         let course = begun(&place)?;
         link().sense(&course.sim, name, true)?.into_bound(py)
+    }
+
+    /// Copy all episodes at this moment.
+    fn save(&self) -> PyResult<Moment> {
+        let _use = self.take()?;
+        Moment::of(&self.batch)
+    }
+
+    /// Go back, or forwards, to a moment of episodes of the same task, and return all observations.
+    fn restore<'py>(
+        &self,
+        py: Python<'py>,
+        moment: &Moment,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let _use = self.take()?;
+        moment.restore(&self.batch)?;
+        Ok(self.seen()?.into_pyarray(py))
+    }
+
+    /// Copy all episodes for `copy.deepcopy`; the copies continue independently.
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> PyResult<Courses> {
+        let _use = self.take()?;
+        let batch = self.batch.empty_copy();
+        Moment::of(&self.batch)?.restore(&batch)?;
+        Ok(Courses { batch: Arc::new(batch), use_of: Mutex::new(()) })
     }
 
     fn __reduce__(&self) -> PyResult<()> {
