@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import os
 import re
 import subprocess
 import sys
@@ -10,9 +12,12 @@ from pathlib import Path
 import pytest
 
 import afp
+from conftest import ROOT
 
 pytest.importorskip("mypy")
 pytest.importorskip("gymnasium")
+
+NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))
 
 PROGRAM = """
 import afp
@@ -113,4 +118,33 @@ def test_a_program_is_clean_in_strict_mode(tmp_path: Path) -> None:
         text=True,
         cwd=tmp_path,
     )
+    assert checked.returncode == 0, checked.stdout
+
+
+def code_of(notebook: Path) -> str:
+    """The code of a notebook as a program."""
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    return "\n\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code") + "\n"
+
+
+@pytest.fixture
+def notebooks(tmp_path: Path) -> list[str]:
+    """Programs with the code of the notebooks."""
+    programs = [tmp_path / f"{notebook.stem}.py" for notebook in NOTEBOOKS]
+    for notebook, program in zip(NOTEBOOKS, programs, strict=True):
+        program.write_text(code_of(notebook), encoding="utf-8")
+    return [str(program) for program in programs]
+
+
+def test_the_code_of_notebooks_is_clean_in_strict_mode(notebooks: list[str], tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), *notebooks]
+    checked = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    assert checked.returncode == 0, checked.stdout
+
+
+@pytest.mark.skipif(not os.environ.get("AFP_PYRIGHT"), reason="AFP_PYRIGHT is not set; pyright loads Node.js packages")
+def test_pyright_finds_no_error(notebooks: list[str], tmp_path: Path) -> None:
+    (tmp_path / "program.py").write_text(PROGRAM)
+    command = [sys.executable, "-m", "pyright", "--level", "error", "--pythonpath", sys.executable, *notebooks, str(tmp_path / "program.py")]
+    checked = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
     assert checked.returncode == 0, checked.stdout

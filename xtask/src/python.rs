@@ -29,7 +29,18 @@ const PACKAGES: [&str; 17] = [
     "typing-extensions>=4.13",
 ];
 
-const LONG: [&str; 3] = ["ipykernel==7.4.0", "nbclient==0.11.0", "ray==2.60.0"];
+/// More packages for the long tests.
+const LONG: [&str; 6] = [
+    "ipykernel==7.4.0",
+    "nbclient==0.11.0",
+    "pyright==1.1.414",
+    "ray==2.60.0",
+    "stable-baselines3==2.9.0",
+    "uv==0.13.9",
+];
+
+/// The Pythons in which programs end in the middle of something.
+const PYTHONS: [&str; 4] = ["3.10", "3.11", "3.12", "3.13"];
 
 /// Duration of the nightly stress test, seconds.
 const STRESSED: &str = "600";
@@ -98,8 +109,9 @@ pub fn long() -> Result<(), Failure> {
     let stress = ["-m", "pytest", "--quiet", "-s", "tests/test_stress.py"];
     let mut stress = at_package(&python, &stress);
     run_command(stress.env("AFP_STRESS", STRESSED).env("AFP_SIMULATIONS", SIMULATIONS))?;
-    let exits = ["-m", "pytest", "--quiet", "-s", "tests/test_exits.py"];
-    run_command(at_package(&python, &exits).env("AFP_EXITS", EXITS))?;
+    PYTHONS.iter().try_for_each(|version| exits(&python, version))?;
+    let types = ["-m", "pytest", "--quiet", "tests/test_types.py", "tests/test_gym_sb3.py"];
+    run_command(at_package(&python, &types).env("AFP_PYRIGHT", "1"))?;
     let random = ["-m", "pytest", "--quiet", "tests/test_gym.py", "-k", "nothing_raises"];
     run_command(at_package(&python, &random).env("AFP_GYM_STEPS", RANDOM_STEPS))?;
     run_command(&mut at_package(&python, &["notebooks/execute.py"]))?;
@@ -113,6 +125,19 @@ pub fn long() -> Result<(), Failure> {
     // A missing file is also missing without optimisation.
     built.env("MATURIN_PEP517_ARGS", "--profile dev");
     run_command(built.env("CARGO_TARGET_DIR", target().join("xtask/sdist-target")))
+}
+
+/// Ends programs in the middle of something on one Python, which uv finds or installs.
+fn exits(python: &Path, version: &str) -> Result<(), Failure> {
+    let folder = target().join("xtask").join(format!("python-{version}"));
+    let venv = ["-m", "uv", "venv", "--quiet", "--clear", "--python", version];
+    run_command(program(python).args(venv).arg(&folder))?;
+    let there = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let wheel = only(&target().join("xtask/wheels/release"), "whl")?;
+    let pip = ["-m", "uv", "pip", "install", "--quiet", "gymnasium==1.4.0", "pytest==9.2.0"];
+    run_command(program(python).args(pip).arg(wheel).arg("--python").arg(&there))?;
+    let exits = ["-m", "pytest", "--quiet", "-s", "tests/test_exits.py"];
+    run_command(at_package(&there, &exits).env("AFP_EXITS", EXITS))
 }
 
 pub fn at_package(python: &Path, arguments: &[&str]) -> Command {

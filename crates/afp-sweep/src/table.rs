@@ -81,6 +81,6 @@ mod tests {
         assert!(lines.next().unwrap().starts_with("run,world,seed,d,ending,where,why,time_s,"));
         let first = lines.next().unwrap();
         assert!(first.starts_with("1,,4,20cm,error,,\"a, \"\"b\"\"\",,,,,,,,,"), "{first}");
-        assert!(first.ends_with("afpc run a.afp --seed 4 --set d=20cm --until 60s,0"), "{first}");
+        assert!(first.ends_with("afpc run a.afp --seed 4 --set d=20cm --until 60s,0.0"), "{first}");
     }
 }
