@@ -38,7 +38,7 @@ fn every_row_can_be_repeated() {
     }
     let table = rows(&place, "all/outcomes.csv");
     assert!(table[0].starts_with("run,world,seed,walldist,walldist_si,world.robot.charge,"));
-    assert!(table[16].starts_with("15,random:5,4,40cm,0.4,1,1,"), "{}", table[16]);
+    assert!(table[16].starts_with("15,random:5,4,40cm,0.4,1,1.0,"), "{}", table[16]);
     #[cfg(feature = "parquet")]
     assert!(place.bytes("all/outcomes.parquet").starts_with(b"PAR1"));
     let alone = place.afpc(&format!("{sweep} --json --jobs 1 -o one.csv"));
