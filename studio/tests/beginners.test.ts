@@ -97,7 +97,7 @@ inBrowser("an entry is added by a form, and the sign and an operation of a formu
   await page.keyboard.press("e");
   await fillEntry(page, "var way: angle = 3 cm +");
   await page.keyboard.press("Enter");
-  await page.locator(".board-notice").waitFor();
+  await page.locator("dialog .wrong", { hasText: "'3 cm +' is not a formula" }).waitFor();
   assert.equal(await page.getByRole("dialog").getByRole("textbox", { name: "Value" }).inputValue(), "3 cm +");
   await page.keyboard.press("Escape");
   await value(page, "P.go", "distance");

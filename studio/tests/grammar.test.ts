@@ -10,6 +10,7 @@ const files = (readdirSync(PAGE, { recursive: true }) as string[]).filter((name)
 /** What the page must not contain, with the files that may: the names of files are not plans. */
 const FORBIDDEN: [what: string, pattern: RegExp, except: readonly string[]][] = [
   ["a pattern of numbers with units", /\/[^/\n]*\\d[^/\n]*\[A-Za-z[^/\n]*\/[a-z]*\.(exec|test)/, []],
+  ["a pattern of names in plans", /\[A-Za-z_\]\\w/, []],
   ["a unit in a string", /["'`](cm|mm|m\/s|cm\/s|deg|rad|ms)["'`]/, []],
   ["a pattern over elements of SVG", /\/[^/\n]*<\[\^>\]/, []],
   ["an item of a plan", /`(actor|computation|subplan|supervise|var|const|in|out) \$\{/, []],

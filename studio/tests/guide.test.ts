@@ -125,6 +125,9 @@ inBrowser("the first plan: from nothing to a robot that drives, by the mouse alo
   const says = (words: string) => card.getByRole("heading", { name: words }).waitFor();
   await page.getByRole("button", { name: /Your first plan/ }).click();
   await says("Make it drive");
+  // The card covers nothing of the drawing.
+  const [strip, board] = [(await card.boundingBox())!, (await page.locator(".board").boundingBox())!];
+  assert.ok(strip.y + strip.height <= board.y + 1, JSON.stringify({ strip, board }));
   await page.locator(".palette-group").getByText("Forward", { exact: true }).click();
   await says("Choose what comes next");
   await page.locator(".stage").getByText("ForwardSuccessful").click({ force: true });

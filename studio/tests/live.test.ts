@@ -1,7 +1,8 @@
 // Live values: a slider writes an entry of the run at once, "Keep" writes it into the text; a number
 // becomes a variable, and the run goes on with the new text.
 import assert from "node:assert/strict";
-import type { Locator } from "playwright-core";
+import AxeBuilder from "@axe-core/playwright";
+import type { Locator, Page } from "playwright-core";
 import { inBrowser, settled } from "./browser";
 import { middle } from "./spots";
 
@@ -35,6 +36,12 @@ plan Outer {
 }
 `;
 
+/** Checks a part of the page with axe. */
+async function isAccessible(page: Page, part: string): Promise<void> {
+  const { violations } = await new AxeBuilder({ page }).include(part).analyze();
+  assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
+}
+
 const text = async (part: Locator): Promise<string> => (await part.textContent({ timeout: 10_000 })) ?? "";
 
 /** Waits until a text of the drawing matches. */
@@ -49,6 +56,7 @@ inBrowser("a slider writes an entry of the run at once, keep writes it into the 
   const popup = page.locator(".live-popup");
   const slider = popup.getByRole("slider");
   await slider.waitFor();
+  await isAccessible(page, ".live-popup");
   assert.deepEqual(await slider.evaluate((one: HTMLInputElement) => [one.min, one.max, one.value]), ["1", "20", "10"]);
   // By mouse: to the right end.
   const { x, y, width, height } = (await slider.boundingBox())!;
@@ -70,6 +78,7 @@ inBrowser("a slider writes an entry of the run at once, keep writes it into the 
   await page.getByRole("tab", { name: "Run" }).or(page.locator(".count")).first().click();
   const tab = page.getByRole("tab", { name: "Run" });
   await tab.click();
+  await isAccessible(page, ".bottom");
   await page.locator(".run-pane .live select").selectOption("true");
   await reads(page.locator('.run-value-text[data-item="P.loud"]'), /^true$/);
 });

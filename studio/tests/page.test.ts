@@ -227,7 +227,7 @@ inBrowser("a name that is none is said, in the drawing and in the inspector, and
     const field = page.locator("input.rename");
     await field.fill(wrong);
     await page.keyboard.press("Enter");
-    await page.locator(".board-notice", { hasText: "Letters a to z and A to Z, digits and _" }).waitFor();
+    await page.locator(".board-notice", { hasText: "cannot be a name" }).waitFor();
     assert.equal(await field.inputValue(), wrong, "it can be mended");
     await page.keyboard.press("Escape");
     await field.waitFor({ state: "detached" });

@@ -169,9 +169,10 @@ export function rename(part: Part): void {
   renaming.value = {
     name,
     rect: [x, y, rect[2] * zoom, rect[3] * zoom],
-    done: (to) => {
-      renaming.value = null;
-      if (to !== null && to !== name) void ask.edit([{ rename: { item: part.item, to } }], {}, [{ item: renamed(part.item, to) }]);
+    done: async (to) => {
+      const isDone = to === null || to === name || (await ask.edit([{ rename: { item: part.item, to } }], {}, [{ item: renamed(part.item, to) }])) !== null;
+      if (isDone) renaming.value = null;
+      return isDone;
     },
   };
 }

@@ -2,8 +2,7 @@
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { filtered, question, type Choice, type Question } from "./choose";
 import { icon } from "./fragment";
-import { isName, renaming } from "./rename";
-import { refuse } from "./say";
+import { renaming } from "./rename";
 import { size } from "./stage";
 import { words } from "./words";
 import type { Point } from "./shapes";
@@ -104,6 +103,7 @@ function List({ asked }: { asked: Question }) {
 export function Rename() {
   const asked = renaming.value;
   const field = useRef<HTMLInputElement>(null);
+  const isAsking = useRef(false);
   useLayoutEffect(() => {
     const input = field.current;
     if (!input || !asked) return;
@@ -115,20 +115,20 @@ export function Rename() {
     input.select();
   }, [asked]);
   if (!asked) return null;
-  const end = (take: boolean): void => {
+  const end = async (take: boolean): Promise<void> => {
     const name = field.current?.value.trim() ?? "";
-    if (renaming.peek() !== asked) return;
-    const wrong = take && name !== "" && !isName(name);
-    if (!wrong) return asked.done(take && isName(name) ? name : null);
-    // The typed text can be corrected, even after leaving the field.
-    refuse(words.nameHint);
-    if (document.activeElement === field.current) field.current?.select();
+    if (renaming.peek() !== asked || isAsking.current) return;
+    isAsking.current = true;
+    const isDone = await asked.done(take && name ? name : null);
+    isAsking.current = false;
+    // A rejected name can be corrected, even after leaving the field.
+    if (!isDone && document.activeElement === field.current) field.current?.select();
   };
   const key = (event: KeyboardEvent): void => {
     if (event.key !== "Enter" && event.key !== "Escape") return;
     event.preventDefault();
     event.stopPropagation();
-    end(event.key === "Enter");
+    void end(event.key === "Enter");
   };
-  return <input class="over rename" ref={field} aria-label={words.renameLabel(asked.name)} title={words.nameHint} pattern="[A-Za-z_]\w*" spellcheck={false} autocomplete="off" value={asked.name} onKeyDown={key} onBlur={() => end(true)} />;
+  return <input class="over rename" ref={field} aria-label={words.renameLabel(asked.name)} title={words.nameHint} spellcheck={false} autocomplete="off" value={asked.name} onKeyDown={key} onBlur={() => void end(true)} />;
 }

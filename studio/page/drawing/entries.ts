@@ -31,8 +31,12 @@ export const moved = ({ item, part }: Part, text: string): Promise<string[] | nu
   return ask.edit([{ addEntry }, { bind: { component: item, port: name, to: { in: name } } }]);
 };
 
+const added = ({ name, kind, type, value }: Entry): ask.Change => ({
+  addEntry: { plan: adding.peek()?.plan ?? "", keyword: kind, name, ty: type || null, value: value || null },
+});
+
+/** The reason why an entry would be rejected; null if it is accepted. */
+export const refusal = (entry: Entry): Promise<string | null> => ask.refused([added(entry)]);
+
 /** Adds an entry; returns whether it was accepted. */
-export async function take({ name, kind, type, value }: Entry): Promise<boolean> {
-  const addEntry = { plan: adding.peek()?.plan ?? "", keyword: kind, name, ty: type || null, value: value || null };
-  return (await ask.edit([{ addEntry }])) !== null;
-}
+export const take = async (entry: Entry): Promise<boolean> => (await ask.edit([added(entry)])) !== null;

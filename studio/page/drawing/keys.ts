@@ -166,7 +166,7 @@ async function paste(): Promise<void> {
 
 /** Leaves the innermost mode; the selection is last. */
 function escape(): void {
-  if (renaming.peek()) return renaming.peek()!.done(null);
+  if (renaming.peek()) return void renaming.peek()!.done(null);
   if (editing.peek()) return discard();
   if (several.peek()) return toggle(false);
   if (ended.peek() && !active.peek()) return dismiss();

@@ -6,10 +6,8 @@ export interface Renaming {
   name: string;
   /** In pixels of the pane. */
   rect: Rect;
-  done(name: string | null): void;
+  /** Takes the name, or null to cancel; false if the engine rejects it. */
+  done(name: string | null): Promise<boolean>;
 }
 
 export const renaming = signal<Renaming | null>(null);
-
-/** Whether it is an identifier. */
-export const isName = (name: string): boolean => /^[A-Za-z_]\w*$/.test(name);

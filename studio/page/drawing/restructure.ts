@@ -4,7 +4,6 @@ import { select, selected } from "../plan/selection";
 import * as actions from "./actions";
 import * as ask from "./ask";
 import { taken } from "./offers";
-import { isName } from "./rename";
 import { refuse } from "./say";
 import { holderOf, nameOf } from "./shapes";
 import { words } from "./words";
@@ -36,7 +35,7 @@ export async function extract(): Promise<void> {
   };
   const why = await ask.refused([change(free("Part", plans))]);
   if (why !== null) return refuse(new Error(why));
-  const wrong = (name: string): string | null => (!isName(name) ? words.nameHint : plans.has(name) ? words.planTaken(name) : null);
+  const wrong = (name: string): string | null => (plans.has(name) ? words.planTaken(name) : null);
   const newPlan = await askLine(words.extract, words.extractHint(elements.length), free("Part", plans), words.extractDone, wrong);
   if (newPlan === null) return;
   const extracted = change(newPlan);

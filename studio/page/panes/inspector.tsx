@@ -10,7 +10,6 @@ import { about } from "../drawing/messages";
 import { drawing, isEmpty } from "../drawing/model";
 import { draft, putBack, written } from "../drawing/drafts";
 import { component, worth, type Component as Found, type Port } from "../drawing/parts";
-import { isName } from "../drawing/rename";
 import { refuse } from "../drawing/say";
 import { nameOf, type Drawing, type Entry, type Part } from "../drawing/shapes";
 import { words } from "../drawing/words";
@@ -73,7 +72,7 @@ function Line({ item, label, value, take, wrong, hint, hidden }: { item: string;
 }
 
 const Name = ({ item }: { item: string }) => (
-  <Line item={item} label={words.name} value={nameOf(item)} wrong={(name) => (isName(name) ? null : words.nameHint)} take={(to) => ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }])} />
+  <Line item={item} label={words.name} value={nameOf(item)} hint={words.nameHint} take={(to) => ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }])} />
 );
 
 /** The help text of an item, as one line. */

@@ -1,7 +1,6 @@
 // The form for a new entry. Type and value are checked by the engine.
-import { useState } from "preact/hooks";
-import { adding, take } from "../drawing/entries";
-import { isName } from "../drawing/rename";
+import { useEffect, useState } from "preact/hooks";
+import { adding, refusal, take } from "../drawing/entries";
 import { words } from "../drawing/words";
 import { useModal } from "../screen/modal";
 import { words as page } from "../words";
@@ -18,16 +17,25 @@ function Form({ types }: { types: readonly string[] }) {
   const [value, setValue] = useState("");
   const close = (): void => void (adding.value = null);
   const dialog = useModal((open) => open.querySelector("input")?.select());
-  const wrong = isName(name) ? (type || value.trim() ? null : words.needsValue) : words.nameHint;
+  const entry = { name: name.trim(), kind, type, value: value.trim() };
+  const isEmpty = !type && !entry.value;
+  const [refused, setRefused] = useState<string | null>(null);
+  // The engine checks the name and the other fields while they change.
+  useEffect(() => {
+    let wanted = true;
+    void refusal(entry).then((why) => wanted && setRefused(why));
+    return () => void (wanted = false);
+  }, [name, kind, type, value]);
+  const wrong = isEmpty ? words.needsValue : refused;
   const submit = async (event: Event): Promise<void> => {
     event.preventDefault();
-    if (!wrong && (await take({ name, kind, type, value: value.trim() }))) close();
+    if (!wrong && (await take(entry))) close();
   };
   return (
     <dialog class="entry-form" ref={dialog} aria-labelledby="entry-form" onCancel={close}>
       <form onSubmit={(event) => void submit(event)}>
         <h2 id="entry-form">{words.addEntry}</h2>
-        <label class="line"><span>{words.name}</span><input type="text" value={name} aria-invalid={!isName(name)} spellcheck={false} autocomplete="off" onInput={(event) => setName(event.currentTarget.value)} /></label>
+        <label class="line"><span>{words.name}</span><input type="text" value={name} aria-invalid={wrong !== null} spellcheck={false} autocomplete="off" onInput={(event) => setName(event.currentTarget.value)} /></label>
         <label class="line">
           <span>{words.kindOf}</span>
           <select value={kind} onChange={(event) => setKind(event.currentTarget.value)}>
