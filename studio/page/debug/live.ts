@@ -1,7 +1,7 @@
 // Values of entries that change while the plan runs.
 import { signal } from "@preact/signals";
 import * as ask from "../drawing/ask";
-import { beneath } from "../drawing/actions";
+import { below, beneath } from "../drawing/actions";
 import { moved } from "../drawing/entries";
 import { drawing } from "../drawing/model";
 import { nameOf, planOf, type Part, type Point } from "../drawing/shapes";
@@ -18,7 +18,9 @@ export const isLive = (item: string): boolean =>
 /** Opens the control of an entry during a run; false if the run has none. */
 export function open(part: Part): boolean {
   if (!isLive(part.item)) return false;
-  opened.value = { item: part.item, at: beneath(part) };
+  // Below all entries, so that it covers no value.
+  const [entry, all] = [below(part), beneath({ item: `${planOf(part.item)}.start` })];
+  opened.value = { item: part.item, at: entry && all && [entry[0], all[1] + 8] };
   return true;
 }
 

@@ -128,7 +128,7 @@ function place(drawn: Drawing, item: string, words: string, name = ""): SVGEleme
   if (!rect) return [];
   const text = svg("text", { class: `run-place-text${name}`, x: rect[0] + 20, y: rect[1] + 4 });
   text.textContent = words;
-  return [svg("rect", { class: `run-place${name}`, x: rect[0] + 14, y: rect[1] - 9, width: words.length * 7 + 12, height: 18, rx: 9 }), text];
+  return [svg("rect", { class: `run-place${name}`, x: rect[0] + 14, y: rect[1] - 9, width: words.length * 7.6 + 14, height: 18, rx: 9 }), text];
 }
 
 /** Distance of the stripes over a suspended element. */
