@@ -77,26 +77,32 @@ impl Said {
         }
     }
 
-    /// Appends the message to a buffer.
+    /// Replaces the content of a buffer by the message.
     pub(crate) fn encode(self, at: Instant, buffer: &mut Vec<u8>) {
-        let encoded = match self {
-            Said::Transforms(transforms) => foxglove::transforms(at, &transforms).encode(buffer),
-            Said::Pose { frame, pose } => foxglove::pose(at, frame, pose).encode(buffer),
+        match self {
+            Said::Transforms(transforms) => fill(buffer, &foxglove::transforms(at, &transforms)),
+            Said::Pose { frame, pose } => fill(buffer, &foxglove::pose(at, frame, pose)),
             Said::Ranging { ranging, height, .. } => {
-                foxglove::ranging(&ranging, height).encode(buffer)
+                fill(buffer, &foxglove::ranging(&ranging, height));
             }
-            Said::Image { image, .. } => foxglove::image(&image).encode(buffer),
+            Said::Image { image, .. } => fill(buffer, &foxglove::image(&image)),
             Said::Sample { signal, value } => {
                 let (time, unit) = (Some(event::timestamp(at)), signal.unit.to_owned());
                 let value = Some(event::encode_value(value));
-                Sample { time, value, unit }.encode(buffer)
+                fill(buffer, &Sample { time, value, unit });
             }
-            Said::Scene(shapes) => foxglove::scene(at, &shapes).encode(buffer),
+            Said::Scene(shapes) => fill(buffer, &foxglove::scene(at, &shapes)),
             Said::Text { level, name, text } => {
-                foxglove::text(at, level, name, &text).encode(buffer)
+                fill(buffer, &foxglove::text(at, level, name, &text));
             }
-        };
-        // A Vec grows as needed; only a fixed buffer could be too short.
-        let _ = encoded;
+        }
     }
+}
+
+/// Replaces the content of a buffer by a message.
+pub(crate) fn fill(buffer: &mut Vec<u8>, message: &impl Message) {
+    buffer.clear();
+    buffer.resize(message.encoded_len(), 0);
+    // Into a slice, because a vector would grow byte by byte. The slice has the right length.
+    let _ = message.encode(&mut buffer.as_mut_slice());
 }

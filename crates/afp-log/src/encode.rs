@@ -1,19 +1,17 @@
 //! Converts a run to messages, one method per kind.
 
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::path::PathBuf;
 
-use afp_core::trace::{Author, Names, Record, TraceEntryId};
+use afp_core::trace::{Author, ComponentId, Names, Record, TraceEntryId, Verdict};
 use afp_core::{Instant, Value};
 use afp_session::{EventKind, OwnedRecord, RunEvent, author as author_of};
 use prost::Message;
 
-use crate::channels::{ALWAYS, CONFIGURATION, Channel, EVENTS, Key, Said, TABLE, topic};
+use crate::channels::{ALWAYS, CONFIGURATION, Channel, EVENTS, Key, Said, TABLE, fill, topic};
 use crate::error::LogError;
 use crate::event;
 use crate::messages::Messages;
-use crate::proto::afp::{self, Configuration};
+use crate::proto::afp::{Configuration, PlanEvent};
 
 /// A message from the recorder to its writer.
 pub(crate) enum Item {
@@ -58,10 +56,14 @@ struct Open {
 /// Converts the events of a run to messages.
 pub(crate) struct Encoder {
     to: Box<dyn Messages>,
-    /// The standard channels, and those of devices with samples.
-    channels: BTreeMap<Key, Open>,
+    /// The standard channels, and those of devices with samples. The most frequent channels come
+    /// first.
+    channels: Vec<(Key, Open)>,
     names: Box<dyn Names + Send>,
-    entries: Vec<afp::Entry>,
+    /// The values of all entries.
+    configuration: Configuration,
+    /// The messages of polls without an event, by supervisor, without their time; empty until used.
+    polls: Vec<Vec<u8>>,
     /// The commit whose entries are being collected.
     commit: Option<(Instant, Author)>,
     buffer: Vec<u8>,
@@ -78,8 +80,10 @@ impl Encoder {
     ) -> Result<Self, LogError> {
         let unset = |id| event::entry(&*names, TraceEntryId(id), afp_core::ValueRef::Unset);
         let entries = (0..names.entries()).map(unset).collect();
-        let (channels, commit, buffer) = (BTreeMap::new(), None, Vec::new());
-        let mut log = Encoder { to, channels, names, entries, commit, buffer };
+        let configuration = Configuration { entries, ..Configuration::default() };
+        let polls = vec![Vec::new(); names.components() as usize];
+        let (channels, commit, buffer) = (Vec::new(), None, Vec::new());
+        let mut log = Encoder { to, channels, names, configuration, polls, commit, buffer };
         for channel in ALWAYS {
             log.open(channel)?;
         }
@@ -90,13 +94,16 @@ impl Encoder {
 
     /// Opens a channel if it is new.
     fn open(&mut self, (key, schema, set): Channel) -> Result<&mut Open, LogError> {
-        Ok(match self.channels.entry(key) {
-            Entry::Occupied(open) => open.into_mut(),
-            Entry::Vacant(new) => {
+        let known = self.channels.iter().position(|(known, _)| *known == key);
+        let place = match known {
+            Some(place) => place,
+            None => {
                 let id = self.to.open(&topic(key), schema, set)?;
-                new.insert(Open { id, count: 0 })
+                self.channels.push((key, Open { id, count: 0 }));
+                self.channels.len() - 1
             }
-        })
+        };
+        self.channels.get_mut(place).map(|(_, open)| open).ok_or(LogError::Writer)
     }
 
     pub(crate) fn write(&mut self, item: Item) -> Result<(), LogError> {
@@ -112,7 +119,6 @@ impl Encoder {
                 self.set_all(at, &entries)
             }
             Item::Said { at, said } => {
-                self.buffer.clear();
                 let channel = said.channel();
                 said.encode(at, &mut self.buffer);
                 self.send_buffer(channel, at)
@@ -130,15 +136,40 @@ impl Encoder {
                 self.set(entry, new);
                 self.commit = Some((at, author));
             }
+            Record::Polled { supervisor, verdict: Verdict::Clear } => {
+                self.close_commit()?;
+                if (supervisor.0 as usize) < self.polls.len() {
+                    return self.clear_poll(at, supervisor, record);
+                }
+            }
             _ => self.close_commit()?,
         }
         let event = RunEvent::new(at, record, &*self.names);
         self.send(EVENTS, at, &event::message(event))
     }
 
+    /// Writes a poll without an event, which most records are: only its time is new.
+    fn clear_poll(
+        &mut self,
+        at: Instant,
+        supervisor: ComponentId,
+        record: &Record<'_>,
+    ) -> Result<(), LogError> {
+        let Some(poll) = self.polls.get_mut(supervisor.0 as usize) else { return Ok(()) };
+        if poll.is_empty() {
+            let event = event::message(RunEvent::new(at, record, &*self.names));
+            *poll = PlanEvent { time: None, ..event }.encode_to_vec();
+        }
+        // Joined messages have the fields of both, and the time is the first field.
+        let time = PlanEvent { time: Some(event::timestamp(at)), ..PlanEvent::default() };
+        fill(&mut self.buffer, &time);
+        self.buffer.extend_from_slice(poll);
+        self.send_buffer(EVENTS, at)
+    }
+
     fn set(&mut self, entry: TraceEntryId, value: afp_core::ValueRef<'_>) {
         let new = event::entry(&*self.names, entry, value);
-        if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
+        if let Some(kept) = self.configuration.entries.get_mut(entry.0 as usize) {
             *kept = new;
         }
     }
@@ -161,9 +192,10 @@ impl Encoder {
     }
 
     fn configuration(&mut self, at: Instant, author: String) -> Result<(), LogError> {
-        let entries = self.entries.clone();
-        let time = Some(event::timestamp(at));
-        self.send(CONFIGURATION, at, &Configuration { time, author, entries })
+        self.configuration.time = Some(event::timestamp(at));
+        self.configuration.author = author;
+        fill(&mut self.buffer, &self.configuration);
+        self.send_buffer(CONFIGURATION, at)
     }
 
     fn lost(&mut self, at: Instant, count: u64) -> Result<(), LogError> {
@@ -172,9 +204,7 @@ impl Encoder {
     }
 
     fn send(&mut self, to: Channel, at: Instant, message: &impl Message) -> Result<(), LogError> {
-        self.buffer.clear();
-        // A Vec grows as needed; only a fixed buffer could be too short.
-        let _ = message.encode(&mut self.buffer);
+        fill(&mut self.buffer, message);
         self.send_buffer(to, at)
     }
 

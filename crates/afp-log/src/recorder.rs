@@ -27,6 +27,9 @@ const CAPACITY: usize = 8192;
 const ROOM: usize = 256;
 /// The flush interval, so that a crash loses little.
 const FLUSH_EVERY: Span = Span::from_millis(250);
+/// The number of items after which a recorder that may wait wakes its writer, so that both work at
+/// the same time.
+const BATCH: u32 = 1024;
 /// The recorder's pause if the queue is full.
 const REST: Span = Span::from_micros(125);
 
@@ -57,6 +60,8 @@ pub struct Written {
 pub struct Recorder {
     queue: Producer<Item>,
     when_full: WhenFull,
+    /// Items since the writer was woken for a batch.
+    batch: u32,
     lost: u64,
     /// Dropped items that the log does not mention yet.
     unreported: u64,
@@ -140,6 +145,7 @@ impl Recorder {
         Ok(Recorder {
             queue,
             when_full,
+            batch: 0,
             lost: 0,
             unreported: 0,
             reported: false,
@@ -282,6 +288,12 @@ impl Recorder {
             item = back;
             self.wake();
             thread::sleep(REST);
+        }
+        if self.when_full == WhenFull::Wait {
+            self.batch = (self.batch + 1) % BATCH;
+            if self.batch == 0 {
+                self.wake();
+            }
         }
     }
 

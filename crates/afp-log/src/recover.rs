@@ -12,7 +12,7 @@ use mcap::{Attachment, Summary};
 
 use crate::error::LogError;
 use crate::scan::{Damage, load, salvage, scan};
-use crate::write::{LogWriter, begin, end};
+use crate::write::LogWriter;
 
 /// Result of a recovery.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,9 +83,9 @@ fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     // Damage outside of the copied records.
     damage = damage.or_else(|| scan(&bytes, |_| Ok(())).err().map(|why| why.to_string()));
     if let Some(damage) = &damage {
-        writer.write_metadata(&told(damage, &missing))?;
+        writer.add_metadata(&told(damage, &missing))?;
     }
-    let (output, _) = end(writer)?;
+    let (output, _) = writer.end()?;
     output.finish().map_err(failed)?;
     Ok(Recovered { path: to.to_owned(), messages, damage, missing })
 }
@@ -117,7 +117,7 @@ struct Copy<'a> {
 
 impl<'a> Copy<'a> {
     fn new(output: Output, summary: Option<&'a Summary>) -> Result<Self, LogError> {
-        let writer = begin(output, None)?;
+        let writer = LogWriter::begin(output)?;
         let (schemas, channels, missing) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
         let (messages, last, damage) = (0, None, None);
         Ok(Copy { writer, summary, schemas, channels, messages, last, damage, missing })
@@ -151,9 +151,9 @@ impl<'a> Copy<'a> {
                 let open = self.missing.last_mut().filter(|last| last.before.is_none());
                 open.into_iter().for_each(|last| last.before = Some(at));
                 self.last = Some(at);
-                self.writer.write_to_known_channel(&header, &data)?;
+                self.writer.add_message(&header, &data)?;
             }
-            Record::Metadata(metadata) => self.writer.write_metadata(&metadata)?,
+            Record::Metadata(metadata) => self.writer.add_metadata(&metadata)?,
             Record::Attachment { header, data, .. } => self.writer.attach(&Attachment {
                 log_time: header.log_time,
                 create_time: header.create_time,
@@ -168,9 +168,8 @@ impl<'a> Copy<'a> {
 
     fn add_channel(&mut self, channel: &records::Channel) -> Result<(), LogError> {
         let schema = self.schema(channel.schema_id)?;
-        let (topic, encoding) = (&channel.topic, &channel.message_encoding);
-        let id = self.writer.add_channel(schema, topic, encoding, &channel.metadata)?;
-        self.channels.insert(channel.id, id);
+        let new = records::Channel { schema_id: schema, ..channel.clone() };
+        self.channels.insert(channel.id, self.writer.add_channel(&new)?);
         Ok(())
     }
 

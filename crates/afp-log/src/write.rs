@@ -1,20 +1,19 @@
 //! The file side of a log: the run, its sources, and its messages in chunks.
 
+mod writer;
+
 use std::collections::BTreeMap;
-use std::io::{BufWriter, Seek};
 use std::path::{Path, PathBuf};
 
 use afp_core::Instant;
 use afp_output::Output;
-use mcap::records::{MessageHeader, Metadata};
-use mcap::write::NoSeek;
-use mcap::{Attachment, Compression, WriteOptions, Writer};
+use mcap::Attachment;
+use mcap::records::{Channel, MessageHeader, Metadata};
 
 use crate::error::LogError;
 use crate::messages::Messages;
 
-/// The uncompressed size after which a chunk is closed.
-const CHUNK: u64 = 256 * 1024;
+pub(crate) use writer::LogWriter;
 
 /// The description of the run before its first message.
 #[derive(Clone, Debug, Default)]
@@ -23,34 +22,6 @@ pub struct About {
     pub facts: Vec<(String, String)>,
     /// Name, media type and text of each attachment.
     pub attachments: Vec<(String, &'static str, String)>,
-}
-
-/// A file of records. It need not be seekable: a pipe takes a log, too.
-pub(crate) type LogWriter = Writer<NoSeek<BufWriter<Output>>>;
-
-/// Begins a file of records.
-///
-/// # Errors
-/// The header cannot be written.
-pub(crate) fn begin(output: Output, chunk: Option<u64>) -> Result<LogWriter, LogError> {
-    let options = WriteOptions::new()
-        .compression(Some(Compression::Lz4))
-        .disable_seeking(true)
-        .library(concat!("afp ", env!("CARGO_PKG_VERSION")));
-    let options = match chunk {
-        Some(bytes) => options.chunk_size(Some(bytes)),
-        None => options,
-    };
-    Ok(options.create(NoSeek::new(BufWriter::new(output)))?)
-}
-
-/// Writes the index and the rest; returns the file and its size in bytes.
-pub(crate) fn end(mut writer: LogWriter) -> Result<(Output, u64), LogError> {
-    writer.finish()?;
-    let mut file = writer.into_inner();
-    let bytes = file.stream_position().map_err(mcap::McapError::from)?;
-    let output = file.into_inner().into_inner();
-    Ok((output.map_err(|failed| mcap::McapError::from(failed.into_error()))?, bytes))
 }
 
 /// A log during writing; its name ends in `.part`.
@@ -66,9 +37,9 @@ impl LogFile {
         let failed = |error| LogError::Create { path: path.to_owned(), error };
         let output = Output::create(path).map_err(failed)?;
         let kept = output.kept().map(Path::to_owned);
-        let mut writer = begin(output, Some(CHUNK))?;
+        let mut writer = LogWriter::begin(output)?;
         let metadata = about.facts.iter().cloned().collect();
-        writer.write_metadata(&Metadata { name: "afp.run".into(), metadata })?;
+        writer.add_metadata(&Metadata { name: "afp.run".into(), metadata })?;
         for (name, media_type, text) in &about.attachments {
             writer.attach(&Attachment {
                 log_time: 0,
@@ -85,7 +56,13 @@ impl LogFile {
 impl Messages for LogFile {
     fn open(&mut self, topic: &str, schema: &str, set: &[u8]) -> Result<u16, LogError> {
         let schema = self.writer.add_schema(schema, "protobuf", set)?;
-        Ok(self.writer.add_channel(schema, topic, "protobuf", &BTreeMap::new())?)
+        Ok(self.writer.add_channel(&Channel {
+            id: 0,
+            schema_id: schema,
+            topic: topic.to_owned(),
+            message_encoding: "protobuf".to_owned(),
+            metadata: BTreeMap::new(),
+        })?)
     }
 
     fn send(
@@ -98,22 +75,22 @@ impl Messages for LogFile {
         let time = at.as_nanos();
         let header =
             MessageHeader { channel_id: channel, sequence, log_time: time, publish_time: time };
-        Ok(self.writer.write_to_known_channel(&header, message)?)
+        Ok(self.writer.add_message(&header, message)?)
     }
 
     fn came(&mut self, facts: Vec<(String, String)>) -> Result<(), LogError> {
         let metadata = facts.into_iter().collect();
-        Ok(self.writer.write_metadata(&Metadata { name: "afp.end".into(), metadata })?)
+        Ok(self.writer.add_metadata(&Metadata { name: "afp.end".into(), metadata })?)
     }
 
     /// Closes the open chunk and hands it to the operating system.
     fn flush(&mut self) -> Result<(), LogError> {
-        Ok(self.writer.flush()?)
+        Ok(self.writer.close_chunk()?)
     }
 
     /// Writes the index and, if the run ended in order, gives the log its name.
     fn finish(self: Box<Self>, in_order: bool) -> Result<(PathBuf, u64), LogError> {
-        let (output, bytes) = end(self.writer)?;
+        let (output, bytes) = self.writer.end()?;
         let part = output.path().to_owned();
         if !in_order {
             return Ok((part, bytes));
@@ -124,7 +101,7 @@ impl Messages for LogFile {
     }
 
     fn discard(self: Box<Self>) {
-        if let Ok((output, _)) = end(self.writer) {
+        if let Ok((output, _)) = self.writer.end() {
             output.discard();
         }
     }
