@@ -130,6 +130,8 @@ fn begun<'a>(letters: &str, list: &[&'a str]) -> Option<&'a str> {
 /// The word that begins an item. If there are several, the intended one.
 pub(crate) fn of_item(kind: Kind, written: &str) -> &str {
     let list: &[&str] = match kind {
+        Kind::Entry if has(written, ENTRY) => return written,
+        Kind::Element if has(written, ELEMENT) => return written,
         Kind::Entry => &with(ENTRY),
         Kind::Element => &with(ELEMENT),
         Kind::Template => &["actor", "supervisor", "computation"],

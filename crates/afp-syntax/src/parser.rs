@@ -22,7 +22,7 @@ mod slips;
 mod table;
 mod toolbox;
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use rowan::{Checkpoint, GreenNode, GreenNodeBuilder, Language};
@@ -77,9 +77,11 @@ struct Parser<'t, 'd> {
     commas_separate: bool,
     /// Whether the bounds of a range are being read.
     in_range: bool,
-    /// The names of the current plan, and of the plans after it.
-    known: Names<'t>,
-    plans: BTreeMap<usize, Names<'t>>,
+    /// The place of the current plan in `solid`.
+    plan: usize,
+    /// The names of all plans, found for the first message that needs them.
+    known: OnceCell<BTreeMap<usize, Names<'t>>>,
+    no_names: Names<'t>,
     /// The names with '-' in them.
     hyphens: BTreeSet<String>,
     /// The last element, template and state or event, for help texts.
@@ -119,8 +121,9 @@ impl<'t, 'd> Parser<'t, 'd> {
         let (marks, builder) = (Marks::new(tokens, &solid), GreenNodeBuilder::new());
         Parser {
             tokens,
-            plans: known::names(tokens, &solid),
-            known: Names::default(),
+            plan: usize::MAX,
+            known: OnceCell::new(),
+            no_names: Names::default(),
             solid,
             at: 0,
             built: 0,
@@ -194,6 +197,12 @@ impl<'t, 'd> Parser<'t, 'd> {
     /// The word before the next token.
     fn word_before(&self) -> &'t str {
         self.before().map_or("", |token| token.text)
+    }
+
+    /// The names of the current plan.
+    fn known(&self) -> &Names<'t> {
+        let all = self.known.get_or_init(|| known::names(self.tokens, &self.solid));
+        all.get(&self.plan).unwrap_or(&self.no_names)
     }
 
     /// Whether the next token is this word as a keyword. Before `:`, `=`, `=>` and `->` every word

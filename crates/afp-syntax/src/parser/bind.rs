@@ -131,7 +131,7 @@ impl Parser<'_, '_> {
     /// Whether a name ahead is a writable entry and ends a binding.
     fn may_take_value(&self, ahead: usize) -> bool {
         let ends = matches!(self.nth(ahead + 1), Kind::Comma | Kind::CloseParen);
-        ends && matches!(self.known.entries.get(self.word(ahead)), Some(&("var" | "out")))
+        ends && matches!(self.known().entries.get(self.word(ahead)), Some(&("var" | "out")))
     }
 
     /// `distance: length = 3 m`: the toolbox has the type of a port.

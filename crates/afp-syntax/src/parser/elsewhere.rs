@@ -94,7 +94,7 @@ impl<'t> Parser<'t, '_> {
 
     /// A help with the declarations that its plan text needs.
     fn with_declarations(&self, mut help: String, found: &Found<'_>) -> String {
-        let entries = &self.known.entries;
+        let entries = &self.known().entries;
         let written = found.captures.first().filter(|_| found.habit.pattern.starts_with("ENTRY"));
         let declared = written.and_then(|name| Some((name, entries.get(name.as_str())?)));
         if let Some((name, word @ (&"in" | &"const"))) = declared {
@@ -126,7 +126,7 @@ impl<'t> Parser<'t, '_> {
         let line = self.written_line(start, place);
         let is_formula = place & (VALUE | OPERATOR) != 0;
         fitting.into_iter().find_map(|habit| {
-            let entries = &self.known.entries;
+            let entries = &self.known().entries;
             let mut matcher =
                 Matcher { line: &line, entries, captures: Vec::new(), next: None, is_formula };
             let end = matcher.matches(habit.pattern, 0)?;

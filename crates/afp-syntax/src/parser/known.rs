@@ -32,7 +32,8 @@ pub(super) fn names<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeMap<usize, 
     let text = |at: usize| token(at).map_or("", |token| token.text);
     let kind = |at: usize| token(at).map_or(Kind::End, |token| token.kind);
     let mut found: BTreeMap<usize, Names<'t>> = BTreeMap::new();
-    let (mut plan, mut depth) = (0, 0_usize);
+    let mut plan: Option<(usize, Names<'t>)> = None;
+    let mut depth = 0_usize;
     let (mut element, mut supervisor) = ("", None);
     for at in 0..solid.len() {
         match (kind(at), text(at)) {
@@ -42,11 +43,11 @@ pub(super) fn names<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeMap<usize, 
                 supervisor = supervisor.filter(|(_, around)| depth > *around);
             }
             (Kind::Name, "plan") if depth == 0 => {
-                (plan, element, supervisor) = (at, "", None);
-                found.insert(at, Names::default());
+                (element, supervisor) = ("", None);
+                found.extend(plan.replace((at, Names::default())));
             }
             (sign, word) => {
-                let Some(names) = found.get_mut(&plan) else { continue };
+                let Some((_, names)) = &mut plan else { continue };
                 let name = at + 1 + usize::from(word == "in" && text(at + 1) == "live");
                 let is_named = kind(name) == Kind::Name;
                 let has_template = is_named && kind(at + 2) == Kind::Colon;
@@ -78,6 +79,7 @@ pub(super) fn names<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeMap<usize, 
             }
         }
     }
+    found.extend(plan);
     found
 }
 

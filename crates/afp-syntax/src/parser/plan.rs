@@ -19,7 +19,7 @@ const ITEM_HELP: &str =
 impl Parser<'_, '_> {
     pub(super) fn plan(&mut self) {
         self.open_item(Kind::Plan);
-        self.known = self.plans.remove(&self.at).unwrap_or_default();
+        self.plan = self.at;
         self.element = "terminate";
         self.keyword();
         self.word_twice();

@@ -74,7 +74,7 @@ impl Parser<'_, '_> {
         let is_edge = self.nth(1) == Kind::Dot && self.nth(3) == Kind::Arrow;
         let ends = self.nth(5) == Kind::CloseBrace || self.begins_line(5);
         let is_whole = ends && !event.is_empty() && !target.is_empty();
-        if !is_edge || !is_whole || !self.known.is_global(supervisor) {
+        if !is_edge || !is_whole || !self.known().is_global(supervisor) {
             return false;
         }
         let better = format!("on {supervisor} {{ {event} -> {target} }}");

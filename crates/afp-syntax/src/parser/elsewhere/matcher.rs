@@ -44,12 +44,11 @@ pub(super) fn beginning(token: &str, place: Places) -> Vec<&'static Habit> {
         false => &[],
     };
     let words = std::iter::once(token).chain(classes.iter().copied());
-    let mut found: Vec<usize> =
-        words.filter_map(|word| BY_FIRST.get(word)).flatten().copied().collect();
+    let all = words.filter_map(|word| BY_FIRST.get(word)).flatten().copied();
+    let mut found: Vec<usize> = all.filter(|index| HABITS[*index].at & place != 0).collect();
     found.sort_unstable();
     found.dedup();
-    let habits = found.into_iter().map(|index| &HABITS[index]);
-    habits.filter(|habit| habit.at & place != 0).collect()
+    found.into_iter().map(|index| &HABITS[index]).collect()
 }
 
 pub(super) struct Matcher<'l, 't> {

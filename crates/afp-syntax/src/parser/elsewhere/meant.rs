@@ -36,7 +36,7 @@ impl<'h> Reads<'h> {
 impl Parser<'_, '_> {
     /// Whether a name is that of a value, a component or a sensor, so that it is not the name of a state or event.
     pub(in crate::parser) fn is_read(&self, name: &str) -> bool {
-        let known = &self.known;
+        let known = self.known();
         let is_small = name.starts_with(|first: char| first.is_ascii_lowercase());
         known.entries.contains_key(name)
             || known.supervisors.contains_key(name)
@@ -51,7 +51,7 @@ impl Parser<'_, '_> {
         found: &Found<'_>,
     ) -> Option<(String, String)> {
         let reads = Reads::of(help)?;
-        let (known, name, then) = (&self.known, reads.name, reads.then);
+        let (known, name, then) = (self.known(), reads.name, reads.then);
         if known.entries.contains_key(name) {
             return None;
         }
@@ -104,7 +104,8 @@ impl Parser<'_, '_> {
             false => sensor.supervisor,
         };
         let template = supervisor.split([' ', '(']).nth(2).unwrap_or_default();
-        let mut watching = self.known.supervisors.iter().filter(|(_, it)| it.template == template);
+        let mut watching =
+            self.known().supervisors.iter().filter(|(_, it)| it.template == template);
         if let Some((name, watch)) = watching.find(|(_, watch)| !watch.event.is_empty()) {
             return Some(leads((name, watch.event), then, edge));
         }

@@ -11,7 +11,10 @@ impl Parser<'_, '_> {
     /// `20 cm per s`: reports the word behind a unit, and reads past it and the unit behind it.
     pub(in crate::parser) fn unit_in_words(&mut self) {
         let is_word = matches!(self.word(0), "per" | "pro" | "je" | "par") && self.on_same_line();
-        let behind = Unit::meant(self.word(1)).filter(|_| is_word && !self.begins_line(1));
+        if !is_word || self.begins_line(1) {
+            return;
+        }
+        let behind = Unit::meant(self.word(1));
         let (Some(unit), Some(behind)) = (self.before(), behind) else { return };
         let better = format!("{}/{behind}", unit.text);
         let place = self.span_of(unit).to(self.ahead(2));
