@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{Line, Names, NoTrace, Record, Sink};
-use afp_core::{EntryId, Fault, Instant, Scheduler, StartError, Wake};
+use afp_core::{EntryId, Fault, Instant, Release, Scheduler, StartError, Wake};
 
 use crate::platform::{CostClock, Log, Platform};
 use crate::script::{Outside, Script};
@@ -33,6 +33,15 @@ struct Run<'s, P: NamedPlan, S> {
     script: &'s Script,
     /// The number of stimuli so far.
     arrived: usize,
+    /// The request of a debugger for the next step.
+    steered: Option<Steered>,
+}
+
+/// A request of a debugger.
+#[derive(Clone, Copy)]
+enum Steered {
+    Hold,
+    Release(Release),
 }
 
 /// Runs a plan by a script; returns the trace and, in square brackets, the requests to the
@@ -63,6 +72,7 @@ where
         log: log.clone(),
         script,
         arrived: 0,
+        steered: None,
     };
     run.set_inputs();
     if let Some(wake) = run.start() {
@@ -137,6 +147,8 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
             self.arrived += 1;
             match what {
                 Outside::Stop => self.scheduler.request_stop(),
+                Outside::Hold => self.steered = Some(Steered::Hold),
+                Outside::Release(how) => self.steered = Some(Steered::Release(*how)),
                 Outside::Write(name, value) => {
                     let entry =
                         self.scheduler.plan().entry_named(name).unwrap_or(EntryId(u16::MAX));
@@ -153,7 +165,11 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
             self.scheduler = self.scheduler.try_clone().expect("all components can be copied");
         }
         let on = (&mut self.platform, &mut self.sink, &self.clock);
-        let step = || self.scheduler.step(on, now);
+        let step = || match self.steered.take() {
+            None => self.scheduler.step(on, now),
+            Some(Steered::Hold) => self.scheduler.hold(on, now),
+            Some(Steered::Release(how)) => self.scheduler.release(on, now, how),
+        };
         match catch_unwind(AssertUnwindSafe(step)) {
             Ok(wake) => self.noted(wake),
             Err(_) => self.abort(),

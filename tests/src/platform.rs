@@ -97,6 +97,10 @@ impl Environment for Platform {
         self.log.note(format!("{now} [stop]"));
     }
 
+    fn hold(&mut self, now: Instant) {
+        self.log.note(format!("{now} [hold]"));
+    }
+
     fn emergency_stop(&mut self) {
         self.log.note("[emergency stop]".to_owned());
     }

@@ -82,8 +82,22 @@ fn outside(plan: &RandomPlan, dice: &mut Dice, text: &mut String) {
         let (entry, value) = (dice.pick(&plan.entries), dice.pick(&values));
         let _ = writeln!(text, "at {at} ms: write {entry} = {value}");
     }
+    debugger(dice, text);
     if dice.percent(10) {
         let _ = writeln!(text, "at {} ms: stop", dice.between(LENGTH / 2, LENGTH));
+    }
+}
+
+/// Holds and releases, in any order.
+fn debugger(dice: &mut Dice, text: &mut String) {
+    if dice.percent(50) {
+        return;
+    }
+    let mut at = moment(dice) / 2;
+    while at < LENGTH {
+        let what = dice.pick(&["hold", "hold", "continue", "go to the next", "go to the next"]);
+        let _ = writeln!(text, "at {at} ms: {what}");
+        at += dice.pick(&[0, 1, 5, 10, 23, 40]);
     }
 }
 

@@ -9,6 +9,7 @@
 //! at 10 ms: a panic
 //! at 15 ms: write x = 3
 //! at 20 ms: stop
+//! at 20 ms: hold                      'hold', 'continue' or 'go to the next', as a debugger
 //! step at 10 ms 13 ms                 default: at the plan's wakes
 //! show polls                          also of actors
 //! show wakes
@@ -23,7 +24,7 @@ mod parse;
 use std::fmt;
 use std::ops::Range;
 
-use afp_core::{Duration, Instant, Value};
+use afp_core::{Duration, Instant, Release, Value};
 
 pub use parse::ScriptError;
 
@@ -90,6 +91,8 @@ pub enum Act {
 pub enum Outside {
     Write(String, Value),
     Stop,
+    Hold,
+    Release(Release),
 }
 
 impl Script {

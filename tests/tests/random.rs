@@ -6,6 +6,7 @@
 mod rules;
 
 use afp_tests::interpret::{graph, interpret};
+use afp_tests::random::RandomPlan;
 use afp_tests::random_script::script;
 use afp_tests::script::Script;
 use afp_tests::{compare, random};
@@ -18,6 +19,23 @@ mod plans {
 }
 
 const SCRIPTS: u64 = 10;
+
+/// While a plan is held, no component starts and no actor is polled.
+fn nothing_acts_in_a_hold(trace: &[String], plan: &RandomPlan, script: u64) {
+    let actors: Vec<_> = plan.channels.iter().filter(|channel| channel.actor).collect();
+    let polls =
+        |line: &str| actors.iter().any(|actor| line.ends_with(&format!(" [poll {}]", actor.name)));
+    let mut held = false;
+    for line in trace {
+        let acts = line.ends_with(" started") || line.contains(" reads ") || polls(line);
+        assert!(!held || !acts, "script {script}: {line} in\n{}", plan.text);
+        if line.ends_with(" held") || line.ends_with(" held before its start") {
+            held = true;
+        } else if line.ends_with(" released") || line.contains(" ended ") {
+            held = false;
+        }
+    }
+}
 
 #[test]
 fn interpreter_and_generated_code_agree() {
@@ -33,6 +51,7 @@ fn interpreter_and_generated_code_agree() {
             if let Some(parted) = compare::part(&interpreted, &generated(&script)) {
                 panic!("seed {seed}, script {script_seed}: {parted}\n\n{text}\n{}", plan.text);
             }
+            nothing_acts_in_a_hold(&interpreted, &plan, script_seed);
             exercised.count(&interpreted);
         }
     }

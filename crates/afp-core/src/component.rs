@@ -42,6 +42,12 @@ pub trait Environment {
     /// commands are obeyed.
     fn stop(&mut self, now: Instant);
 
+    /// Keeps the robot stationary while the plan is held by a debugger. Called every 10 ms. The
+    /// default sends the stop command.
+    fn hold(&mut self, now: Instant) {
+        self.stop(now);
+    }
+
     /// Stops by the strongest means after which the robot is usable again once it is opened or
     /// reset. Called if the run can no longer be trusted, and by the driver before it leaves the
     /// robot unattended. May be called several times and without a clock.

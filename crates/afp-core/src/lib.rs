@@ -38,5 +38,7 @@ pub use job::{Job, Ticket, Worker};
 pub use platform::Platform;
 pub use reading::{Invalid, Reading};
 pub use rt::{NamedPlan, Plan, PlanState, Run, Scale, Unit, WriteError};
-pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, SetError, StartError, TypedEntry, Wake};
+pub use scheduler::{
+    MAX_WRITES_PER_STEP, Release, Scheduler, SetError, StartError, TypedEntry, Wake,
+};
 pub use trace::Ending;

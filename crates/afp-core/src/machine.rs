@@ -16,6 +16,8 @@
 //!   enter:   start its supervisors, look, read its inputs, start it
 //! ```
 //!
+//! A held plan ([`hold`]) does not step: its active element is suspended until the release.
+//!
 //! A sub-plan is an element whose poll is the step of its own machine. Outer plans are polled
 //! first; the innermost element is interrupted first.
 
@@ -24,12 +26,14 @@ mod at;
 mod enter;
 mod give_back;
 mod held;
+mod hold;
 mod leave;
 mod sweep;
 
 use crate::fault::Fault;
 use crate::rt::{
-    Aside, Committer, Cx, ElementRow, Flow, Plan, PlanState, Polled, Run, Slot, Tables, Target,
+    Aside, Committer, Cx, ElementRow, Flow, Kept, Plan, PlanState, Polled, Run, Slot, Tables,
+    Target,
 };
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
 use afp_types::{Duration, ElementId, Instant, SupervisorId};
@@ -48,6 +52,8 @@ struct Level<P: PlanState> {
     slots: P::Slots,
     active: Option<ElementId>,
     due: Instant,
+    /// Whether the active actor was interrupted because it cannot be suspended: it starts again.
+    restarts: bool,
     /// The element that is set aside while a handler is active.
     aside: P::Aside,
 }
@@ -70,8 +76,9 @@ impl<P: PlanState> Machine<P> {
     /// A machine that has not started.
     pub fn new(plan: P) -> Self {
         let (tables, slots) = (plan.tables(), plan.slots());
+        let (active, due, restarts) = (None, Instant::MAX, false);
         let aside = P::Aside::default();
-        Machine { tables, level: Level { plan, slots, active: None, due: Instant::MAX, aside } }
+        Machine { tables, level: Level { plan, slots, active, due, restarts, aside } }
     }
 
     /// A copy that runs independently; `None` if a component cannot be copied.
@@ -131,12 +138,12 @@ impl<P: PlanState> Machine<P> {
         result
     }
 
-    /// Suspends the active elements, innermost first. Nothing is called until [`Machine::resume`]
-    /// or [`Machine::interrupt`].
+    /// Suspends the active elements, innermost first. An actor that cannot be suspended is
+    /// interrupted. Nothing is called until [`Machine::resume`] or [`Machine::interrupt`].
     ///
     /// # Errors
     /// The fault of an actor: the sub-plan must be interrupted.
-    pub fn suspend<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Result<(), Fault>
+    pub fn suspend<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Result<Kept, Fault>
     where
         P: Plan<R::Env>,
     {
@@ -175,8 +182,9 @@ impl<P: PlanState + Clone> Clone for Machine<P> {
 impl<P: PlanState> Level<P> {
     /// The same state with a copy of the plan.
     fn with(&self, plan: P) -> Self {
-        let Level { slots, active, due, aside, .. } = self;
-        Level { plan, slots: slots.clone(), active: *active, due: *due, aside: aside.clone() }
+        let (slots, aside) = (self.slots.clone(), self.aside.clone());
+        let Level { active, due, restarts, .. } = *self;
+        Level { plan, slots, active, due, restarts, aside }
     }
 }
 
@@ -184,6 +192,7 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
     fn start(&mut self) -> Flow {
         self.level.active = None;
         self.level.due = Instant::MAX;
+        self.level.restarts = false;
         self.level.aside.set(None);
         if let Err(why) = self.level.plan.initialise() {
             // The values belong to the plan, whichever component was called last.
@@ -201,6 +210,11 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
             if let Err(fault) = self.start_supervisor(supervisor) {
                 return self.end(Ending::Error(fault));
             }
+        }
+        let first =
+            Edge { target: Some(Target::Element(self.t.table().start)), ending: Ending::Ok };
+        if let Some(held) = self.held_before(first) {
+            return held;
         }
         match self.enter(self.t.table().start).transpose() {
             None => Flow::Running(self.wake()),

@@ -30,8 +30,8 @@ pub use native::{
     finite, initial, input, limited, output, print_choice, read_choice, set_input, stage_outside,
     store_text, within, within_int, within_value,
 };
-pub use plan::{Committer, Cx, Fired, Flow, Polled, Slot, Started};
-pub(crate) use plan::{Place, StepState};
+pub use plan::{Committer, Cx, Fired, Flow, Kept, Polled, Slot, Started};
+pub(crate) use plan::{Hold, Place, StepState, Stops};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
 pub use probe::{ActorSupported, Probe, ResumableSupported, SupervisorSupported, Unsupported};
 pub use row::{RowInputs, row};

@@ -2,6 +2,7 @@
 
 mod drive;
 mod guard;
+mod hold;
 mod outside;
 
 use core::fmt;
@@ -18,6 +19,7 @@ use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink};
 
 use guard::guarded;
 
+pub use hold::Release;
 pub use outside::{SetError, TypedEntry};
 
 /// Maximum number of writes from outside per step.
@@ -100,6 +102,7 @@ impl core::error::Error for StartError {}
 enum State {
     Ready,
     Running,
+    Held,
     /// A panic unwound through a call of a component or, if `outside`, of a sink or a clock.
     Broken {
         outside: bool,
@@ -164,7 +167,7 @@ impl<P: PlanState> Scheduler<P> {
     pub fn ending(&self) -> Option<Ending> {
         match self.state {
             State::Ended(ending) => Some(ending),
-            State::Ready | State::Running | State::Broken { .. } => None,
+            State::Ready | State::Running | State::Held | State::Broken { .. } => None,
         }
     }
 
@@ -193,7 +196,9 @@ impl<P: PlanState> Scheduler<P> {
         match self.state {
             State::Ready => {}
             State::Broken { outside } => return Ok(self.broken(outside, on)),
-            State::Running | State::Ended(_) => return Err(StartError::AlreadyStarted),
+            State::Running | State::Held | State::Ended(_) => {
+                return Err(StartError::AlreadyStarted);
+            }
         }
         if let Some(entry) = self.machine.plan().missing_input() {
             return Err(StartError::InputMissing(EntryId(entry)));
@@ -222,7 +227,7 @@ impl<P: PlanState> Scheduler<P> {
         P: Plan<R::Env>,
     {
         if self.state != State::Running {
-            return self.not_running(on);
+            return self.not_running(on, now);
         }
         if now < self.last {
             let (_, sink, clock) = on.parts();
@@ -261,7 +266,7 @@ impl<P: PlanState> Scheduler<P> {
                 Wake::Ended(ending)
             }
             State::Broken { outside } => self.broken(outside, on),
-            State::Ready | State::Running => self.conclude(Flow::Fatal(fault), on),
+            State::Ready | State::Running | State::Held => self.conclude(Flow::Fatal(fault), on),
         }
     }
 
@@ -273,8 +278,12 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     #[cold]
-    fn not_running<R: Run>(&mut self, on: R) -> Wake {
+    fn not_running<R: Run>(&mut self, on: R, now: Instant) -> Wake
+    where
+        P: Plan<R::Env>,
+    {
         match self.state {
+            State::Held => self.step_held(on, now),
             State::Ended(ending) => Wake::Ended(ending),
             State::Broken { outside } => self.broken(outside, on),
             State::Ready | State::Running => Wake::NotStarted,
@@ -313,7 +322,8 @@ impl<P: PlanState> Scheduler<P> {
         let flow = guarded(&mut self.state, (sink, clock), |sink, clock| {
             let mut cx = context((env, sink, clock), self.last, &mut self.step);
             cx.trace(&Record::StopRequested);
-            match self.machine.interrupt(&mut cx) {
+            let held = self.machine.abandon_held(&mut cx);
+            match held.and_then(|()| self.machine.interrupt(&mut cx)) {
                 Ok(()) => {
                     let ending = Ending::Interrupted;
                     cx.trace(&Record::Ended { plan: ComponentId(0), ending });
@@ -328,7 +338,14 @@ impl<P: PlanState> Scheduler<P> {
     /// Converts a level's flow to the run's state.
     fn conclude<R: Run>(&mut self, flow: Flow, on: R) -> Wake {
         match flow {
-            Flow::Running(wake) => Wake::At(wake),
+            Flow::Running(wake) => {
+                self.state = State::Running;
+                Wake::At(wake)
+            }
+            Flow::Held(wake) => {
+                self.state = State::Held;
+                Wake::At(wake)
+            }
             Flow::Ended(ending) => {
                 self.state = State::Ended(ending);
                 Wake::Ended(ending)

@@ -96,6 +96,8 @@ impl fmt::Display for Line<'_> {
             }
             Kind::Returned { away } => write!(f, "{component} returned after {away}"),
             Kind::Abandoned { started } => write!(f, "{component} abandoned{}", before(*started)),
+            Kind::Held { started } => write!(f, "{component} held{}", before(*started)),
+            Kind::Released => write!(f, "{component} released"),
             Kind::Faulted(FaultText { code, text }) => {
                 write!(f, "{component} fault {code}: {text}")
             }

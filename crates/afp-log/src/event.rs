@@ -4,7 +4,7 @@
 use afp_core::trace::{
     self, Cause, ComponentId, ComponentName, EntryName, Names, Outcome, TraceEntryId, declared,
 };
-use afp_core::{Duration, Instant, ValueRef};
+use afp_core::{Duration, Instant, Release, ValueRef};
 use afp_session::{
     Datum, Done, EndingKind, EventAt, EventKind, FaultText, Holder, Miss, NameWithUnit,
     NamedComponent, NamedOutcome, Pose2, Put, Report, Requested, RunEvent, Stimulus,
@@ -102,6 +102,11 @@ impl PlanEvent {
                 self.started = started;
                 Kind::Abandoned
             }
+            EventKind::Held { started } => {
+                self.started = started;
+                Kind::Held
+            }
+            EventKind::Released => Kind::Released,
             EventKind::Faulted(fault) => self.put_fault(fault, Kind::Faulted),
             EventKind::Ended { ending, fault } => {
                 self.set_ending(match ending {
@@ -208,6 +213,8 @@ fn kind(message: PlanEvent) -> EventKind {
         }
         Kind::Returned => EventKind::Returned { away: Duration::from_nanos(message.away_ns) },
         Kind::Abandoned => EventKind::Abandoned { started: message.started },
+        Kind::Held => EventKind::Held { started: message.started },
+        Kind::Released => EventKind::Released,
         Kind::Faulted => EventKind::Faulted(fault),
         Kind::Ended => match ending {
             plan_event::Ending::NotEnded => EventKind::Unknown,
@@ -284,6 +291,9 @@ fn encode_request(request: Requested) -> Request {
             };
             Request { pose: vec![at.x, at.y, at.heading], ..about(kind, name) }
         }
+        Stimulus::Pause => about(request::Kind::Hold, String::new()),
+        Stimulus::Release(Release::Continue) => about(request::Kind::Continue, String::new()),
+        Stimulus::Release(Release::Step) => about(request::Kind::Step, String::new()),
         Stimulus::Stop => about(request::Kind::Stop, String::new()),
     };
     let (became, why) = match done {
@@ -332,6 +342,9 @@ fn decode_request(message: Request) -> Option<Requested> {
             Stimulus::Put(what, decode_pose(&message.pose))
         }
         request::Kind::Drop => Stimulus::Put(Put::New(name), decode_pose(&message.pose)),
+        request::Kind::Hold => Stimulus::Pause,
+        request::Kind::Continue => Stimulus::Release(Release::Continue),
+        request::Kind::Step => Stimulus::Release(Release::Step),
         request::Kind::Stop => Stimulus::Stop,
     };
     Some(Requested { at, what, done })

@@ -40,6 +40,9 @@ pub trait AnySession: Send {
     /// The value of an entry of the plan itself.
     fn entry(&self, id: EntryId) -> ValueRef<'_>;
 
+    /// Whether the plan is held.
+    fn is_held(&self) -> bool;
+
     /// Deadlines missed so far, skipped releases included.
     fn misses(&self) -> u64;
 

@@ -130,7 +130,8 @@ impl Counts {
                 self.stopped(at, element);
                 self.leave(element);
             }
-            Record::Suspended { element, started: true, .. } => self.suspended(at, element),
+            Record::Suspended { element, started: true, .. }
+            | Record::Held { element, started: true } => self.suspended(at, element),
             Record::Returned { component, .. } => self.returned(at, component),
             Record::Abandoned { element, started: true } => {
                 self.with(element, |usage| usage.interruptions += 1);

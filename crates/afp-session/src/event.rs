@@ -113,6 +113,13 @@ pub enum EventKind {
         /// Whether the element had started.
         started: bool,
     },
+    /// A debugger holds the plan.
+    Held {
+        /// Whether the element has started and continues on release; otherwise it starts.
+        started: bool,
+    },
+    /// A held plan continues.
+    Released,
     /// A component failed.
     Faulted(FaultText),
     /// A plan ended.
@@ -279,6 +286,10 @@ impl RunEvent {
                 let (event, element) = (event.outcome, element.id);
                 Record::Event { supervisor: component, event, element }
             }
+            EventKind::Diverted { event, supervisor } => {
+                let (supervisor, event) = (supervisor.id, event.outcome);
+                Record::Diverted { element: component, supervisor, event }
+            }
             EventKind::Suspended { supervisor, started } => {
                 let (supervisor, started) = (supervisor.id, *started);
                 Record::Suspended { element: component, supervisor, started }
@@ -287,6 +298,7 @@ impl RunEvent {
             EventKind::Abandoned { started } => {
                 Record::Abandoned { element: component, started: *started }
             }
+            EventKind::Held { started } => Record::Held { element: component, started: *started },
             EventKind::Faulted(_) => {
                 Record::Faulted { component, fault: Fault::INTERNAL, detail: None }
             }

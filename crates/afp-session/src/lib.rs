@@ -39,6 +39,7 @@ mod opened;
 mod queue;
 mod recipe;
 mod record;
+mod remote;
 mod request;
 mod robot;
 mod robots;
@@ -70,6 +71,7 @@ pub use opened::{Opener, hardware, only_hardware};
 pub use queue::{QueueReader, QueueWriter, queue};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
+pub use remote::{Asked, Busy, Remote, Steering, Tripwire, Wire, remote};
 pub use request::{
     ByIds, DEFAULT_UNTIL, HOLD, Held, Put, Request, RequestError, RequestId, RequestOf,
 };
@@ -77,7 +79,7 @@ pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulate
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
 pub use robots::{Loader, simulated};
-pub use sample::{FILM, Image, Pose2, Ranging, SampleRef, Shape, Transform, frames};
+pub use sample::{FILM, Image, OwnedSample, Pose2, Ranging, SampleRef, Shape, Transform, frames};
 pub use sampling::Samples;
 pub use session::{SAMPLE, Session};
 pub use stimulus::{ByNames, NameWithUnit, Report, Stimulus};

@@ -34,9 +34,21 @@ impl Opened {
         H: Hardware,
         Session<P, H, Kept>: AnySession,
     {
+        Opened::with(settings, |robot: H| Session::on_hardware(plan, robot))
+    }
+
+    fn with<P, H>(
+        settings: &Settings,
+        session: impl FnOnce(H) -> Session<P, H, Kept>,
+    ) -> Result<Self, SessionError>
+    where
+        P: NamedPlan + Plan<H> + 'static,
+        H: Hardware,
+        Session<P, H, Kept>: AnySession,
+    {
         let robot = H::open(settings).map_err(|why| SessionError::Hardware(why.into()))?;
         let last_resort = robot.last_resort();
-        let session = Session::on_hardware(plan, robot);
+        let session = session(robot);
         let watch = session.watch();
         Ok(Opened { session: Box::new(session), last_resort, watch })
     }
@@ -88,6 +100,6 @@ impl<H: Hardware, F: Fn(&mut Registry<H>) + Sync> Opener for Kind<H, F> {
         (self.register)(&mut registry);
         // First, so that an error leaves the robot untouched.
         let plan = LoadedPlan::new(plan, &registry).map_err(SessionError::Load)?;
-        Opened::new::<_, H>(plan, settings)
+        Opened::with(settings, |robot: H| Session::on_hardware(plan, robot).testable())
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use afp_core::devices::{ControlId, FaultId};
 use afp_core::trace::{ComponentId, Outcome};
-use afp_core::{Duration, EntryId, Instant, Value, WriteError};
+use afp_core::{Duration, EntryId, Instant, Release, Value, WriteError};
 
 use crate::sample::Pose2;
 
@@ -33,6 +33,10 @@ pub enum RequestOf<H: Held> {
     Idle(Option<H::Component>),
     /// Places an object of a simulated world: metres, radians.
     Put(Put, Pose2),
+    /// Holds the plan: its active element is suspended, or interrupted, until the release.
+    Pause,
+    /// Releases a held plan.
+    Release(Release),
     /// Ends the plan as interrupted.
     Stop,
 }

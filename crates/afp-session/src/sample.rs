@@ -195,7 +195,9 @@ impl SampleRef<'_> {
 }
 
 /// An owned sample. Pictures, outlines and texts longer than an entry can hold are on the heap.
-pub(crate) enum OwnedSample {
+pub struct OwnedSample(Owned);
+
+enum Owned {
     Bool(bool),
     Int(i64),
     Float(f64),
@@ -209,35 +211,37 @@ pub(crate) enum OwnedSample {
 }
 
 impl OwnedSample {
-    pub(crate) fn new(value: SampleRef<'_>) -> Self {
-        match value {
-            SampleRef::Bool(truth) => OwnedSample::Bool(truth),
-            SampleRef::Int(number) => OwnedSample::Int(number),
-            SampleRef::Float(number) => OwnedSample::Float(number),
+    /// Copies a sample.
+    pub fn new(value: SampleRef<'_>) -> Self {
+        OwnedSample(match value {
+            SampleRef::Bool(truth) => Owned::Bool(truth),
+            SampleRef::Int(number) => Owned::Int(number),
+            SampleRef::Float(number) => Owned::Float(number),
             SampleRef::Text(text) => match Text::try_from(text) {
-                Ok(text) => OwnedSample::Text(text),
-                Err(_) => OwnedSample::LongText(text.into()),
+                Ok(text) => Owned::Text(text),
+                Err(_) => Owned::LongText(text.into()),
             },
-            SampleRef::Pose(frame) => OwnedSample::Pose(frame),
-            SampleRef::Range(ranging) => OwnedSample::Range(ranging),
+            SampleRef::Pose(frame) => Owned::Pose(frame),
+            SampleRef::Range(ranging) => Owned::Range(ranging),
             SampleRef::Image(image) => {
-                OwnedSample::Image(Box::new((Image { rgb: &[], ..image }, image.rgb.to_vec())))
+                Owned::Image(Box::new((Image { rgb: &[], ..image }, image.rgb.to_vec())))
             }
-            SampleRef::Outline(shape) => OwnedSample::Outline(Box::new(shape.clone())),
-        }
+            SampleRef::Outline(shape) => Owned::Outline(Box::new(shape.clone())),
+        })
     }
 
-    pub(crate) fn get(&self) -> SampleRef<'_> {
-        match self {
-            OwnedSample::Bool(truth) => SampleRef::Bool(*truth),
-            OwnedSample::Int(number) => SampleRef::Int(*number),
-            OwnedSample::Float(number) => SampleRef::Float(*number),
-            OwnedSample::Text(text) => SampleRef::Text(text),
-            OwnedSample::LongText(text) => SampleRef::Text(text),
-            OwnedSample::Pose(frame) => SampleRef::Pose(*frame),
-            OwnedSample::Range(ranging) => SampleRef::Range(*ranging),
-            OwnedSample::Image(image) => SampleRef::Image(Image { rgb: &image.1, ..image.0 }),
-            OwnedSample::Outline(shape) => SampleRef::Outline(shape),
+    /// The sample with borrowed values.
+    pub fn get(&self) -> SampleRef<'_> {
+        match &self.0 {
+            Owned::Bool(truth) => SampleRef::Bool(*truth),
+            Owned::Int(number) => SampleRef::Int(*number),
+            Owned::Float(number) => SampleRef::Float(*number),
+            Owned::Text(text) => SampleRef::Text(text),
+            Owned::LongText(text) => SampleRef::Text(text),
+            Owned::Pose(frame) => SampleRef::Pose(*frame),
+            Owned::Range(ranging) => SampleRef::Range(*ranging),
+            Owned::Image(image) => SampleRef::Image(Image { rgb: &image.1, ..image.0 }),
+            Owned::Outline(shape) => SampleRef::Outline(shape),
         }
     }
 }

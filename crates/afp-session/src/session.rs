@@ -24,7 +24,7 @@ use crate::robot::{FaultOf, Measure, Robot};
 use crate::sampling::Turn;
 use crate::watch::Pulse;
 
-use asked::Testing;
+use asked::{Testing, Work};
 use grid::SampleGrid;
 
 /// The period of samples for measures.
@@ -47,6 +47,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     /// The same for another thread; `None` in simulation.
     pulse: Option<Arc<Pulse>>,
     started: bool,
+    /// The work of the next step.
+    work: Work,
     /// Whether a step is in progress: then a panic comes from the plan.
     stepping: bool,
     /// The time of the last step.
@@ -107,6 +109,7 @@ where
             passed: robot.now(),
             pulse: None,
             started: false,
+            work: Work::Start,
             stepping: false,
             stepped: None,
             due: robot.now(),
@@ -162,6 +165,7 @@ where
             passed: self.passed,
             pulse: self.pulse.clone(),
             started: self.started,
+            work: self.work,
             stepping: self.stepping,
             stepped: self.stepped,
             due: self.due,
@@ -357,16 +361,19 @@ where
         let Session { scheduler, robot, sink, clock, .. } = self;
         let on = (robot, sink, &*clock);
         self.stepping = true;
-        let wake = match self.started {
-            true => scheduler.step(on, now),
-            false => match scheduler.start(on, now) {
+        let wake = match self.work {
+            Work::Step => scheduler.step(on, now),
+            Work::Start => match scheduler.start(on, now) {
                 Ok(wake) => wake,
                 Err(why) => {
                     self.stepping = false;
                     return Err(why);
                 }
             },
+            Work::Hold => scheduler.hold(on, now),
+            Work::Release(how) => scheduler.release(on, now, how),
         };
+        self.work = Work::Step;
         self.stepping = false;
         self.woke(wake, now, to);
         Ok(())

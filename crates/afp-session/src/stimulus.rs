@@ -4,7 +4,7 @@ use std::fmt;
 
 use afp_core::devices::{ControlId, DeviceRow, controls, faults, find_control, find_fault};
 use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome, TraceEntryId, declared};
-use afp_core::{Duration, EntryId, Value};
+use afp_core::{Duration, EntryId, Release, Value};
 use afp_types::Measured;
 
 use crate::datum::{Datum, Holder};
@@ -87,6 +87,8 @@ impl Stimulus {
             }
             Request::Idle(element) => Stimulus::Idle(element.map(path)),
             Request::Put(what, at) => Stimulus::Put(what.clone(), *at),
+            Request::Pause => Stimulus::Pause,
+            Request::Release(how) => Stimulus::Release(*how),
             Request::Stop => Stimulus::Stop,
         }
     }
@@ -133,6 +135,8 @@ impl Stimulus {
             }
             Stimulus::Idle(path) => Request::Idle(path.as_ref().map(component).transpose()?),
             Stimulus::Put(what, at) => Request::Put(what.clone(), *at),
+            Stimulus::Pause => Request::Pause,
+            Stimulus::Release(how) => Request::Release(*how),
             Stimulus::Stop => Request::Stop,
         })
     }
@@ -178,6 +182,9 @@ impl fmt::Display for Stimulus {
                 }
                 write!(f, " to {x:.2} m, {y:.2} m, {:.0}°", heading.to_degrees())
             }
+            Stimulus::Pause => f.write_str("hold"),
+            Stimulus::Release(Release::Continue) => f.write_str("continue"),
+            Stimulus::Release(Release::Step) => f.write_str("step"),
             Stimulus::Stop => f.write_str("stop"),
         }
     }

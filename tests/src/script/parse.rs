@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use afp_core::{Duration, Instant, Text, Value};
+use afp_core::{Duration, Instant, Release, Text, Value};
 
 use super::{Act, Outside, Phase, Script, Signal};
 
@@ -64,7 +64,7 @@ fn read_happening(script: &mut Script, when: &str, what: &str) -> Option<()> {
         _ => return None,
     };
     match what.split_once(' ') {
-        None if what == "stop" => script.outside.push((during.start, Outside::Stop)),
+        _ if let Some(steers) = read_steering(what) => script.outside.push((during.start, steers)),
         Some(("write", assignment)) => {
             let (entry, value) = read_assignment(assignment)?;
             script.outside.push((during.start, Outside::Write(entry, value)));
@@ -76,6 +76,16 @@ fn read_happening(script: &mut Script, when: &str, what: &str) -> Option<()> {
         None => return None,
     }
     Some(())
+}
+
+fn read_steering(text: &str) -> Option<Outside> {
+    Some(match text {
+        "stop" => Outside::Stop,
+        "hold" => Outside::Hold,
+        "continue" => Outside::Release(Release::Continue),
+        "go to the next" => Outside::Release(Release::Step),
+        _ => return None,
+    })
 }
 
 fn read_act(text: &str) -> Option<(Phase, Act)> {
@@ -142,6 +152,8 @@ mod tests {
             always: g costs 6 us
             at 15 ms: write x = \"a b\"
             at 20 ms: stop
+            at 21 ms: hold
+            at 22 ms: go to the next
             step at 10 ms 13 us
             show polls
             until 100 ms"
@@ -150,7 +162,7 @@ mod tests {
         assert_eq!(script.inputs, [("x".to_owned(), Value::Float(2.5))]);
         assert_eq!(script.signals.len(), 3);
         assert_eq!(script.signals[1].phase, Phase::Start);
-        assert_eq!((script.outside.len(), script.show_polls), (2, true));
+        assert_eq!((script.outside.len(), script.show_polls), (4, true));
         assert_eq!(script.steps.unwrap()[1].as_nanos(), 13_000);
     }
 

@@ -68,6 +68,14 @@ const RULES: &[Rule] = &[
     ("a write is out of its entry's range", |trace| {
         any(trace, |line| line.contains(" out of the entry's range]"))
     }),
+    ("an active actor is held", |trace| any(trace, |line| line.ends_with(" held"))),
+    ("the plan is held between two elements", |trace| {
+        any(trace, |line| line.ends_with(" held before its start"))
+    }),
+    ("a held plan continues", |trace| any(trace, |line| line.ends_with(" released"))),
+    ("a stop request ends a held plan", |trace| {
+        ends_a_hold(trace, |line| line.ends_with(" stop requested"))
+    }),
     ("a stop request", |trace| any(trace, |line| line.ends_with(" stop requested"))),
     ("the clock goes back", |trace| any(trace, |line| line.contains("clock went back"))),
     ("the run ends 'OK'", |trace| any(trace, |line| line.ends_with("Plan0 ended OK"))),
@@ -109,6 +117,17 @@ impl Exercised {
 
 fn any(trace: &[String], shows: impl Fn(&str) -> bool) -> bool {
     trace.iter().any(|line| shows(line))
+}
+
+/// Whether a held plan ends, with such a line before.
+fn ends_a_hold(trace: &[String], why: impl Fn(&str) -> bool) -> bool {
+    let mut held = false;
+    trace.windows(2).any(|lines| {
+        held |= lines[0].contains(" held");
+        held &= !lines[0].ends_with(" released");
+        let ends = lines[1].ends_with(" abandoned") || lines[1].contains(" ended ");
+        held && ends && why(&lines[0])
+    })
 }
 
 /// Time, component and the rest of a line.

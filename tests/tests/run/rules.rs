@@ -389,6 +389,18 @@ const RULES: &[Rule] = &[
     ),
     ("suspend", "elsewhere the suspended element is abandoned, once", &["suspended_and_abandoned"]),
     (
+        "hold",
+        "a held element continues, or starts again if it cannot be suspended",
+        &["hold_and_continue", "hold_interrupts_what_cannot_be_suspended", "hold_of_a_handler"],
+    ),
+    (
+        "hold",
+        "only events of global supervisors that end the plan are taken, and faults",
+        &["hold_polls_global_supervisors", "hold_sees_an_event_after_it", "hold_and_a_fault"],
+    ),
+    ("hold", "a step holds before the next element of the outermost plan", &["hold_and_step"]),
+    ("hold", "a failed interrupt stops everything", &["hold_with_a_failed_interrupt"]),
+    (
         "2",
         "names are those of the text, whatever Rust makes of them",
         &["names_that_rust_knows_too", "names_of_generated_code"],

@@ -1,4 +1,5 @@
-//! Suspension and return of elements. Plans that no event sets aside have none of this code.
+//! Suspension and return of elements, for handlers and for debuggers that hold a plan. Programs
+//! without either link none of this code.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -9,17 +10,15 @@ use super::holder::{Matched, on_started};
 use crate::layout::at;
 use afp_dsl::graph::{Component, Element};
 
-/// The functions of a plan whose elements can be set aside.
-pub fn functions(context: &Context<'_>) -> Option<TokenStream> {
-    context.suspendable().then(|| {
-        let (suspend, refresh) = (suspend_element(context), refresh_element(context));
-        let (resume, supervisors) = (resume_element(context), resume_supervisor(context));
-        quote!(#suspend #refresh #resume #supervisors)
-    })
+/// The functions that suspend and continue elements.
+pub fn functions(context: &Context<'_>) -> TokenStream {
+    let (suspend, refresh) = (suspend_element(context), refresh_element(context));
+    let (resume, supervisors) = (resume_element(context), resume_supervisor(context));
+    quote!(#suspend #refresh #resume #supervisors)
 }
 
-fn suspend_element(context: &Context<'_>) -> TokenStream {
-    let missing = quote!(Err(Fault::INTERNAL));
+fn suspend_element(context: &Context<'_>) -> Option<TokenStream> {
+    let missing = quote!(Ok(Kept::No));
     let Matched { body, element, any } = on_started(context, missing, |ty, element, names| {
         let (variant, place, at) = (&names.variant, &names.place, at(element.span));
         match element.component {
@@ -33,16 +32,17 @@ fn suspend_element(context: &Context<'_>) -> TokenStream {
             Component::Actor(_) | Component::Computation(_) => None,
         }
     });
-    let cx = used(quote!(cx), any);
-    quote! {
-        fn suspend_element<R: Run<Env = E>>(
-            &mut self,
-            #element: ElementId,
-            #cx: &mut Cx<'_, R>,
-        ) -> Result<(), Fault> {
-            #body
+    any.then(|| {
+        quote! {
+            fn suspend_element<R: Run<Env = E>>(
+                &mut self,
+                #element: ElementId,
+                cx: &mut Cx<'_, R>,
+            ) -> Result<Kept, Fault> {
+                #body
+            }
         }
-    }
+    })
 }
 
 fn refresh_element(context: &Context<'_>) -> Option<TokenStream> {
@@ -69,7 +69,7 @@ fn refresh_element(context: &Context<'_>) -> Option<TokenStream> {
     })
 }
 
-fn resume_element(context: &Context<'_>) -> TokenStream {
+fn resume_element(context: &Context<'_>) -> Option<TokenStream> {
     let missing = quote!(Started::Failed(Fault::INTERNAL));
     let Matched { body, element, any } = on_started(context, missing, |ty, element, names| {
         let (variant, place, at) = (&names.variant, &names.place, at(element.span));
@@ -88,17 +88,18 @@ fn resume_element(context: &Context<'_>) -> TokenStream {
             Component::Actor(_) | Component::Computation(_) => None,
         }
     });
-    let [away, cx] = [quote!(away), quote!(cx)].map(|name| used(name, any));
-    quote! {
-        fn resume_element<R: Run<Env = E>>(
-            &mut self,
-            #element: ElementId,
-            #away: Duration,
-            #cx: &mut Cx<'_, R>,
-        ) -> Started {
-            #body
+    any.then(|| {
+        quote! {
+            fn resume_element<R: Run<Env = E>>(
+                &mut self,
+                #element: ElementId,
+                away: Duration,
+                cx: &mut Cx<'_, R>,
+            ) -> Started {
+                #body
+            }
         }
-    }
+    })
 }
 
 fn resume_supervisor(context: &Context<'_>) -> Option<TokenStream> {

@@ -31,7 +31,6 @@ pub struct Context<'a> {
     pub shared: &'a Shared,
     pub plan: &'a Plan,
     pub rows: &'a Rows,
-    suspendable: bool,
     pub module: Ident,
     pub ty: Ident,
     /// Getters and fields of the entries.
@@ -74,8 +73,6 @@ pub struct Shared {
     pub computations: Vec<FileComputations>,
     /// The names that modules use for one another.
     pub names: GraphNames,
-    /// For each plan, whether an event can suspend its elements.
-    suspendable: Vec<bool>,
 }
 
 impl Shared {
@@ -86,7 +83,6 @@ impl Shared {
             tables: tables_of(graph),
             computations: computations_of(graph),
             names: GraphNames::new(graph),
-            suspendable: suspendable(graph),
         }
     }
 }
@@ -119,7 +115,6 @@ impl<'a> Context<'a> {
             entries: entry_names(plan),
             elements,
             supervisors,
-            suspendable: shared.suspendable.get(id.index()).is_some_and(|known| *known),
             read: read(plan),
             written: written(plan),
         }
@@ -201,11 +196,6 @@ impl<'a> Context<'a> {
         self.rows.suspends()
     }
 
-    /// Whether an event of the plan or of an outer plan can suspend elements of the plan.
-    pub fn suspendable(&self) -> bool {
-        self.suspendable
-    }
-
     /// The supervisors of an element, with their names.
     pub fn locals(&self, element: usize) -> impl Iterator<Item = &ComponentNames> {
         let locals = self.plan.elements[element].supervisors.iter();
@@ -266,27 +256,6 @@ impl Namer {
             place: ident(&place),
         }
     }
-}
-
-/// The plans with `suspend`, and all plans in them.
-fn suspendable(graph: &Graph) -> Vec<bool> {
-    let mut suspendable = vec![false; graph.plans.len()];
-    // Sub-plans come before their users.
-    for (index, plan) in graph.plans.iter().enumerate().rev() {
-        let handlers = graph.rows.get(index).is_some_and(|rows| rows.suspends());
-        if !handlers && !suspendable[index] {
-            continue;
-        }
-        suspendable[index] = true;
-        for element in &plan.elements {
-            if let Component::SubPlan(id) = element.component
-                && let Some(inner) = suspendable.get_mut(id.index())
-            {
-                *inner = true;
-            }
-        }
-    }
-    suspendable
 }
 
 /// The entries that formulas read through a getter; objects are passed to sub-plans without one.

@@ -36,6 +36,7 @@ const RT: &[&str] = &[
     "Entry",
     "EntryRow",
     "Fired",
+    "Kept",
     "Machine",
     "NameTable",
     "NamedPlan",

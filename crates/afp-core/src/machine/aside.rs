@@ -4,9 +4,10 @@ use super::leave::after_fault;
 use super::sweep::{Found, What};
 use super::{Edge, Stepping, Stop};
 use crate::fault::Fault;
-use crate::rt::{Aside, ElementKind, ElementRow, Plan, Run, SetAside, Tables, Target};
+use crate::rt::{Aside, ElementKind, ElementRow, Kept, Plan, Run, SetAside, Tables, Target};
 use crate::trace::Record;
 use afp_types::{Duration, ElementId, Instant};
+use core::mem::take;
 
 impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Whether a finding sets the element aside. A handler is never set aside by its own plan.
@@ -29,18 +30,31 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         found: Found,
         away: Option<Duration>,
     ) -> Result<Edge, Stop> {
-        if away.is_none()
-            && let Err(fault) = self.suspend_element(element)
-        {
-            self.level.plan.discard();
-            let id = self.component(element);
-            self.cx.failed(id, fault);
-            self.interrupt_active().map_err(Stop::Run)?;
-            return after_fault(row, fault);
+        if away.is_none() {
+            match self.suspend_element(element) {
+                Ok(Kept::Broken(fault)) => return Err(Stop::Run(fault)),
+                Ok(Kept::Yes | Kept::No) => {}
+                Err(fault) => return self.not_suspended(element, row, fault),
+            }
         }
         self.level.active = None;
+        let started = !take(&mut self.level.restarts);
         let since = self.cx.now - away.unwrap_or(Duration::ZERO);
-        self.set_aside(element, found, (since, true))
+        self.set_aside(element, found, (since, started))
+    }
+
+    /// An element cannot be suspended: it is interrupted and takes its `Error` edge.
+    pub(super) fn not_suspended(
+        &mut self,
+        element: ElementId,
+        row: &ElementRow,
+        fault: Fault,
+    ) -> Result<Edge, Stop> {
+        self.level.plan.discard();
+        let id = self.component(element);
+        self.cx.failed(id, fault);
+        self.interrupt_active().map_err(Stop::Run)?;
+        after_fault(row, fault)
     }
 
     /// Commits the event's outputs and sets an element aside, suspended since `since` or not
@@ -71,17 +85,31 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         Ok(edge)
     }
 
-    fn suspend_element(&mut self, element: ElementId) -> Result<(), Fault> {
+    /// Suspends an element. An actor that cannot be suspended is interrupted, and starts again on
+    /// return.
+    pub(super) fn suspend_element(&mut self, element: ElementId) -> Result<Kept, Fault> {
         let id = self.component(element);
         self.cx.place.component = id;
-        self.cx.call(id, |cx| self.level.plan.suspend_element(element, cx))
+        let kept = self.cx.call(id, |cx| self.level.plan.suspend_element(element, cx))?;
+        if !matches!(kept, Kept::No) {
+            return Ok(kept);
+        }
+        // Before the call: no actor is interrupted twice.
+        self.level.restarts = true;
+        match self.interrupt_element(element) {
+            Ok(()) => {
+                self.cx.trace(&Record::Interrupted { element: id });
+                Ok(Kept::No)
+            }
+            Err(fault) => Ok(Kept::Broken(fault)),
+        }
     }
 
     /// Suspends the active element of a sub-plan that is set aside.
     ///
     /// # Errors
     /// The fault of the innermost actor, which is stored.
-    pub(super) fn suspend_level(&mut self) -> Result<(), Fault> {
+    pub(super) fn suspend_level(&mut self) -> Result<Kept, Fault> {
         let element = self.level.active.ok_or(Fault::INTERNAL)?;
         let result = self.suspend_element(element);
         if let Err(fault) = result {
@@ -92,7 +120,10 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             // The outer plan fails for the same reason.
             self.cx.step.passed_on = true;
         }
-        result
+        result.map(|kept| match kept {
+            Kept::Broken(_) => kept,
+            Kept::Yes | Kept::No => Kept::Yes,
+        })
     }
 
     /// Gives up the element that is set aside before another element than a computation is entered.

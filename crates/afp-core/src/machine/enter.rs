@@ -1,7 +1,7 @@
 //! Entering an element: its supervisors start, all due supervisors are polled (the look), then the
 //! element starts.
 
-use super::sweep::{Found, Moment, What};
+use super::sweep::{Found, Moment, Occasion, What};
 use super::{Edge, Flow, Stepping, Stop};
 use crate::clock::Clock;
 use crate::component::Environment;
@@ -52,7 +52,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
 
     /// Polls before the start: due global supervisors first, then the element's own.
     pub(super) fn look(&mut self, element: ElementId, row: &ElementRow) -> Option<Found> {
-        let moment = Moment { element, look: true };
+        let moment = Moment { element, occasion: Occasion::Look };
         // Includes the time of everything that ran since the last poll of a supervisor.
         self.cx.step.clock = self.cx.clock.now(self.cx.now);
         for global in [true, false] {
@@ -133,7 +133,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
                 Ok(None)
             }
             Started::SubPlan(Flow::Fatal(fault)) => Err(Stop::Run(fault)),
-            Started::SubPlan(Flow::Ended(_)) => Err(Stop::Run(Fault::INTERNAL)),
+            Started::SubPlan(Flow::Ended(_) | Flow::Held(_)) => Err(Stop::Run(Fault::INTERNAL)),
             Started::Done(state) => self.finished(element, row, state).map(Some),
             Started::Failed(fault) => self.start_failed(element, row, fault).map(Some),
         }

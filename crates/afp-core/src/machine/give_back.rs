@@ -9,6 +9,7 @@ use crate::fault::Fault;
 use crate::rt::{Aside, ElementKind, ElementRow, OnReturn, Plan, Run, Started, Tables};
 use crate::trace::{Ending, Record};
 use afp_types::{Duration, ElementId, SupervisorId};
+use core::mem::take;
 
 impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Follows an edge to `return`. `None` if the element is active again, otherwise the edge by
@@ -68,7 +69,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     }
 
     /// As [`Stepping::give_back`], for the active element of a sub-plan.
-    fn resume_active(
+    pub(super) fn resume_active(
         &mut self,
         element: ElementId,
         row: &ElementRow,
@@ -82,6 +83,10 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             && let Some(found) = self.look(element, row)
         {
             return self.stopped(element, row, found, Some(away)).map(Some);
+        }
+        if ready.is_ok() && take(&mut self.level.restarts) {
+            self.level.active = None;
+            return self.start_element(element, row);
         }
         match ready.and_then(|()| self.resume_element(element, row, away)) {
             Ok(started) => {

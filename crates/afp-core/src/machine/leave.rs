@@ -5,6 +5,7 @@ use crate::fault::Fault;
 use crate::rt::{Aside, ElementKind, ElementRow, Plan, Polled, Run, Tables, Target};
 use crate::trace::{Author, Ending, Outcome, Record};
 use afp_types::ElementId;
+use core::mem::take;
 
 impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// The active element has finished or failed.
@@ -53,6 +54,9 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             };
             if let Err(fault) = self.take_edge() {
                 return Flow::Fatal(fault);
+            }
+            if let Some(held) = self.held_before(taken) {
+                return held;
             }
             let entered = match taken.target {
                 Some(Target::Element(element)) => match self.abandon_before(element) {
@@ -118,6 +122,11 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Interrupts and drops the active element, if any.
     pub(super) fn interrupt_active(&mut self) -> Result<(), Fault> {
         let Some(element) = self.level.active.take() else { return Ok(()) };
+        if take(&mut self.level.restarts) {
+            // It is interrupted already.
+            self.level.plan.leave(element);
+            return Ok(());
+        }
         let result = self.interrupt_element(element);
         if result.is_ok() {
             let element = self.component(element);

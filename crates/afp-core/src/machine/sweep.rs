@@ -2,6 +2,7 @@
 
 use afp_types::{Duration, Instant};
 
+use super::hold::ends;
 use super::leave::after_fault;
 use super::{Edge, Flow, Stepping, Stop};
 use crate::clock::Clock;
@@ -34,10 +35,20 @@ pub(super) enum What {
 /// Occasion of a poll.
 #[derive(Clone, Copy)]
 pub(super) struct Moment {
-    /// The element that is active or being entered.
+    /// The element that is active, held or being entered.
     pub element: ElementId,
-    /// Whether the element is being entered.
-    pub look: bool,
+    pub occasion: Occasion,
+}
+
+/// Why supervisors are polled.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Occasion {
+    /// The element is active.
+    Step,
+    /// The element is being entered.
+    Look,
+    /// The element is held.
+    Hold,
 }
 
 /// The release that a poll serves.
@@ -61,7 +72,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Polls all due supervisors in order, up to the first that stops the active element.
     #[inline(always)]
     pub(super) fn sweep(&mut self, element: ElementId, row: &ElementRow) -> Seen {
-        let moment = Moment { element, look: false };
+        let moment = Moment { element, occasion: Occasion::Step };
         let mut seen = Seen::Nothing(Instant::MAX);
         // Four at a time, so that the polls of a compiled plan are unrolled.
         let (fours, rest) = self.t.table().sweep(row).as_chunks::<4>();
@@ -118,7 +129,11 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         slot.next = next;
         let begin = self.cx.step.clock;
         let supervisor = row.instance;
-        let wanted = if moment.look { row.wanted_in_look } else { row.wanted };
+        let wanted = match moment.occasion {
+            Occasion::Step => row.wanted,
+            Occasion::Look => row.wanted_in_look,
+            Occasion::Hold => self.wanted_in_hold(row),
+        };
         let id = self.supervisor_id(supervisor);
         let fired = self.cx.call(id, |cx| self.level.plan.poll_supervisor(supervisor, wanted, cx));
         let end = self.cx.clock.now(self.cx.now);
@@ -166,7 +181,8 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         } else if let Some(fault) = poll.fired.fault {
             return Err(What::Fault(fault));
         }
-        let missed = (Outcome::DeadlineMissed, row.on_miss.filter(|_| late && !moment.look));
+        let raised = late && moment.occasion != Occasion::Look;
+        let missed = (Outcome::DeadlineMissed, row.on_miss.filter(|_| raised));
         if let Some(target) = self.taken(supervisor, missed, moment) {
             let event = (Outcome::DeadlineMissed, target);
             return self.take(supervisor, event, moment).map(|()| release.next);
@@ -271,11 +287,12 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         (event, target): (Outcome, Option<Target>),
         moment: Moment,
     ) -> Option<Target> {
+        let look = moment.occasion == Occasion::Look;
         match target? {
             Target::Ignore => None,
+            target if moment.occasion == Occasion::Hold => ends(target).then_some(target),
             Target::Element(element) | Target::Suspend(element)
-                if element == moment.element
-                    && (moment.look || self.t.table().is_global(supervisor)) =>
+                if element == moment.element && (look || self.t.table().is_global(supervisor)) =>
             {
                 if R::Sink::ENABLED {
                     let supervisor = self.supervisor_id(supervisor);
@@ -287,7 +304,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
                 None
             }
             // A handler takes time: its own events do not return from the look.
-            target if moment.look && self.returns(target) => {
+            target if look && self.returns(target) => {
                 self.t.table().is_global(supervisor).then_some(target)
             }
             target => Some(target),

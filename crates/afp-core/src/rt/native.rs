@@ -9,7 +9,7 @@ use crate::component::{
     Supervisor, SupervisorTemplate,
 };
 use crate::fault::{BadValue, Fault};
-use crate::rt::plan::{Cx, Fired, Polled, Started};
+use crate::rt::plan::{Cx, Fired, Kept, Polled, Started};
 use crate::rt::ports::{Outcome, Ports};
 use crate::rt::run::Run;
 use crate::rt::store::{Choice, Entry, Stored, Writable};
@@ -65,12 +65,12 @@ impl<R: Run> Cx<'_, R> {
     ///
     /// # Errors
     /// The fault of the actor.
-    pub fn suspend_actor<T, A>(&mut self, actor: &mut A) -> Result<(), Fault>
+    pub fn suspend_actor<T, A>(&mut self, actor: &mut A) -> Result<Kept, Fault>
     where
         T: ActorTemplate,
         A: Resumable<T, R::Env>,
     {
-        actor.suspend(self.env, self.now)
+        actor.suspend(self.env, self.now).map(|()| Kept::Yes)
     }
 
     /// Continues an actor that was suspended `away` ago.

@@ -8,7 +8,7 @@ use crate::fault::{BadValue, Detail, Failure, Fault, Port, Subject};
 use crate::rt::ports::Ports;
 use crate::rt::run::Run;
 use crate::rt::store::{Entry, Stored};
-use crate::rt::table::Child;
+use crate::rt::table::{Child, Target};
 use crate::trace::{Author, ComponentId, Ending, Outcome, Record, Sink, TraceEntryId};
 
 /// State of a level after its start or step.
@@ -16,6 +16,8 @@ use crate::trace::{Author, ComponentId, Ending, Outcome, Record, Sink, TraceEntr
 pub enum Flow {
     /// An element is active; the next work is due at this instant.
     Running(Instant),
+    /// The outermost plan is held; the next work is due at this instant.
+    Held(Instant),
     Ended(Ending),
     /// The whole run must end: livelock or a failed interrupt.
     Fatal(Fault),
@@ -44,6 +46,16 @@ pub enum Started {
     /// State of a computation, or of a sub-plan that ended at once; outputs staged.
     Done(u16),
     Failed(Fault),
+}
+
+/// Result of suspending an element.
+#[derive(Clone, Copy, Debug)]
+pub enum Kept {
+    Yes,
+    /// The element cannot be suspended and must be interrupted.
+    No,
+    /// An interrupt inside failed: the whole run must end.
+    Broken(Fault),
 }
 
 /// Result of polling an element.
@@ -92,6 +104,31 @@ pub(crate) struct StepState {
     pub noted: Option<(Detail, Fault)>,
     /// A plan has just ended in `Error`; the outer plan fails for the same reason.
     pub passed_on: bool,
+    /// Whether the outermost plan holds before its next element.
+    pub stops: Stops,
+    /// The hold of the outermost plan.
+    pub hold: Option<Hold>,
+}
+
+/// Whether the outermost plan holds before it enters an element.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Stops {
+    #[default]
+    Never,
+    /// Before the next element.
+    Next,
+    /// Before the element after the next.
+    AfterNext,
+}
+
+/// A hold of the outermost plan.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    pub since: Instant,
+    /// The next call of [`Environment::hold`](crate::Environment::hold).
+    pub next: Instant,
+    /// The edge to follow on release, if no element was suspended, and its ending.
+    pub pending: Option<(Target, Ending)>,
 }
 
 /// First ids of a level.

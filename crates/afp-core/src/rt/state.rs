@@ -5,7 +5,7 @@ use afp_types::{Duration, Value, ValueRef};
 use crate::component::{Events, OnReturn};
 use crate::fault::{BadValue, Fault};
 use crate::rt::aside::Aside;
-use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
+use crate::rt::plan::{Committer, Cx, Fired, Kept, Polled, Slot, Started};
 use crate::rt::run::Run;
 use crate::rt::table::{ElementId, SupervisorId, Tables};
 use crate::rt::write::WriteError;
@@ -55,6 +55,13 @@ pub trait PlanState: Sized {
     /// The fault of a formula; the plan then ends in `Error`.
     #[doc(hidden)]
     fn initialise(&mut self) -> Result<(), BadValue>;
+
+    /// The element at which the next start begins, if it is not the first.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn begins_at(&mut self) -> Option<ElementId> {
+        None
+    }
 
     /// An entry's committed value.
     #[doc(hidden)]
@@ -147,7 +154,8 @@ pub trait Plan<E: ?Sized>: PlanState {
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>;
 
-    /// Suspends the active element. It is kept until [`Plan::leave`].
+    /// Suspends the active element, unless it cannot be suspended. It is kept until
+    /// [`Plan::leave`].
     ///
     /// # Errors
     /// The fault of an actor, which must be interrupted.
@@ -156,8 +164,8 @@ pub trait Plan<E: ?Sized>: PlanState {
         &mut self,
         _: ElementId,
         _: &mut Cx<'_, R>,
-    ) -> Result<(), Fault> {
-        Err(Fault::INTERNAL)
+    ) -> Result<Kept, Fault> {
+        Ok(Kept::No)
     }
 
     /// Continues an element that was suspended `away` ago.

@@ -94,6 +94,6 @@ fn ended<R: Run>(
         Flow::Ended(Ending::Ok) => Some(cx.noted_outside(stage()).map(|()| 0)),
         Flow::Ended(Ending::Interrupted) => Some(cx.noted_outside(stage()).map(|()| 1)),
         Flow::Ended(Ending::Error(fault)) => Some(Err(fault)),
-        Flow::Running(_) | Flow::Fatal(_) => None,
+        Flow::Running(_) | Flow::Held(_) | Flow::Fatal(_) => None,
     }
 }

@@ -82,7 +82,7 @@ impl<P: PlanState> Scheduler<P> {
         let (clock, now) = (robot.clock(), robot.now());
         let mut wake = match self.state {
             State::Ready => self.start((&mut *robot, &mut *sink, &clock), now)?,
-            State::Running | State::Broken { .. } | State::Ended(_) => {
+            State::Running | State::Held | State::Broken { .. } | State::Ended(_) => {
                 self.step((&mut *robot, &mut *sink, &clock), now)
             }
         };
@@ -116,7 +116,7 @@ impl<P: PlanState> Scheduler<P> {
         if let Some(entry) = plan.missing_input() {
             return Err(StartError::InputMissing(EntryId(entry)));
         }
-        if matches!(self.state, State::Running | State::Broken { .. }) {
+        if matches!(self.state, State::Running | State::Held | State::Broken { .. }) {
             self.request_stop();
             let wake = self.step(on.parts(), now);
             if matches!(wake, Wake::Ended(Ending::Error(_))) {

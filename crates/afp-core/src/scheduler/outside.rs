@@ -168,7 +168,7 @@ impl<P: PlanState> Scheduler<P> {
     pub fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError> {
         match self.state {
             State::Ready => self.machine.plan_mut().set_input(entry.0, &value),
-            State::Running => {
+            State::Running | State::Held => {
                 self.machine.plan().accepts(entry.0, &value)?;
                 self.writes.push_back((entry.0, value)).map_err(|_| WriteError::QueueFull)
             }

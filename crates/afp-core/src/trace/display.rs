@@ -163,6 +163,10 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
             Record::Abandoned { element, started } => {
                 write!(f, "{} abandoned{}", self.path(element), before(started))
             }
+            Record::Held { element, started } => {
+                write!(f, "{} held{}", self.path(element), before(started))
+            }
+            Record::Released { element } => write!(f, "{} released", self.path(element)),
             Record::Faulted { component, fault, .. } => {
                 write!(f, "{} fault {}: {fault}", self.path(component), fault.code())?;
                 self.error_target(f, component)

@@ -144,6 +144,18 @@ pub enum RecordOf<V> {
         /// Whether it had started.
         started: bool,
     },
+    /// A debugger holds the plan.
+    Held {
+        /// The element that is suspended or, if `started` is false, starts on release.
+        element: ComponentId,
+        /// Whether the element has started and continues on release.
+        started: bool,
+    },
+    /// A held plan continues.
+    Released {
+        /// The element of the hold.
+        element: ComponentId,
+    },
     /// A component failed.
     Faulted {
         /// The component.
@@ -200,6 +212,8 @@ impl<V> RecordOf<V> {
             }
             RecordOf::Returned { component, away } => RecordOf::Returned { component, away },
             RecordOf::Abandoned { element, started } => RecordOf::Abandoned { element, started },
+            RecordOf::Held { element, started } => RecordOf::Held { element, started },
+            RecordOf::Released { element } => RecordOf::Released { element },
             RecordOf::Faulted { component, fault, detail } => {
                 RecordOf::Faulted { component, fault, detail }
             }

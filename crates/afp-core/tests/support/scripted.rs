@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Committer, Cx, ElementId, ElementKind, Events, Fired, Machine, OnReturn, Plan,
+    BadValue, Committer, Cx, ElementId, ElementKind, Events, Fired, Kept, Machine, OnReturn, Plan,
     PlanState, PlanTable, Polled, Run, SetAside, Slot, Started, SupervisorId, Tables,
 };
 use afp_core::trace::{EntryKind, Sink};
@@ -229,7 +229,7 @@ impl Plan<World> for Scripted {
         &mut self,
         element: ElementId,
         cx: &mut Cx<'_, R>,
-    ) -> Result<(), Fault> {
+    ) -> Result<Kept, Fault> {
         let spec = self.spec.clone();
         let row = &spec.elements[element.index()];
         assert_eq!(*self.place(element), Some(element), "{} is suspended, not running", row.name);
@@ -240,7 +240,7 @@ impl Plan<World> for Scripted {
             return self
                 .with_child(element, |_, machine| cx.inside(child, |cx| machine.suspend(cx)));
         }
-        cx.env.call(row.name, Phase::Suspend, cx.now)
+        cx.env.call(row.name, Phase::Suspend, cx.now).map(|()| Kept::Yes)
     }
 
     fn refresh_element<R: Run<Env = World>>(

@@ -88,6 +88,8 @@ fn record(what: &Happened, step: u64, program: &Program) -> Option<Value> {
         EventKind::Suspended { .. } => "suspended",
         EventKind::Returned { .. } => "returned",
         EventKind::Abandoned { .. } => "abandoned",
+        EventKind::Held { .. } => "held",
+        EventKind::Released => "released",
         EventKind::Event(_) => "event",
         EventKind::Committed { .. } => "committed",
         EventKind::Missed(_) => "missed",

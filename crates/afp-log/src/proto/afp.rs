@@ -64,7 +64,7 @@ pub struct PlanEvent {
     /// Whether that element answered: `target` is one of its `on`, not the supervisor's.
     #[prost(bool, tag = "27")]
     pub on: bool,
-    /// Whether the element that was suspended or abandoned had started.
+    /// Whether the element that was suspended, abandoned or held had started.
     #[prost(bool, tag = "28")]
     pub started: bool,
     /// The time since the suspension of a component that returned.
@@ -126,6 +126,10 @@ pub mod plan_event {
         Returned = 20,
         /// An element that was set aside was given up: `started`.
         Abandoned = 21,
+        /// A debugger holds the plan at `component`, which continues or, without `started`, starts next.
+        Held = 22,
+        /// A held plan continues.
+        Released = 23,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -156,6 +160,8 @@ pub mod plan_event {
                 Self::Suspended => "SUSPENDED",
                 Self::Returned => "RETURNED",
                 Self::Abandoned => "ABANDONED",
+                Self::Held => "HELD",
+                Self::Released => "RELEASED",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -183,6 +189,8 @@ pub mod plan_event {
                 "SUSPENDED" => Some(Self::Suspended),
                 "RETURNED" => Some(Self::Returned),
                 "ABANDONED" => Some(Self::Abandoned),
+                "HELD" => Some(Self::Held),
+                "RELEASED" => Some(Self::Released),
                 _ => None,
             }
         }
@@ -347,6 +355,12 @@ pub mod request {
         Drop = 9,
         /// The element `name` ends in `outcome` with `outputs`.
         Finish = 10,
+        /// The plan is held.
+        Hold = 11,
+        /// The held plan continues.
+        Continue = 12,
+        /// The held plan continues up to the next transition of the outermost plan.
+        Step = 13,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -366,6 +380,9 @@ pub mod request {
                 Self::Move => "MOVE",
                 Self::Drop => "DROP",
                 Self::Finish => "FINISH",
+                Self::Hold => "HOLD",
+                Self::Continue => "CONTINUE",
+                Self::Step => "STEP",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -382,6 +399,9 @@ pub mod request {
                 "MOVE" => Some(Self::Move),
                 "DROP" => Some(Self::Drop),
                 "FINISH" => Some(Self::Finish),
+                "HOLD" => Some(Self::Hold),
+                "CONTINUE" => Some(Self::Continue),
+                "STEP" => Some(Self::Step),
                 _ => None,
             }
         }

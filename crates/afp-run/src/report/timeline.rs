@@ -84,6 +84,11 @@ pub(super) fn line(event: &RunEvent, template: &str, logs: bool) -> Option<Strin
         Kind::Abandoned { .. } => {
             format!("{QUIET}· {component} does not return{QUIET:#}")
         }
+        Kind::Held { started: true } => format!("{EVENT}⏸ {component} is held{EVENT:#}"),
+        Kind::Held { started: false } => {
+            format!("{EVENT}⏸ held before {component}{EVENT:#}")
+        }
+        Kind::Released => format!("{QUIET}· the plan continues{QUIET:#}"),
         Kind::Faulted(fault) => format!("{BAD}✗ {component} failed: {}{BAD:#}", fault.text),
         Kind::Ended { ending, fault } => ended(&event.component, *ending, fault),
         Kind::Lost(count) => format!("{BAD}! {count} records lost{BAD:#}"),

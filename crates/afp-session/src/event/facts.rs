@@ -27,7 +27,7 @@ pub struct Facts<'a> {
     pub value: Option<&'a Datum>,
     /// The SI unit of the values.
     pub unit: &'a str,
-    /// Whether an element that was suspended or abandoned had started.
+    /// Whether an element that was suspended, abandoned or held had started.
     pub started: Option<bool>,
     /// The time since the suspension of a component that returned.
     pub away: Option<Duration>,
@@ -52,6 +52,7 @@ impl RunEvent {
             | EventKind::Polled(Ok(None))
             | EventKind::Interrupted
             | EventKind::Started
+            | EventKind::Released
             | EventKind::Lost(_) => none,
             EventKind::Requested(request) => Facts { request: Some(request), ..none },
             EventKind::Injected(outcome)
@@ -76,7 +77,9 @@ impl RunEvent {
                 Facts { supervisor: Some(supervisor), started: Some(*started), ..none }
             }
             EventKind::Returned { away } => Facts { away: Some(*away), ..none },
-            EventKind::Abandoned { started } => Facts { started: Some(*started), ..none },
+            EventKind::Abandoned { started } | EventKind::Held { started } => {
+                Facts { started: Some(*started), ..none }
+            }
             EventKind::Polled(Err(fault)) | EventKind::Faulted(fault) => {
                 Facts { fault: Some(fault), ..none }
             }
@@ -110,6 +113,8 @@ impl EventKind {
             EventKind::Suspended { .. } => "suspended",
             EventKind::Returned { .. } => "returned",
             EventKind::Abandoned { .. } => "abandoned",
+            EventKind::Held { .. } => "held",
+            EventKind::Released => "released",
             EventKind::Faulted(_) => "faulted",
             EventKind::Ended { .. } => "ended",
             EventKind::Lost(_) => "lost",

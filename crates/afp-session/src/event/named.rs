@@ -75,6 +75,8 @@ impl<N: Names + ?Sized> Namer<'_, N> {
             }
             Record::Returned { component, away } => (component, EventKind::Returned { away }),
             Record::Abandoned { element, started } => (element, EventKind::Abandoned { started }),
+            Record::Held { element, started } => (element, EventKind::Held { started }),
+            Record::Released { element } => (element, EventKind::Released),
             Record::Faulted { component, fault, detail } => {
                 let text = fault.explained(detail, self.names).to_string();
                 let code = fault.code().to_owned();

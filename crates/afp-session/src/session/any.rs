@@ -56,6 +56,10 @@ where
         self.ending()
     }
 
+    fn is_held(&self) -> bool {
+        self.is_held()
+    }
+
     fn entry(&self, id: EntryId) -> ValueRef<'_> {
         self.scheduler.plan().entry(id.0)
     }

@@ -11,7 +11,7 @@ use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::ComponentId;
 #[cfg(feature = "load")]
 use afp_core::trace::Names as _;
-use afp_core::{Clock, Duration, EntryId, Instant, Value, WriteError};
+use afp_core::{Clock, Duration, EntryId, Instant, Release, Value, WriteError};
 
 use super::Session;
 use crate::hardware::{Hardware, STALL};
@@ -30,6 +30,15 @@ pub(super) struct Testing<P> {
     #[cfg(feature = "load")]
     inject: fn(&mut P, Option<ElementId>, &Injection) -> Result<(), NotInjected>,
     idle: fn(&mut P, Option<ComponentId>) -> bool,
+}
+
+/// The work of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Work {
+    Start,
+    Step,
+    Hold,
+    Release(Release),
 }
 
 /// The result of a request.
@@ -81,10 +90,13 @@ where
 impl<R: Robot + 'static> Session<LoadedPlan<R>, R, Kept> {
     /// A loaded plan on a robot: its components can be made to report outcomes, or to do nothing.
     pub fn loaded(plan: LoadedPlan<R>, robot: R) -> Self {
-        let testing = Testing { inject: LoadedPlan::inject, idle: LoadedPlan::idle };
-        let mut session = Session::new(plan, robot);
-        session.testing = Some(testing);
-        session
+        Session::new(plan, robot).testable()
+    }
+
+    /// Lets components be made to report outcomes, or to do nothing.
+    pub(crate) fn testable(mut self) -> Self {
+        self.testing = Some(Testing { inject: LoadedPlan::inject, idle: LoadedPlan::idle });
+        self
     }
 }
 
@@ -131,6 +143,11 @@ where
         &self.asked
     }
 
+    /// Whether the plan is held.
+    pub fn is_held(&self) -> bool {
+        self.scheduler.is_held()
+    }
+
     /// Whether a request could be made for some instant.
     ///
     /// # Errors
@@ -161,7 +178,7 @@ where
                 self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled)
             }
             Request::Put(what, at) => self.check_put(what, *at, is_now),
-            Request::Stop => Ok(()),
+            Request::Pause | Request::Release(_) | Request::Stop => Ok(()),
         }
     }
 
@@ -252,6 +269,14 @@ where
                 }
             }
             Request::Put(what, at) => self.robot.put(&what, at),
+            Request::Pause => {
+                self.steer(Work::Hold, now);
+                Ok(())
+            }
+            Request::Release(how) => {
+                self.steer(Work::Release(how), now);
+                Ok(())
+            }
             Request::Stop => {
                 self.scheduler.request_stop();
                 // The stop does not wait for the plan's next step.
@@ -259,6 +284,23 @@ where
                 Ok(())
             }
         }
+    }
+
+    /// Sets the work of the next step, which is due now. A plan that has not started holds at its
+    /// start.
+    fn steer(&mut self, work: Work, now: Instant) {
+        if self.started {
+            self.work = work;
+            self.due = self.due.min(now);
+            return;
+        }
+        let Session { scheduler, robot, sink, clock, .. } = self;
+        let on = (robot, sink, &*clock);
+        match work {
+            Work::Hold => scheduler.hold(on, now),
+            Work::Release(how) => scheduler.release(on, now, how),
+            Work::Start | Work::Step => return,
+        };
     }
 
     fn press(&mut self, id: ControlId, held: bool) -> Result<(), RequestError> {

@@ -9,8 +9,8 @@ mod testing;
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Committer, Cx, ElementId, Events, Fired, NamedPlan, OnReturn, Plan, Polled, Run,
-    SetAside, Slot, Started, SupervisorId, Tables, Unit, initial,
+    BadValue, Committer, Cx, ElementId, Events, Fired, Kept, NamedPlan, OnReturn, Plan, Polled,
+    Run, SetAside, Slot, Started, SupervisorId, Tables, Unit, initial,
 };
 use afp_core::trace::{Outcome, Sink};
 use afp_core::{Duration, Environment, Fault, PlanState, Value, ValueRef, WriteError};
@@ -370,7 +370,7 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         &mut self,
         element: ElementId,
         cx: &mut Cx<'_, R>,
-    ) -> Result<(), Fault> {
+    ) -> Result<Kept, Fault> {
         self.elements.get_mut(element.index()).ok_or(Fault::INTERNAL)?.suspend(cx)
     }
 

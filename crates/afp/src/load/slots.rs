@@ -79,12 +79,13 @@ pub trait ActorSlot<E: ?Sized>: Send {
     /// # Errors
     /// As [`Actor::interrupt`].
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
-    /// Suspends the actor. The default is for actors that their toolbox does not call `resumable`.
+    /// Suspends the actor, if it can be suspended; otherwise it does nothing and returns `false`.
+    /// The default is for actors that their toolbox does not call `resumable`.
     ///
     /// # Errors
     /// As [`Resumable::suspend`].
-    fn suspend(&mut self, _env: &mut E, _now: Instant) -> Result<(), Fault> {
-        Err(Fault::INTERNAL)
+    fn suspend(&mut self, _env: &mut E, _now: Instant) -> Result<bool, Fault> {
+        Ok(false)
     }
     /// Continues the actor, suspended `away` ago.
     ///
@@ -163,7 +164,7 @@ pub struct Slot<T, A, S = Never> {
 
 /// Calls [`Resumable`] of an actor `A`, if it has it.
 pub trait Suspending<T, A, E: ?Sized> {
-    fn suspend(actor: &mut A, env: &mut E, now: Instant) -> Result<(), Fault>;
+    fn suspend(actor: &mut A, env: &mut E, now: Instant) -> Result<bool, Fault>;
     fn resume(actor: &mut A, env: &mut E, now: Instant, away: Duration) -> Result<(), Fault>;
 }
 
@@ -174,8 +175,8 @@ pub struct Never;
 pub struct Always;
 
 impl<T, A, E: ?Sized> Suspending<T, A, E> for Never {
-    fn suspend(_: &mut A, _: &mut E, _: Instant) -> Result<(), Fault> {
-        Err(Fault::INTERNAL)
+    fn suspend(_: &mut A, _: &mut E, _: Instant) -> Result<bool, Fault> {
+        Ok(false)
     }
 
     fn resume(_: &mut A, _: &mut E, _: Instant, _: Duration) -> Result<(), Fault> {
@@ -184,8 +185,8 @@ impl<T, A, E: ?Sized> Suspending<T, A, E> for Never {
 }
 
 impl<T: ActorTemplate, A: Resumable<T, E>, E: ?Sized> Suspending<T, A, E> for Always {
-    fn suspend(actor: &mut A, env: &mut E, now: Instant) -> Result<(), Fault> {
-        actor.suspend(env, now)
+    fn suspend(actor: &mut A, env: &mut E, now: Instant) -> Result<bool, Fault> {
+        actor.suspend(env, now).map(|()| true)
     }
 
     fn resume(actor: &mut A, env: &mut E, now: Instant, away: Duration) -> Result<(), Fault> {
@@ -253,7 +254,7 @@ where
         self.running.as_mut().ok_or(Fault::INTERNAL)?.interrupt(env, now)
     }
 
-    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<bool, Fault> {
         S::suspend(self.running.as_mut().ok_or(Fault::INTERNAL)?, env, now)
     }
 

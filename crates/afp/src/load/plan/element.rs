@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Child, Cx, ElementId, Flow, Machine, Plan, PlanState, Polled, Run, Started, input,
+    BadValue, Child, Cx, ElementId, Flow, Kept, Machine, Plan, PlanState, Polled, Run, Started,
+    input,
 };
 use afp_core::trace::Outcome;
 use afp_core::{Duration, Environment, Fault};
@@ -133,10 +134,13 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     }
 
     /// Suspends it, innermost first.
-    pub fn suspend<R: Run<Env = E>>(&mut self, cx: &mut Cx<'_, R>) -> Result<(), Fault> {
+    pub fn suspend<R: Run<Env = E>>(&mut self, cx: &mut Cx<'_, R>) -> Result<Kept, Fault> {
         match &mut self.running {
-            Running::Actor(_) if self.idle.now => Ok(()),
-            Running::Actor(actor) => actor.suspend(cx.env, cx.now),
+            Running::Actor(_) if self.idle.now => Ok(Kept::Yes),
+            Running::Actor(actor) => {
+                let kept = actor.suspend(cx.env, cx.now)?;
+                Ok(if kept { Kept::Yes } else { Kept::No })
+            }
             Running::Computation(_) => Err(Fault::INTERNAL),
             Running::SubPlan { child, machine } => cx.inside(*child, |cx| machine.suspend(cx)),
         }
