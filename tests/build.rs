@@ -2,7 +2,7 @@
 
 #[path = "build/names.rs"]
 mod names;
-#[allow(dead_code, reason = "what scripts need to know is for the tests")]
+#[allow(dead_code, reason = "only the tests need the values for scripts")]
 #[path = "src/random.rs"]
 mod random;
 

@@ -113,7 +113,7 @@ fn dot_time(graph: &str, patience: Duration) -> Option<f64> {
     let quiet =
         Command::new("dot").arg("-Tsvg").stdin(Stdio::piped()).stdout(Stdio::null()).spawn();
     let Ok(mut peer) = quiet else {
-        eprintln!("drawing: skipped beside 'dot', which is not installed");
+        eprintln!("drawing: the comparison is skipped, because 'dot' is not installed");
         return None;
     };
     peer.stdin.take()?.write_all(graph.as_bytes()).ok()?;

@@ -140,7 +140,7 @@ fn alone(engine: Engine<'_>, run: u64) {
     black_box(engine.one(run));
 }
 
-/// Does the same arithmetic in each of so many processes.
+/// Does the same arithmetic in each of this number of processes.
 fn arithmetic(processes: usize) {
     let me = std::env::current_exe().unwrap_or_else(|why| panic!("{why}"));
     let start = |_| Command::new(&me).arg(ARITHMETIC).spawn();

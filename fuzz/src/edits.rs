@@ -16,7 +16,7 @@ use crate::names::Names;
 /// The built-in ones.
 static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(|| afp_toolboxes::sources().collect());
 
-/// Texts that stand for formulas, types, times and items.
+/// Strings for formulas, types, times and items.
 const FRAGMENTS: &[&str] = &[
     "2 * (a + 3 cm)",
     "length",

@@ -1,4 +1,4 @@
-//! Properties of all texts, one function for each reader.
+//! Properties of all inputs, one function for each parser.
 //!
 //! Each function takes any bytes of a fuzzer and panics if a property does not hold. The same
 //! functions run over the corpora in `cargo test`.

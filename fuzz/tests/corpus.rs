@@ -25,7 +25,7 @@ fn every_file_of_the_corpora_keeps_its_property() {
 
 /// These scenarios are the seeds of the search.
 #[test]
-fn the_scenarios_that_are_shipped_keep_theirs() {
+fn the_shipped_scenarios_keep_their_property() {
     let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plans/tests");
     let files = fs::read_dir(home).unwrap().map(|file| file.unwrap().path());
     let plans: Vec<_> =

@@ -25,7 +25,7 @@ EVERYTHING = (
 )
 
 
-def test_a_world_is_that_of_the_toml_which_it_writes(tmp_path: Path) -> None:
+def test_a_world_equals_the_toml_that_it_writes(tmp_path: Path) -> None:
     world = EVERYTHING.build()
     assert world == afp.World.parse(EVERYTHING.toml) == EVERYTHING.save(tmp_path / "hall.toml")
     assert (tmp_path / "hall.toml").read_text(encoding="utf-8") == EVERYTHING.toml
@@ -69,7 +69,7 @@ def test_a_builder_is_a_value() -> None:
     assert one._repr_svg_() == one.build()._repr_svg_() and ">hall<" in one._repr_svg_()
 
 
-def test_what_is_wrong_is_said_where_it_is_added() -> None:
+def test_an_invalid_part_is_reported_when_it_is_added() -> None:
     hall = afp.WorldBuilder("hall", start=(1.0, 1.0)).room(4.0, 4.0)
     with pytest.raises(afp.AfpError, match="^the box 'crate': the robot starts inside of 'crate'$"):
         hall.box("crate", (1.0, 1.0), size=(0.4, 0.4), height=0.5)
@@ -78,7 +78,7 @@ def test_what_is_wrong_is_said_where_it_is_added() -> None:
         crowded.box(None, (1.0, 1.0), size=(0.4, 0.4), height=0.5)
     with pytest.raises(afp.AfpError, match="^the polygon 'dent': "):
         hall.polygon("dent", [(2.0, 2.0), (3.0, 2.0), (2.2, 2.2), (2.0, 3.0)], height=1.0)
-    with pytest.raises(afp.AfpError, match="^the patch: color: 'red' is no colour"):
+    with pytest.raises(afp.AfpError, match="^the patch: color: 'red' is not a colour"):
         hall.patch([(2.0, 2.0), (3.0, 2.0), (2.0, 3.0)], "red")
     with pytest.raises(TypeError, match="height is in m, not a quantity in rad"):
         hall.box("crate", (2.0, 2.0), size=(0.4, 0.4), height=afp.deg(30))
@@ -92,7 +92,7 @@ def test_what_is_wrong_is_said_where_it_is_added() -> None:
         afp.WorldBuilder("hall", start=(1.0, 1.0), charge=math.inf)
 
 
-def test_each_thing_is_read_once_until_the_world_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_part_is_checked_once_before_the_build(monkeypatch: pytest.MonkeyPatch) -> None:
     from afp import builder
 
     read: list[int] = []
@@ -110,7 +110,7 @@ def test_each_thing_is_read_once_until_the_world_is_built(monkeypatch: pytest.Mo
     assert max(read) < 400 and len(hall.build().obstacles) == 104 and max(read) > 5000
 
 
-def test_worlds_put_together_are_swept(wall_following: afp.Plan) -> None:
+def test_built_worlds_can_be_swept(wall_following: afp.Plan) -> None:
     hall = afp.WorldBuilder("hall", start=(1.0, 1.0)).room(4.0, 4.0)
     worlds = [hall.box("crate", (2.0, y), size=(0.4, 0.4), height=0.5).build() for y in (1.0, 3.0)]
     runs = afp.sweep(wall_following, seeds=2, worlds=worlds, until=5.0, progress=False)
@@ -120,7 +120,7 @@ def test_worlds_put_together_are_swept(wall_following: afp.Plan) -> None:
         assert runs.result(2 * index + 1).trace_hash == alone.trace_hash
 
 
-def test_worlds_are_equal_if_they_are_the_same() -> None:
+def test_worlds_with_equal_contents_are_equal() -> None:
     assert afp.World.random(7) == afp.World.random(7) != afp.World.random(8)
     assert len({afp.World.random(7), afp.World.random(7)}) == 1
     assert afp.World.random(7) != "random:7"

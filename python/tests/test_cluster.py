@@ -36,7 +36,7 @@ def rows(runs: afp.Runs) -> list[dict[str, Any]]:
     return [{**runs[row], "took_s": 0} for row in range(len(runs))]
 
 
-def test_a_worker_dies_and_no_run_is_lost_or_doubled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_after_the_death_of_a_worker_each_run_counts_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     plan = afp.load(ROOT / "plans/wall_following.afp")
     killed: list[int] = []
     marks, work = tmp_path / "marks", cluster.work
@@ -72,7 +72,7 @@ def test_a_worker_dies_and_no_run_is_lost_or_doubled(monkeypatch: pytest.MonkeyP
     assert rows(spread) == rows(afp.sweep(plan, **GRID, progress=False))
 
 
-def test_a_worker_with_another_plan_refuses(tmp_path: Path) -> None:
+def test_a_worker_with_another_plan_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "go.afp"
     file.write_text("use carbot\nplan Go { start go actor go: Forward(distance = 1 m) { ForwardSuccessful -> terminate } }")
     spec = cluster.Sent.of(afp.load(file), Spec([None], (0, 1), [], 5.0, {}))
@@ -98,13 +98,13 @@ def creeping(kept: Any) -> afp.Plan:
     )
 
 
-def test_components_in_python_go_along() -> None:
+def test_components_in_python_are_sent_to_workers() -> None:
     grid: dict[str, Any] = {"seeds": 6, "vary": {"far": ["10cm", "20cm"]}, "until": 5.0, "progress": False}
     plan = creeping([1, 2])
     spread = afp.sweep(plan, **grid, backend="ray")
     assert rows(spread) == rows(afp.sweep(plan, **grid)) and spread.endings == {"ok": 12}
 
 
-def test_what_cannot_go_along_says_so() -> None:
+def test_unsendable_components_are_reported() -> None:
     with pytest.raises(TypeError, match="sent to other processes: cannot pickle '_thread.lock' object\n  help: let them"):
         afp.sweep(creeping(threading.Lock()), backend="ray", progress=False)

@@ -96,23 +96,23 @@ def yields(n: int) -> Any:
         (TakesTwo, "Go", "the 'interrupt' of 'Go' takes robot, why; it gets the robot, or nothing"),
         (Slow, "Go", "'Go' is 'async def'; a 'poll' is a plain function, called at each poll"),
         (Inherits, "Sees", "'Sees' is 'async def'; a 'poll' is a plain function"),
-        (yields, "Twice", "'Twice' yields; a component returns what it has to say"),
+        (yields, "Twice", "'Twice' yields; a component returns its result"),
         (Polled, "Twice", "the computation 'Twice' is a class; a computation is a function"),
-        (ByPlace, "Go", "takes 'far' by position alone; ports are given by name: leave out the '/'"),
-        (Wanted, "Go", "takes 'wanted', but only supervisors are told what is wanted"),
-        (asks, "Go", "'asks' takes 'wanted', but only supervisors are told what is wanted"),
-        (WantedLate, "Sees", "takes 'wanted', but it is there from the start: '__init__' takes it"),
+        (ByPlace, "Go", "takes 'far' only by position; ports are passed by name: leave out the '/'"),
+        (Wanted, "Go", "takes 'wanted', but only supervisors receive the wanted events"),
+        (asks, "Go", "'asks' takes 'wanted', but only supervisors receive the wanted events"),
+        (WantedLate, "Sees", "takes 'wanted', but it is fixed at the start: '__init__' takes it"),
         (StartsLive, "Go", "takes 'speed', but it is live: 'poll' takes it"),
-        (PollsOnce, "Go", "takes 'far', but it is there from the start: '__init__' takes it"),
+        (PollsOnce, "Go", "takes 'far', but it is fixed at the start: '__init__' takes it"),
         (lives, "Go", "'lives' takes 'speed', but it is live: a class takes it in its 'poll'"),
-        (drives, "Twice", "'drives' takes 'robot', but a computation has its inputs alone"),
+        (drives, "Twice", "'drives' takes 'robot', but a computation has only its inputs"),
         (guesses, "Twice", "'guesses' takes 'm', but there are only: n"),
-        (guesses, "Ends", "'guesses' takes 'm', but it has nothing to take"),
+        (guesses, "Ends", "'guesses' takes 'm', but it has no parameters"),
         (functools.partial(guesses, 1), "Go", "must be a class with 'poll', or 'async def'"),
-        (3, "Go", "a component is a class or a function, not 3"),
+        (3, "Go", "a component must be a class or a function, not 3"),
     ],
 )
-def test_what_cannot_implement_a_template_is_told_why(component: Any, template: str, said: str) -> None:
+def test_invalid_implementations_are_explained(component: Any, template: str, said: str) -> None:
     tools = afp.Toolbox.parse(HAND)
     with pytest.raises(TypeError) as error:
         tools.implement(component, template)
@@ -120,9 +120,9 @@ def test_what_cannot_implement_a_template_is_told_why(component: Any, template: 
 
 
 @pytest.mark.parametrize(("kind", "component"), [("actor", Waits), ("actor", Wanted), ("computation", drives), ("actor", asks)])
-def test_what_cannot_be_declared_leaves_the_toolbox_as_it_was(kind: str, component: Any) -> None:
+def test_an_invalid_declaration_does_not_change_the_toolbox(kind: str, component: Any) -> None:
     tools = afp.Toolbox("tools")
-    with pytest.raises(TypeError, match="interrupt|wanted|a computation has its inputs alone"):
+    with pytest.raises(TypeError, match="interrupt|wanted|a computation has only its inputs"):
         getattr(tools, kind)(states=["Done"])(component)
     assert tools.text == "toolbox tools\n" and tools.templates == []
 
@@ -154,18 +154,18 @@ class Plain(Enum):
 @pytest.mark.parametrize(
     ("declare", "said"),
     [
-        (lambda tools: tools.actor(states=Plain), "the name of a state or event is a text, not <Plain.LEFT: 1>"),
+        (lambda tools: tools.actor(states=Plain), "the name of a state or event must be a string, not <Plain.LEFT: 1>"),
         (lambda tools: tools.actor(states=3), "states and events are a list of names, not 3"),
         (lambda tools: tools.actor(states={"Y": ["x"]}), "the outputs of 'Y' are ports with their types, such as {'x': float}, not ['x']"),
-        (lambda tools: tools.actor(states=["Y"], name=3), "name is a text, not 3"),
-        (lambda tools: tools.actor(states=["Y"], icon=3), "icon is a text, not 3"),
-        (lambda tools: tools.actor(states=["Y"], uses=[3]), "a device is a text, not 3"),
-        (lambda tools: tools.implement(Polled, 3), "a template is a text, not 3"),
-        (lambda tools: afp.Toolbox("tools", version=1.0), "version is a text, not 1.0"),
-        (lambda tools: afp.Toolbox(None), "the name of a toolbox is a text, not None"),
+        (lambda tools: tools.actor(states=["Y"], name=3), "name must be a string, not 3"),
+        (lambda tools: tools.actor(states=["Y"], icon=3), "icon must be a string, not 3"),
+        (lambda tools: tools.actor(states=["Y"], uses=[3]), "a device must be a string, not 3"),
+        (lambda tools: tools.implement(Polled, 3), "a template must be a string, not 3"),
+        (lambda tools: afp.Toolbox("tools", version=1.0), "version must be a string, not 1.0"),
+        (lambda tools: afp.Toolbox(None), "the name of a toolbox must be a string, not None"),
     ],
 )
-def test_what_is_declared_is_made_of_texts(declare: Any, said: str) -> None:
+def test_declarations_consist_of_strings(declare: Any, said: str) -> None:
     with pytest.raises(TypeError) as error:
         declare(afp.Toolbox("tools"))(Polled)
     assert said in str(error.value)

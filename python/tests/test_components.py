@@ -127,7 +127,7 @@ def test_an_exception_becomes_error_with_its_traceback() -> None:
         ("'Told'", "without its output"),
         ("('Told', {'value': 'x'})", "the output 'value' of 'Says': expected a float, not a str"),
         ("('Told', {'value': afp.deg(3)})", "not a quantity in rad"),
-        ("('Done', {'value': 1.0})", "carries no output 'value'"),
+        ("('Done', {'value': 1.0})", "has no output 'value'"),
         ("('Done',)", "one of Done, Told, or a pair"),
         ("('Done', {}, 3)", "one of Done, Told, or a pair"),
         ("('Told', {'value': float('nan')})", "the output 'value' of 'Says' is NaN; outputs are finite numbers"),
@@ -137,7 +137,7 @@ def test_an_exception_becomes_error_with_its_traceback() -> None:
         ("robot.drive(float('inf'))", "finite"),
     ],
 )
-def test_what_a_component_says_wrong(said: str, why: str) -> None:
+def test_invalid_results_of_components_are_reported(said: str, why: str) -> None:
     tools = afp.Toolbox("tools")
 
     @tools.actor(states={"Done": {}, "Told": {"value": float}})
@@ -186,7 +186,7 @@ def test_interrupt_of_a_class_is_called_once() -> None:
     assert len(calls) == 1
 
 
-def test_supervisors_know_what_is_wanted() -> None:
+def test_supervisors_receive_the_wanted_events() -> None:
     tools = afp.Toolbox("tools")
     told: list[set[str]] = []
 
@@ -213,7 +213,7 @@ def test_supervisors_know_what_is_wanted() -> None:
     assert told == [{"High"}] and result.ending == "interrupted" and result.time < 0.4
 
 
-def test_objects_go_from_component_to_component() -> None:
+def test_objects_are_passed_between_components() -> None:
     tools = afp.Toolbox.parse(
         """toolbox tools
         object Map
@@ -358,7 +358,7 @@ def greater(a: float) -> Any:
 PICKLED.computation(states={"Yes": {"by": float}}, name="Greater")(greater)
 
 
-def test_mistakes_of_declarations() -> None:
+def test_invalid_declarations_are_reported() -> None:
     tools = afp.Toolbox("tools")
     with pytest.raises(TypeError, match="'far' of '.*Go' needs a type hint"):
 
@@ -384,7 +384,7 @@ def test_mistakes_of_declarations() -> None:
         afp.Simulation(plan)
 
 
-def test_components_go_with_their_simulation() -> None:
+def test_components_are_freed_with_their_simulation() -> None:
     tools = afp.Toolbox("tools")
     kept: list[weakref.ref[Any]] = []
 
@@ -401,7 +401,7 @@ def test_components_go_with_their_simulation() -> None:
     assert kept[0]() is None
 
 
-def test_an_actor_that_awaits_asyncio_is_told_what_it_can_await() -> None:
+def test_an_actor_that_awaits_asyncio_gets_an_explanation() -> None:
     tools = afp.Toolbox("tools")
 
     @tools.actor(states=["Done"])

@@ -35,7 +35,7 @@ def states(plan: afp.Plan) -> list[str | None]:
     return [event.outcome for event in afp.Simulation(plan).run().events if event.outcome]
 
 
-def test_a_plan_takes_its_toolbox_as_it_is_now() -> None:
+def test_a_plan_uses_the_current_toolbox() -> None:
     tools = afp.Toolbox("tools")
     declare(tools, "Good", "Bad")
     plan = afp.Plan(PLAN, toolboxes=[tools])
@@ -51,7 +51,7 @@ def test_a_plan_takes_its_toolbox_as_it_is_now() -> None:
     assert afp.Simulation(plan).run().entries["got"] == "3 hello"
 
 
-def test_a_plan_that_its_toolbox_no_longer_fits_says_why() -> None:
+def test_a_plan_that_does_not_match_its_toolbox_reports_the_reason() -> None:
     tools = afp.Toolbox("tools")
     declare(tools, "Good", "Bad")
     plan = afp.Plan(PLAN, toolboxes=[tools])
@@ -72,7 +72,7 @@ def test_a_plan_that_its_toolbox_no_longer_fits_says_why() -> None:
         afp.Simulation(plan)
 
 
-def test_what_was_made_of_a_plan_before_is_refused() -> None:
+def test_objects_from_an_older_toolbox_are_refused() -> None:
     tools = afp.Toolbox("tools")
     declare(tools, "Good", "Bad")
     plan = afp.Plan(PLAN, toolboxes=[tools])

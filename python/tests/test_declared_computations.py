@@ -36,7 +36,7 @@ def run(plan: afp.Plan, **entries: float) -> tuple[str, float, int]:
 
 
 @pytest.mark.parametrize("error", [0.01, 0.03])
-def test_a_declared_computation_means_the_same_however_it_is_declared(error: float) -> None:
+def test_declared_computations_are_equal_in_every_notation(error: float) -> None:
     text = afp.Plan(f"use std\n{STEER}\n{PLAN}")
     built = afp.Plan(f"use std\n{PLAN}")
     assert not built.ok
@@ -73,7 +73,7 @@ def test_errors_are_reported_at_the_declaration() -> None:
             plan.set_condition("Steer", "Far", wrong)
     with pytest.raises(afp.AfpError, match="there is no computation 'Other'"):
         plan.set_condition("Other", "Far", None)
-    with pytest.raises(afp.AfpError, match="'Steer' is already there"):
+    with pytest.raises(afp.AfpError, match="'Steer' already exists"):
         plan.add_plan(STEER)
 
 

@@ -56,14 +56,14 @@ def leaves(case: str, after: float) -> tuple[str | None, float]:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it sends signals")
 @pytest.mark.parametrize("case", CASES if not COUNT else [])
-def test_a_program_ends_in_the_middle(case: str) -> None:
+def test_a_program_may_exit_during_a_run(case: str) -> None:
     failure, took = leaves(case, 0.3)
     assert failure is None, failure
     assert took < LONG
 
 
 @pytest.mark.skipif(not COUNT, reason="AFP_EXITS is not set")
-def test_many_programs_end_in_the_middle() -> None:
+def test_many_programs_may_exit_during_a_run() -> None:
     rng = random.Random(7)
     cases = [(CASES[number % len(CASES)], rng.uniform(0.0, 0.4)) for number in range(COUNT)]
     with ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -26,7 +26,7 @@ def plan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> afp.Plan:
     return afp.load("go.afp")
 
 
-def test_a_log_takes_the_place_of_nothing_that_is_read(plan: afp.Plan) -> None:
+def test_a_log_does_not_replace_an_input(plan: afp.Plan) -> None:
     (scenario,) = plan.scenarios
     runs = afp.sweep(plan, worlds="room.toml", vary={"world.robot.charge": [0.5]}, progress=False)
     world = afp.World.load("room.toml")
@@ -39,30 +39,30 @@ def test_a_log_takes_the_place_of_nothing_that_is_read(plan: afp.Plan) -> None:
     ]
     for begin in tries:
         for log in ("go.afp", "parts.afp", "../" + Path.cwd().name + "/room.toml"):
-            with pytest.raises(afp.AfpError, match="is read, so nothing can be written there"):
+            with pytest.raises(afp.AfpError, match="is an input, so it cannot be an output"):
                 begin(log)
     assert {path: path.read_bytes() for path in Path().iterdir()} == before
     assert scenario.run(log="run.mcap").passed and Path("run.mcap").is_file()
 
 
-def test_a_world_is_saved_as_one(plan: afp.Plan) -> None:
+def test_a_saved_world_is_read_back(plan: afp.Plan) -> None:
     with pytest.raises(ValueError, match="a world is saved as .toml, not as 'go.afp'"):
         afp.WorldBuilder("hall", start=(1.0, 1.0)).save("go.afp")
     assert Path("go.afp").read_text() == GO
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="what never ends is a device of Linux")
-def test_what_never_ends_is_read_with_a_bound() -> None:
+def test_endless_files_are_read_up_to_a_limit() -> None:
     for read in (afp.load, afp.Toolbox.load):
         with pytest.raises(OSError, match="it is longer than 64 MiB"):
             read("/dev/full")
 
 
-def test_what_cannot_be_read_or_written_is_named(plan: afp.Plan) -> None:
+def test_unreadable_and_unwritable_files_are_named(plan: afp.Plan) -> None:
     Path("run.mcap").write_bytes(b"\x89MCAP0\xff")
-    with pytest.raises(OSError, match="cannot read the plan: it is no text in UTF-8: 'run.mcap'"):
+    with pytest.raises(OSError, match="cannot read the plan: it is not UTF-8 text: 'run.mcap'"):
         afp.load("run.mcap")
-    with pytest.raises(OSError, match="cannot read the toolbox: it is no text in UTF-8: 'run.mcap'"):
+    with pytest.raises(OSError, match="cannot read the toolbox: it is not UTF-8 text: 'run.mcap'"):
         afp.Toolbox.load("run.mcap")
     with pytest.raises(FileNotFoundError, match="cannot read the plan: No such file or directory: ''"):
         afp.load("")
@@ -82,7 +82,7 @@ def test_what_cannot_be_read_or_written_is_named(plan: afp.Plan) -> None:
         assert (error.value.errno, error.value.filename) == (errno.EISDIR, name)
 
 
-def test_a_drawing_that_cannot_be_written_leaves_the_old_one(plan: afp.Plan) -> None:
+def test_an_unwritable_drawing_keeps_the_old_file(plan: afp.Plan) -> None:
     afp.Picture("<svg/>").save("hall.svg")
     with pytest.raises(UnicodeEncodeError):
         afp.Picture("\ud800").save("hall.svg")

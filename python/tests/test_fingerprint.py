@@ -52,23 +52,23 @@ def made(source: str, k: int) -> Any:
 
 
 @pytest.mark.parametrize("source", SOURCES.values(), ids=SOURCES)
-def test_what_something_does_and_reads_counts(source: str) -> None:
+def test_code_and_inputs_change_the_fingerprint(source: str) -> None:
     assert fingerprint(made(source, 1)) == fingerprint(made(source, 1))
     assert fingerprint(made(source, 1)) != fingerprint(made(source, 5))
 
 
-def test_places_and_comments_do_not_count() -> None:
+def test_places_and_comments_do_not_change_the_fingerprint() -> None:
     assert fingerprint(made("def it(r): return 1", 1)) == fingerprint(made("\n# one\ndef it(r):\n    return 1", 1))
 
 
-def test_other_processes_come_to_the_same() -> None:
+def test_fingerprints_are_equal_in_other_processes() -> None:
     tell = "import test_fingerprint as it\nprint([it.fingerprint(it.made(source, 3)) for source in it.SOURCES.values()])"
     command, here = [sys.executable, "-c", tell], Path(__file__).parent
     ran = [subprocess.run(command, check=True, capture_output=True, cwd=here).stdout for _ in range(2)]
     assert ran[0] == ran[1]
 
 
-def test_whatever_there_is_has_one() -> None:
+def test_every_value_has_a_fingerprint() -> None:
     class Side(enum.Enum):
         LEFT = 1
 
@@ -92,7 +92,7 @@ def make(wait: int) -> afp.Toolbox:
     return tools
 
 
-def test_a_toolbox_is_another_one_with_other_variables() -> None:
+def test_other_variables_change_the_fingerprint_of_a_toolbox() -> None:
     assert make(5) == make(5) and make(5) != make(50)
 
 
@@ -116,7 +116,7 @@ METRICS: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize(("metrics", "wanted"), METRICS)
-def test_a_sweep_says_what_of_it_is_another_one(tmp_path: Path, metrics: dict[str, Any], wanted: str) -> None:
+def test_a_sweep_reports_its_changed_part(tmp_path: Path, metrics: dict[str, Any], wanted: str) -> None:
     grid: dict[str, Any] = {"seeds": 2, "until": 1.0, "progress": False, "out": tmp_path / "runs.csv"}
     first = afp.sweep(afp.Plan(GO), **grid, metrics={"q": scaled(1.0)})
     assert first == afp.sweep(afp.Plan(GO), **grid, metrics={"q": scaled(1.0)})
@@ -126,7 +126,7 @@ def test_a_sweep_says_what_of_it_is_another_one(tmp_path: Path, metrics: dict[st
     assert afp.sweep(afp.Plan(GO), **grid, metrics=metrics, restart=True).columns["run"] == [0, 1]
 
 
-def test_a_component_with_other_variables_is_another_sweep(tmp_path: Path) -> None:
+def test_other_variables_of_a_component_make_another_sweep(tmp_path: Path) -> None:
     def sweep(wait: int) -> afp.Runs:
         text = "use tools\nplan P { start go actor go: Wait { Done -> terminate } }"
         return afp.sweep(afp.Plan(text, toolboxes=[make(wait)]), until=2.0, progress=False, out=tmp_path / "runs.csv")

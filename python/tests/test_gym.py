@@ -56,23 +56,23 @@ def window(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
 
 @pytest.mark.parametrize("options", MODES)
 @pytest.mark.parametrize("name", list(afp.gym.TASKS))
-def test_gymnasium_finds_nothing_wrong(name: str, options: dict[str, Any], window: list[bytes]) -> None:
+def test_gymnasium_finds_no_error(name: str, options: dict[str, Any], window: list[bytes]) -> None:
     env = gymnasium.make(name, **options)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(env.unwrapped, skip_render_check=not options)
 
 
-def test_it_is_made_without_importing_anything_else() -> None:
+def test_it_is_created_without_another_import() -> None:
     code = "import gymnasium; print(gymnasium.make('afp.gym:afp/CarbotReachGoal-v0').spec.max_episode_steps)"
     made = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert made.stdout == "600\n"
 
 
-def test_with_another_robot_it_says_why_not() -> None:
+def test_with_another_robot_the_reason_is_reported() -> None:
     code = "from afp import _afp\n_afp.own_robot = 'vacuum::Vacuum'\ntry: import afp.gym\nexcept ImportError as why: print(why)"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert said.stdout.startswith("afp.gym is of the Carbot, and this process has another robot")
+    assert said.stdout.startswith("afp.gym is for the Carbot, and this process has another robot")
 
 
 def drive(seed: int, world: Any = None) -> list[Any]:
@@ -92,7 +92,7 @@ def test_a_seed_decides_the_trajectory() -> None:
     assert drive(1) == drive(1) != drive(2)
 
 
-def test_the_way_ahead_is_rewarded_and_a_crash_costs() -> None:
+def test_distance_ahead_is_rewarded_and_a_crash_is_punished() -> None:
     room = afp.World.load("random:1")
     env = afp.gym.CarbotEnv(room, time_limit=60.0)
     _, start = env.reset(seed=0)
@@ -105,7 +105,7 @@ def test_the_way_ahead_is_rewarded_and_a_crash_costs() -> None:
     assert total == pytest.approx(went - 10.0, abs=0.05)
 
 
-def test_an_action_is_what_the_constants_say() -> None:
+def test_an_action_has_the_scale_of_the_constants() -> None:
     env = afp.gym.CarbotEnv("random:1", observe=["motion", "fan"], fan=[0.0])
     env.reset(seed=0)
     for share in (0.2, 0.4):
@@ -116,7 +116,7 @@ def test_an_action_is_what_the_constants_say() -> None:
     assert env.observation_space.high[2] == afp.gym.RANGE
 
 
-def test_an_episode_is_cut_off() -> None:
+def test_an_episode_is_truncated() -> None:
     env = afp.gym.CarbotEnv("random:1", time_limit=0.3)
     env.reset(seed=0)
     assert [env.step(np.zeros(2))[3] for _ in range(3)] == [False, False, True]
@@ -137,7 +137,7 @@ def test_the_picture_shows_the_robot_and_the_goal() -> None:
     assert (env.render() != picture).any()
 
 
-def test_the_picture_shows_what_moves_where_it_is() -> None:
+def test_the_picture_shows_moving_objects_at_their_places() -> None:
     hall = afp.WorldBuilder("hall", start=(1.0, 1.0)).room(4.0, 4.0)
     hall = hall.mover("walker", (1.0, 3.0), size=(0.4, 0.4), height=1.7, by=[(2.0, 0.0)], speed=0.5)
     env = afp.gym.CarbotEnv(hall.build(), render_mode="rgb_array")
@@ -155,7 +155,7 @@ def test_the_picture_shows_what_moves_where_it_is() -> None:
     assert middle() - begin == pytest.approx(1.0 / 4.4, abs=0.03)
 
 
-def test_what_makes_no_sense_is_refused() -> None:
+def test_invalid_arguments_are_refused() -> None:
     env = afp.gym.CarbotEnv
     wrong: list[tuple[dict[str, Any], str]] = [
         ({"render_mode": "ansi"}, "no render mode 'ansi'; there are: human, rgb_array"),
@@ -167,11 +167,11 @@ def test_what_makes_no_sense_is_refused() -> None:
         ({"reward": {"ahead": 1.0, "reached": 1.0}}, "'reached' is rewarded and there is nothing to reach"),
         ({"ends": ["reached"]}, "'reached' ends the episode and there is nothing to reach"),
         ({"reach": "moon"}, "moon"),
-        ({"fan": [0.0]}, "the fan is not observed: say observe=['fan', 'distance', 'odometry', 'bumper']"),
+        ({"fan": [0.0]}, "the fan is not observed: set observe=['fan', 'distance', 'odometry', 'bumper']"),
         ({"time_limit": 0}, "time_limit is 0; give seconds above 0"),
         ({"time_limit": -1}, "time_limit is -1; give seconds above 0"),
         ({"time_limit": math.nan}, "time_limit is nan"),
-        ({"observe": ["fan"], "point": True}, "leave one of them out"),
+        ({"observe": ["fan"], "point": True}, "remove one of them"),
         ({"reward": {"speed": 1.0}}, "no term 'speed'; there are: ahead"),
         ({"reward": {"ahead": math.nan}}, "finite"),
         ({"ends": ["wall"]}, "'wall' ends no episode"),
@@ -225,7 +225,7 @@ def test_a_reset_has_a_world_a_pose_a_goal_and_faults() -> None:
 
 
 @pytest.mark.parametrize("task", ["Roam", "FindInfrared"])
-def test_a_goal_is_refused_where_there_is_none_to_drive_to(task: str) -> None:
+def test_a_goal_is_refused_without_a_task_that_needs_it(task: str) -> None:
     for env in (afp.gym.CarbotEnv(task=task), afp.gym.CarbotVectorEnv(2, task=task)):
         with pytest.raises(ValueError, match=f"'{task}' has no goal to drive to: make the environment with reach="):
             env.reset(seed=0, options={"goal": (1.0, 1.0)})
@@ -235,14 +235,14 @@ def test_a_goal_is_refused_where_there_is_none_to_drive_to(task: str) -> None:
         env.reset(options={"goal": (afp.deg(3), 1.0)})
 
 
-def test_what_a_task_lacks_is_added_as_the_error_says() -> None:
+def test_the_error_for_a_missing_part_names_the_fix() -> None:
     given: dict[str, Any] = {"observe": ["target", "fan"], "reward": {"nearer": 1.0}, "ends": ["reached"], "reach": "goal", "fan": [0.0, afp.deg(45)]}
     env = gymnasium.make("afp/Carbot-v0", **given)
     assert env.reset(seed=3)[0].shape == (5,) and "target" in env.reset(seed=3)[1]
     assert gymnasium.make_vec("afp/Carbot-v0", num_envs=2, **given).reset(seed=3)[0].shape == (2, 5)
 
 
-def test_a_fault_is_seen_as_what_was_said_last() -> None:
+def test_a_fault_repeats_the_last_reading() -> None:
     env = afp.gym.CarbotEnv(observe=["odometry", "valid"], faults=[afp.Fault("odometry", "lost", at=1.0)])
     env.reset(seed=0)
     rows = [env.step(np.array([0.5, 0.2]))[0] for _ in range(20)]
@@ -250,7 +250,7 @@ def test_a_fault_is_seen_as_what_was_said_last() -> None:
     assert all(row[6] == 0.0 and (row[:6] == rows[11][:6]).all() for row in rows[11:])
 
 
-def test_faults_are_made_up_by_a_function() -> None:
+def test_a_function_can_draw_faults() -> None:
     drawn: list[float] = []
 
     def broken(rng: np.random.Generator) -> list[Any]:
@@ -263,7 +263,7 @@ def test_faults_are_made_up_by_a_function() -> None:
     assert drawn[0] == drawn[2] != drawn[1]
 
 
-def test_the_fan_hears_what_stands_at_the_right() -> None:
+def test_the_fan_detects_an_object_at_the_right() -> None:
     hall = afp.WorldBuilder("hall", start=(2.0, 0.45)).room(4.0, 4.0).build()
     env = afp.gym.CarbotEnv(hall, task="WallFollow")
     env.reset(seed=0)
@@ -309,7 +309,7 @@ def test_a_goal_is_reached_once() -> None:
     assert steps == next(index for index, reward in enumerate(rewards) if reward > 5.0)
 
 
-def test_at_the_end_of_the_sensors_range_silence_is_known() -> None:
+def test_beyond_the_sensors_range_silence_is_a_known_value() -> None:
     hall = afp.WorldBuilder("hall", start=(1.0, 2.0)).box("wall", (5.19, 2.0), size=(0.2, 20.0), height=2.0).build()
     env = afp.gym.CarbotEnv(hall, ends=[])
     for seed in range(4):
@@ -326,7 +326,7 @@ def random_faults(rng: np.random.Generator) -> list[Any]:
     ]
 
 
-def test_nothing_raises_whatever_breaks() -> None:
+def test_no_fault_raises_an_exception() -> None:
     """`AFP_GYM_STEPS` sets the number of steps; the nightly run takes a million."""
     steps, count = int(os.environ.get("AFP_GYM_STEPS", "12000")), 16
     parts = ["distance", "odometry", "motion", "bumper", "fan", "target", "glow", "color", "battery", "valid"]
@@ -352,7 +352,7 @@ def test_a_window_shows_each_step(window: list[bytes]) -> None:
     assert len(window[0]) == len(b"P6 256 256 255\n") + 256 * 256 * 3
 
 
-def test_who_closes_the_window_sees_no_more(window: list[bytes]) -> None:
+def test_a_closed_window_stays_closed(window: list[bytes]) -> None:
     env = afp.gym.CarbotEnv("random:1", render_mode="human")
     env.reset(seed=0)
     sys.modules["tkinter"].Tk.asked[-1]()
@@ -363,7 +363,7 @@ def test_who_closes_the_window_sees_no_more(window: list[bytes]) -> None:
     assert len(window) == 2, "the next window is a new one"
 
 
-def test_without_a_display_a_window_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_display_the_error_names_the_fix(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "tkinter", None)
     env = afp.gym.CarbotEnv("random:1", render_mode="human")
     with pytest.warns(UserWarning, match="shows nothing without a display"):
@@ -394,7 +394,7 @@ def test_tasks_and_scores_can_be_compared_and_hashed() -> None:
     assert scores[0] != afp.gym.evaluate(None, "Roam", range(1, 3))
 
 
-def test_a_cell_of_a_notebook_is_drawn_again_and_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_notebook_cell_is_redrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     shown: list[bytes] = []
 
     class Handle:

@@ -23,7 +23,7 @@ def hall() -> afp.World:
 
 
 def steps(env: Any, count: int, seed: int = 0) -> list[Any]:
-    """What some random actions lead to, over the ends of episodes."""
+    """The results of random actions, across the ends of episodes."""
     rng, told = np.random.default_rng(seed), []
     for _ in range(count):
         seen, reward, ended, late, info = env.step(rng.uniform(-1, 1, env.action_space.shape))

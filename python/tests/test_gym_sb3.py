@@ -19,11 +19,11 @@ from afp.gym.sb3 import CarbotVecEnv  # noqa: E402
 
 @pytest.mark.parametrize("task", [task.name for task in afp.gym.TASKS.values()])
 @pytest.mark.filterwarnings("error")
-def test_its_checker_finds_nothing_wrong(task: str) -> None:
+def test_its_checker_finds_no_error(task: str) -> None:
     check_env(afp.gym.CarbotEnv(task=task), skip_render_check=True)
 
 
-def test_many_come_to_what_its_own_vector_of_single_ones_comes_to() -> None:
+def test_the_vector_equals_its_vector_of_single_environments() -> None:
     def one() -> Any:
         from gymnasium.wrappers import TimeLimit
 

@@ -37,7 +37,7 @@ def same(ours: Any, theirs: Any) -> bool:
 
 @pytest.mark.parametrize("name", [ROAM, "afp/CarbotReachGoal-v0"])
 @pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
-def test_many_come_to_what_each_alone_comes_to(mode: Any, name: str) -> None:
+def test_a_vector_environment_equals_its_single_environments(mode: Any, name: str) -> None:
     """Compared with Gymnasium's own vector environment of single ones, including infos."""
     ours = gymnasium.make_vec(name, num_envs=COUNT, autoreset_mode=mode, max_episode_steps=40)
     single = gymnasium.make_vec(
@@ -59,7 +59,7 @@ def test_many_come_to_what_each_alone_comes_to(mode: Any, name: str) -> None:
         assert over >= 2 * COUNT, "episodes began again"
 
 
-def test_what_is_over_waits_for_a_reset_where_nothing_else_was_asked_for() -> None:
+def test_a_finished_episode_waits_for_a_reset_by_default() -> None:
     env = afp.gym.CarbotVectorEnv(3, max_episode_steps=2, autoreset_mode=AutoresetMode.DISABLED)
     with pytest.raises(RuntimeError, match="reset"):
         env.step(np.zeros((3, 2)))
@@ -80,7 +80,7 @@ def test_what_is_over_waits_for_a_reset_where_nothing_else_was_asked_for() -> No
             env.reset(options={"reset_mask": wrong})
 
 
-def test_other_threads_run_meanwhile() -> None:
+def test_other_threads_run_during_a_step() -> None:
     env = afp.gym.CarbotVectorEnv(64)
     env.reset(seed=0)
     turns, going = [0], [True]
@@ -107,7 +107,7 @@ def forked(result: Any) -> None:
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_forked_process_has_threads_of_its_own() -> None:
+def test_a_forked_process_has_its_own_threads() -> None:
     env = afp.gym.CarbotVectorEnv(4)
     env.reset(seed=0)
     here = float(env.step(np.ones((4, 2)))[1].sum())
@@ -119,7 +119,7 @@ def test_a_forked_process_has_threads_of_its_own() -> None:
     process.join()
 
 
-def test_what_cannot_be_is_refused() -> None:
+def test_impossible_arguments_are_refused() -> None:
     with pytest.raises(ValueError, match="num_envs is 0"):
         afp.gym.CarbotVectorEnv(0)
     env = afp.gym.CarbotVectorEnv(2, render_mode="rgb_array")
@@ -137,7 +137,7 @@ def test_what_cannot_be_is_refused() -> None:
     assert pictures is not None and len(pictures) == 2 and (pictures[0] != pictures[1]).any()
 
 
-def test_wrappers_of_gymnasium_fit() -> None:
+def test_wrappers_of_gymnasium_work() -> None:
     env = gymnasium.make_vec(ROAM, num_envs=3)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -150,7 +150,7 @@ def test_wrappers_of_gymnasium_fit() -> None:
     env.close()
 
 
-def test_a_plan_is_judged_as_an_environment_is() -> None:
+def test_a_plan_is_scored_like_an_environment() -> None:
     """A plan that drives like an environment's actions gets the environment's reward."""
     room = afp.WorldBuilder("hall", start=(1.0, 2.0, 0.2)).room(6.0, 4.0).infrared("beacon", (3.0, 2.0)).build()
     plan = afp.gym.plan_of("FindInfrared")
@@ -165,13 +165,13 @@ def test_a_plan_is_judged_as_an_environment_is() -> None:
     assert afp.gym.evaluate(plan, "FindInfrared", [0], world=room, faults=broken) != afp.gym.evaluate(plan, "FindInfrared", [0], world=room)
 
 
-def test_a_vector_knows_its_seed() -> None:
+def test_a_vector_has_its_seed() -> None:
     envs = afp.gym.CarbotVectorEnv(2)
     envs.reset(seed=3)
     assert envs.np_random_seed == 3
 
 
-def test_the_plans_of_the_package_are_sound_and_in_canonical_form() -> None:
+def test_the_plans_of_the_package_are_valid_and_canonical() -> None:
     from afp.gym.score import PLANS
 
     plans = [afp.load(path) for path in sorted(PLANS.glob("*.afp"))]
@@ -179,7 +179,7 @@ def test_the_plans_of_the_package_are_sound_and_in_canonical_form() -> None:
     assert all(plan.ok and plan.formatted() == plan.text for plan in plans)
 
 
-def test_a_policy_is_judged_in_the_episodes_of_its_seeds() -> None:
+def test_a_policy_is_scored_in_the_episodes_of_its_seeds() -> None:
     def ahead(seen: Any) -> Any:
         return np.tile([0.4, 0.0], (len(seen), 1))
 
@@ -191,7 +191,7 @@ def test_a_policy_is_judged_in_the_episodes_of_its_seeds() -> None:
     assert random.rewards.shape == (4,) and np.isfinite(random.rewards).all()
 
 
-def test_single_ones_run_in_processes_with_a_world_made_in_the_program() -> None:
+def test_single_environments_run_in_processes_with_a_world_from_the_program() -> None:
     room = afp.WorldBuilder("hall", start=(1.0, 1.0)).room(4.0, 4.0).build()
     settings: dict[str, Any] = {"num_envs": 2, "world": room}
     ours = gymnasium.make_vec(ROAM, **settings)

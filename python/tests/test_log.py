@@ -20,7 +20,7 @@ def test_a_log_has_no_moment_before_its_start(tmp_path: Path) -> None:
             afp.Log(tmp_path / "run.mcap").simulation(at=at)
 
 
-def test_a_log_holds_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
+def test_a_log_has_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
     file = tmp_path / "run.mcap"
     with afp.Simulation(wall_following, seed=5, set={"walldist": 0.35}, log=file) as simulation:
         result = simulation.run(until=6.0)
@@ -37,7 +37,7 @@ def test_a_log_holds_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
         log.entry("nothing")
 
 
-def test_a_log_cut_short_yields_what_it_holds(wall_following: afp.Plan, tmp_path: Path) -> None:
+def test_a_truncated_log_gives_its_readable_part(wall_following: afp.Plan, tmp_path: Path) -> None:
     file = tmp_path / "run.mcap"
     with afp.Simulation(wall_following, log=file) as simulation:
         simulation.run(until=3.0)
@@ -45,7 +45,7 @@ def test_a_log_cut_short_yields_what_it_holds(wall_following: afp.Plan, tmp_path
     assert afp.Log(tmp_path / "cut.mcap").cut_short
 
 
-def test_what_is_no_log(tmp_path: Path) -> None:
+def test_other_files_are_not_logs(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="cannot read the log"):
         afp.Log(tmp_path / "none.mcap")
     (tmp_path / "text.mcap").write_text("hello")
@@ -53,7 +53,7 @@ def test_what_is_no_log(tmp_path: Path) -> None:
         afp.Log(tmp_path / "text.mcap")
 
 
-def test_a_log_is_whole_when_the_plan_has_ended_or_the_simulation_is_gone(tmp_path: Path, wall_following: afp.Plan) -> None:
+def test_a_log_is_complete_after_the_end_of_the_plan_or_the_simulation(tmp_path: Path, wall_following: afp.Plan) -> None:
     ended, gone, closed = (tmp_path / name for name in ("ended.mcap", "gone.mcap", "closed.mcap"))
     afp.Simulation(wall_following, log=ended).run(until=1.0)
     assert ended.exists()
@@ -70,7 +70,7 @@ def test_a_log_is_whole_when_the_plan_has_ended_or_the_simulation_is_gone(tmp_pa
         simulation.run_to(2.0)
 
 
-def test_a_log_has_the_entries_at_its_end_as_a_result_has(tmp_path: Path, wall_following: afp.Plan) -> None:
+def test_a_log_has_the_final_entries_like_a_result(tmp_path: Path, wall_following: afp.Plan) -> None:
     with afp.Simulation(wall_following, log=tmp_path / "run.mcap") as simulation:
         result = simulation.run(until=20.0)
     log = afp.Log(tmp_path / "run.mcap")
@@ -79,7 +79,7 @@ def test_a_log_has_the_entries_at_its_end_as_a_result_has(tmp_path: Path, wall_f
     assert set(log.columns) == set(result.columns)
 
 
-def test_a_log_holds_the_toolboxes_that_its_plan_uses_beyond_the_built_in_ones(tmp_path: Path) -> None:
+def test_a_log_has_the_toolboxes_that_are_not_built_in(tmp_path: Path) -> None:
     tools = afp.Toolbox("tools")
 
     @tools.actor(states=["Done"])
@@ -101,13 +101,13 @@ def test_a_log_holds_the_toolboxes_that_its_plan_uses_beyond_the_built_in_ones(t
         log.simulation()
 
 
-def test_a_log_of_a_plan_without_entries_says_so(tmp_path: Path) -> None:
+def test_a_log_of_a_plan_without_entries_reports_it(tmp_path: Path) -> None:
     text = "use carbot plan P { start go actor go: Forward(distance = 1 cm) { ForwardSuccessful -> terminate } }"
     with afp.Simulation(afp.Plan(text), log=tmp_path / "run.mcap") as simulation:
         simulation.run()
-        with pytest.raises(KeyError, match="the plan has no entry 'x'; it has none at all"):
+        with pytest.raises(KeyError, match="the plan has no entry 'x'; it has no entries"):
             simulation["x"]
-    with pytest.raises(KeyError, match="the log has no entry 'x'; it has none at all"):
+    with pytest.raises(KeyError, match="the log has no entry 'x'; it has no entries"):
         afp.Log(tmp_path / "run.mcap").entry("x")
 
 

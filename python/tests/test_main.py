@@ -18,7 +18,7 @@ def run(*arguments: str, path: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the program is a shell script")
-def test_arguments_and_exit_codes_are_passed_on(tmp_path: Path) -> None:
+def test_arguments_and_exit_codes_are_forwarded(tmp_path: Path) -> None:
     program = tmp_path / "afpc"
     program.write_text('#!/bin/sh\necho "$@"\nexit 3\n', encoding="ascii")
     program.chmod(0o755)
@@ -27,6 +27,6 @@ def test_arguments_and_exit_codes_are_passed_on(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(shutil.which("afpc", path=sysconfig.get_path("scripts")) is not None, reason="the command line is installed")
-def test_a_package_without_the_command_line_says_so(tmp_path: Path) -> None:
+def test_a_package_without_the_command_line_reports_it(tmp_path: Path) -> None:
     done = run("--version", path=str(tmp_path))
     assert done.returncode == 2 and "built without the command line 'afpc'" in done.stderr

@@ -37,12 +37,12 @@ def test_a_log_is_drawn(kind: str, log: afp.Log, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_it_is_drawn_as_the_command_line_does(kind: str, log: afp.Log, tmp_path: Path, afpc: str) -> None:
+def test_it_is_drawn_like_on_the_command_line(kind: str, log: afp.Log, tmp_path: Path, afpc: str) -> None:
     subprocess.run([afpc, "log", log.file, KINDS[kind], str(tmp_path / "a.svg")], check=True, cwd=ROOT)
     assert getattr(log, kind)().svg == (tmp_path / "a.svg").read_text(encoding="utf-8")
 
 
-def test_a_run_is_drawn_as_far_as_it_has_come(log: afp.Log, wall_following: afp.Plan) -> None:
+def test_a_run_is_drawn_up_to_its_present_time(log: afp.Log, wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     before = simulation.picture()
     assert ">0.0 s<" in before.svg
@@ -63,12 +63,12 @@ def test_a_result_has_the_picture_of_its_log_and_shows_it(log: afp.Log, wall_fol
         kept.picture()
 
 
-def test_a_result_says_why_the_plan_failed() -> None:
+def test_a_result_has_the_reason_of_a_failure() -> None:
     plan = afp.Plan("use std\nplan P { in a: float = 0 start w actor w: Wait(duration = 1 s / a) { Elapsed -> terminate } }")
     assert "is infinite; formula at plan.afp:2:" in afp.Simulation(plan).run()._repr_html_()
 
 
-def test_a_map_of_what_is_nowhere_begins_at_nothing(wall_following: afp.Plan) -> None:
+def test_an_empty_map_begins_at_zero(wall_following: afp.Plan) -> None:
     pytest.importorskip("matplotlib").use("Agg")
     runs = afp.sweep(wall_following, vary={"walldist": [0.2, 0.3]}, seeds=2, until=0.5, progress=False)
     (image,) = runs.plot_map("walldist", "seed", "collisions").images
@@ -84,19 +84,19 @@ def test_a_film_has_the_pictures_of_the_camera(log: afp.Log, tmp_path: Path) -> 
         afp.Log(blind).film()
 
 
-def test_a_plan_shows_what_a_run_made_use_of(log: afp.Log, wall_following: afp.Plan) -> None:
+def test_a_plan_shows_the_coverage_of_a_run(log: afp.Log, wall_following: afp.Plan) -> None:
     covered = wall_following.coverage(log.file)
     assert xml.fromstring(covered.svg).tag.endswith("svg") and covered.svg != wall_following.svg()
     with pytest.raises(afp.AfpError, match="not of this plan as it is now"):
         afp.load(ROOT / "plans/patterns.afp").coverage(log.file)
 
 
-def test_the_camera_changes_nothing_of_the_run(log: afp.Log, wall_following: afp.Plan) -> None:
+def test_the_camera_does_not_change_the_run(log: afp.Log, wall_following: afp.Plan) -> None:
     result = afp.Simulation(wall_following).run(until=6.0)
     times = [event.time for event in log.events if event.kind == "event"]
     assert times == [event.time for event in result.events if event.kind == "event"]
 
 
-def test_a_log_that_is_not_there_is_an_error(wall_following: afp.Plan) -> None:
+def test_a_missing_log_is_an_error(wall_following: afp.Plan) -> None:
     with pytest.raises(OSError):
         wall_following.coverage("nothing.mcap")

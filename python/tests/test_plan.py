@@ -27,7 +27,7 @@ plan P {
 """
 
 
-def test_diagnostics_say_what_where_and_what_to_do() -> None:
+def test_diagnostics_have_an_error_a_place_and_a_help() -> None:
     plan = afp.Plan(WRONG, "p.afp")
     unit = next(each for each in plan.diagnostics if each.code == "E0203")
     assert (unit.severity, unit.file, unit.line, unit.column) == ("error", "p.afp", 2, 48)
@@ -36,7 +36,7 @@ def test_diagnostics_say_what_where_and_what_to_do() -> None:
     assert not plan.ok and unit in plan.diagnostics and len({unit, unit}) == 1
 
 
-def test_an_exception_carries_what_afpc_says(afpc: str, tmp_path: Path) -> None:
+def test_an_exception_has_the_diagnostics_of_afpc(afpc: str, tmp_path: Path) -> None:
     file = tmp_path / "p.afp"
     file.write_text(WRONG)
     with pytest.raises(afp.PlanError) as raised:
@@ -46,7 +46,7 @@ def test_an_exception_carries_what_afpc_says(afpc: str, tmp_path: Path) -> None:
     assert str(raised.value) in told.stderr
 
 
-def test_a_plan_shows_itself(wall_following: afp.Plan) -> None:
+def test_a_plan_is_shown_in_a_notebook(wall_following: afp.Plan) -> None:
     assert wall_following.name == "WallFollowing" and wall_following.ok
     svg = wall_following._repr_svg_()
     assert svg is not None and svg.startswith("<svg") and "searchFirstWall" in svg
@@ -129,7 +129,7 @@ def test_changes_reach_other_files(tmp_path: Path) -> None:
     assert "start part" in main.read_text()
 
 
-def test_another_file_is_used_by_its_path_in_quotes(tmp_path: Path) -> None:
+def test_another_file_is_imported_by_its_quoted_path(tmp_path: Path) -> None:
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts/explore.afp").write_text("use carbot\nplan Explore { start go actor go: Forward { ForwardSuccessful -> terminate } }\n")
     plan = afp.Plan("plan P { start look subplan look: Explore { OK -> terminate } }\n", tmp_path / "plan.afp")
@@ -140,20 +140,20 @@ def test_another_file_is_used_by_its_path_in_quotes(tmp_path: Path) -> None:
         plan.use('"parts/explore.afp"', "e")
 
 
-def test_files_that_are_not_there() -> None:
+def test_missing_files_are_reported() -> None:
     with pytest.raises(FileNotFoundError):
         afp.load("nowhere.afp")
     with pytest.raises(FileNotFoundError, match="cannot read the world"):
         afp.World.load("nowhere.toml")
 
 
-def test_what_has_an_inside_that_runs_is_not_pickled(wall_following: afp.Plan) -> None:
+def test_running_objects_are_not_pickled(wall_following: afp.Plan) -> None:
     for thing in (afp.Simulation(wall_following)._runner, afp.Carbot(afp.World.random(1))):
         with pytest.raises(TypeError, match="cannot be pickled"):
             pickle.dumps(thing)
 
 
-def test_what_is_plain_can_be_pickled_and_copied(wall_following: afp.Plan) -> None:
+def test_values_can_be_pickled_and_copied(wall_following: afp.Plan) -> None:
     wall_following.rename("followWall", "along")
     result = afp.Simulation(wall_following, seed=3).run(until=3.0)
     broken = afp.Plan("plan P { start nowhere }", "p.afp")
@@ -183,7 +183,7 @@ def test_what_is_plain_can_be_pickled_and_copied(wall_following: afp.Plan) -> No
         assert (str(why), why.diagnostics) == (str(error.value), broken.diagnostics)
 
 
-def test_a_verdict_shows_what_broke_and_how_it_is_run_again(tmp_path: Path) -> None:
+def test_a_verdict_shows_the_failed_claims_and_the_command(tmp_path: Path) -> None:
     go = "use carbot\nplan Go { start go actor go: Forward(distance = 20 cm) { ForwardSuccessful -> terminate } }\n"
     file = tmp_path / "a plan.afp"
     file.write_text(go + 'scenario "it\'s <fast>" for Go {\n    expect end by OK before 100 ms\n}\n', encoding="utf-8")
@@ -195,7 +195,7 @@ def test_a_verdict_shows_what_broke_and_how_it_is_run_again(tmp_path: Path) -> N
     assert again == verdict and again._repr_html_() == shown
     plan = afp.load(file)
     plan.rename("go", "ahead")
-    assert plan.scenarios[0].run().command.endswith("  # the plan has been changed and not saved")
+    assert plan.scenarios[0].run().command.endswith("  # the plan has unsaved changes")
     passed = afp.load(ROOT / "plans/tests/wall_following.afp").scenarios[0].run()._repr_html_()
     assert "passed" in passed and "<pre>" not in passed
 
@@ -209,7 +209,7 @@ def test_scenarios_are_pickled_with_their_text() -> None:
     assert plan.scenarios[0] != plan.scenarios[1]
 
 
-def test_a_value_that_does_not_fit_leaves_the_plan_as_it_was(wall_following: afp.Plan) -> None:
+def test_an_invalid_value_does_not_change_the_plan(wall_following: afp.Plan) -> None:
     before = wall_following.text
     for value in (afp.deg(3), 3, True):
         with pytest.raises(TypeError, match="expected a length"):
@@ -227,7 +227,7 @@ def test_broken_plans_are_drawn() -> None:
     assert "Forward" in broken.svg() and "<svg" in broken._repr_html_()
 
 
-def test_a_drawing_that_takes_long_is_interrupted_and_leaves_others_their_turn() -> None:
+def test_a_long_drawing_is_interrupted_and_does_not_block_others() -> None:
     count = 2000
     ring = "".join(
         f"actor a{i}: Forward(distance = 1 m) {{ ForwardSuccessful -> a{(i + 1) % count} }}\n" for i in range(count)
@@ -237,7 +237,7 @@ def test_a_drawing_that_takes_long_is_interrupted_and_leaves_others_their_turn()
     assert interrupted(plan.svg, after=0.05) < 0.5
 
 
-def test_every_shipped_plan_is_in_order() -> None:
+def test_every_shipped_plan_is_valid() -> None:
     for file in (ROOT / "plans").glob("*.afp"):
         assert afp.load(file).diagnostics == []
 
@@ -258,7 +258,7 @@ def test_a_plan_keeps_its_line_ends(afpc: str, tmp_path: Path) -> None:
     assert afp.Toolbox.load(tools).text == "toolbox tools\r\n"
 
 
-def test_a_plan_of_other_line_ends_goes_on_with_the_journal_of_afpc(afpc: str, tmp_path: Path) -> None:
+def test_a_plan_with_other_line_ends_continues_the_journal_of_afpc(afpc: str, tmp_path: Path) -> None:
     file, table = tmp_path / "p.afp", tmp_path / "runs.csv"
     file.write_bytes(COMMENTED.replace("\n", "\r\n").encode())
     runs = afp.sweep(afp.load(file), seeds=2, until=1.0, out=table)
@@ -266,7 +266,7 @@ def test_a_plan_of_other_line_ends_goes_on_with_the_journal_of_afpc(afpc: str, t
     subprocess.run([afpc, "sweep", str(file), "--seeds", "0..2", "--until", "1s", "-o", str(table)], cwd=tmp_path, check=True)
 
 
-def test_a_drawing_is_saved_as_it_is_shown(tmp_path: Path, wall_following: afp.Plan) -> None:
+def test_a_saved_drawing_equals_the_shown_drawing(tmp_path: Path, wall_following: afp.Plan) -> None:
     wall_following.save_svg(tmp_path / "plan.svg")
     assert (tmp_path / "plan.svg").read_text(encoding="utf-8") == wall_following.svg() == wall_following._repr_svg_()
 

@@ -22,7 +22,7 @@ scenario "gets there" for Go {
     until 6 s
 }
 
-scenario "is there at once" for Go {
+scenario "ends at once" for Go {
     expect end by OK before 100 ms
     until 6 s
 }
@@ -37,9 +37,9 @@ def project(pytester: pytest.Pytester) -> pytest.Pytester:
 
 def test_scenarios_are_collected_by_name_and_line(project: pytest.Pytester) -> None:
     result = project.runpytest("--collect-only", "-q")
-    result.stdout.fnmatch_lines(["go.afp::gets there", "go.afp::is there at once"])
+    result.stdout.fnmatch_lines(["go.afp::gets there", "go.afp::ends at once"])
     items, _ = project.inline_genitems("go.afp")
-    assert items[1].reportinfo()[1] == PLAN.splitlines().index('scenario "is there at once" for Go {')
+    assert items[1].reportinfo()[1] == PLAN.splitlines().index('scenario "ends at once" for Go {')
 
 
 def test_a_failure_shows_the_place_the_timeline_and_the_log(project: pytest.Pytester) -> None:
@@ -48,7 +48,7 @@ def test_a_failure_shows_the_place_the_timeline_and_the_log(project: pytest.Pyte
     line = PLAN.splitlines().index("    expect end by OK before 100 ms") + 1
     result.stdout.fnmatch_lines(
         [
-            'scenario "is there at once" of the plan Go',
+            'scenario "ends at once" of the plan Go',
             f"go.afp:{line}:*: expect end by OK before 100 ms",
             "*broken here",
             "  log: *go.afp_is_there_at_once-*.mcap",
@@ -58,9 +58,9 @@ def test_a_failure_shows_the_place_the_timeline_and_the_log(project: pytest.Pyte
     assert afp.Log(log).events
 
 
-def test_failures_whose_names_look_alike_have_logs_of_their_own(project: pytest.Pytester) -> None:
+def test_failures_with_similar_names_have_separate_logs(project: pytest.Pytester) -> None:
     one = PLAN.split("\n\n")[-1]
-    others = [one.replace("is there at once", name) for name in ("Is there: at once?", "is_there_at_once")]
+    others = [one.replace("ends at once", name) for name in ("Is there: at once?", "is_there_at_once")]
     project.path.joinpath("go.afp").write_text("\n\n".join([PLAN, *others]))
     project.runpytest().assert_outcomes(passed=1, failed=3)
     assert len(list(project.path.glob("target/afp/tests/*.mcap"))) == 3
@@ -72,23 +72,23 @@ def test_words_select_scenarios(project: pytest.Pytester) -> None:
     project.runpytest("--no-afp").assert_outcomes()
 
 
-def test_a_wrong_file_is_an_error_with_the_diagnostics(project: pytest.Pytester) -> None:
+def test_an_invalid_file_is_an_error_with_the_diagnostics(project: pytest.Pytester) -> None:
     project.path.joinpath("wrong.afp").write_text(PLAN.replace("20 cm", "20"))
     result = project.runpytest("wrong.afp")
     result.assert_outcomes(errors=1)
     result.stdout.fnmatch_lines(["*error?E0203?: expected a length, found a bare number", "*wrong.afp:5:*"])
 
 
-def test_a_scenario_that_cannot_be_run_fails_beside_the_others(project: pytest.Pytester) -> None:
+def test_an_invalid_scenario_fails_next_to_the_others(project: pytest.Pytester) -> None:
     project.path.joinpath("go.afp").write_text(PLAN.replace("before 100 ms", "before 100"))
     result = project.runpytest()
     result.assert_outcomes(passed=1, failed=1)
     line = PLAN.splitlines().index("    expect end by OK before 100 ms") + 1
-    result.stdout.fnmatch_lines(["*is there at once*", "error?E*", f"*go.afp:{line}:*"])
+    result.stdout.fnmatch_lines(["*ends at once*", "error?E*", f"*go.afp:{line}:*"])
     project.runpytest("-k", "gets").assert_outcomes(passed=1, deselected=1)
 
 
-def test_plans_without_scenarios_are_left_alone(project: pytest.Pytester) -> None:
+def test_plans_without_scenarios_are_ignored(project: pytest.Pytester) -> None:
     project.path.joinpath("go.afp").write_text(PLAN.split("scenario")[0])
     assert project.runpytest().ret == pytest.ExitCode.NO_TESTS_COLLECTED
 
@@ -114,7 +114,7 @@ def test_components_in_python_come_from_the_conftest(project: pytest.Pytester) -
     project.runpytest().assert_outcomes(passed=1, failed=1)
 
 
-def test_fixtures_find_files_and_tell_what_happened(project: pytest.Pytester) -> None:
+def test_fixtures_find_files_and_report_the_timeline(project: pytest.Pytester) -> None:
     project.makepyfile(
         """
         def test_good(afp_plan, afp_world, afp_simulation):

@@ -132,7 +132,7 @@ def test_ctrl_c_interrupts_a_robot_that_drives() -> None:
     assert robot.time > 0.0
 
 
-def test_what_ends_a_program_ends_a_sweep_at_once() -> None:
+def test_an_exit_of_the_program_ends_a_sweep_at_once() -> None:
     def poll(robot: afp.Robot) -> None:
         raise SystemExit(3)
 
@@ -143,7 +143,7 @@ def test_what_ends_a_program_ends_a_sweep_at_once() -> None:
     assert time.perf_counter() - begin < 10.0
 
 
-def test_a_scenario_raises_what_ends_a_program() -> None:
+def test_a_scenario_raises_an_exit_of_the_program() -> None:
     def poll(robot: afp.Robot) -> None:
         raise SystemExit(3)
 

@@ -87,7 +87,7 @@ def python(text: str, folder: Path = VACUUM, **variables: str) -> subprocess.Com
 
 
 @built
-def test_a_project_brings_its_robot() -> None:
+def test_a_project_has_its_robot() -> None:
     run = python(DRIVE)
     assert run.returncode == 0, run.stderr
     found = json.loads(run.stdout)
@@ -103,25 +103,25 @@ def test_a_project_brings_its_robot() -> None:
     assert "only a judge may know" in truth
     assert "the robot has no 'distance'; its sensors are: " in other and "cliff.drop" in other
     assert "robot.pose" not in middle and "bumper.left" in middle
-    assert found["carbot"] == "'afp.Carbot' is of the Carbot, and this process has another robot"
+    assert found["carbot"] == "'afp.Carbot' is for the Carbot, and this process has another robot"
 
 
 @built
-def test_the_variable_chooses_and_later_processes_take_what_was_built() -> None:
+def test_the_variable_selects_the_robot_and_later_processes_reuse_the_build() -> None:
     run = python("import afp; print(afp.faults()[0], afp._afp.own_robot)", AFP_PROJECT=str(VACUUM), CARGO="/nowhere")
     assert run.stdout.split() == ["('wheels',", "'blocked')", "vacuum::Vacuum"], run.stderr
     assert run.stderr == ""
 
 
-def test_without_cargo_there_is_a_sentence(tmp_path: Path) -> None:
+def test_without_cargo_the_error_explains_it(tmp_path: Path) -> None:
     nowhere = {"CARGO": str(tmp_path / "cargo"), "CARGO_TARGET_DIR": str(tmp_path)}
     run = python("import afp; afp.use('VACUUM')", **nowhere)
     assert run.returncode == 1
     assert "the plan needs the robot 'vacuum::Vacuum' with the toolbox 'vacuum'" in run.stderr
-    assert "there is no cargo" in run.stderr and "install Rust from https://rustup.rs" in run.stderr
+    assert "is not installed" in run.stderr and "install Rust from https://rustup.rs" in run.stderr
 
 
-def test_a_robot_is_chosen_once_and_first() -> None:
+def test_a_robot_is_selected_once_and_first() -> None:
     for text, said in [
         ("afp.World; afp.use('VACUUM')", "this process has the Carbot already: call afp.use() before anything else"),
         ("afp.use('VACUUM/afp.toml')", "there is no folder"),
@@ -147,7 +147,7 @@ def test_a_plan_for_another_robot_is_refused() -> None:
         assert "call afp.use(" in str(error.value)
 
 
-def test_all_names_of_the_package_are_there() -> None:
+def test_all_names_of_the_package_exist() -> None:
     assert set(afp.__all__) <= set(dir(afp))
     assert all(getattr(afp, name) is not None for name in afp.__all__)
     with pytest.raises(AttributeError, match="has no attribute 'Carbott'"):

@@ -26,7 +26,7 @@ def seeds(given: Any) -> list[int]:
     return [int(row["seed"]) for row in swept(seeds=given)]
 
 
-def test_seeds_are_how_many_or_any() -> None:
+def test_seeds_are_a_number_or_a_list() -> None:
     assert seeds(2) == [0, 1] and seeds([5, 1]) == [5, 1]
     assert seeds(range(0, 9, 4)) == [0, 4, 8]
     assert seeds(number for number in (2, 3)) == [2, 3]
@@ -37,7 +37,7 @@ def test_seeds_are_how_many_or_any() -> None:
         seeds([-1])
 
 
-def test_values_are_one_or_several_of_any_kind() -> None:
+def test_values_are_one_or_several_of_each_type() -> None:
     def values(given: Any) -> list[float]:
         return list(swept(vary={"way": given}).columns["way_si"])
 
@@ -48,7 +48,7 @@ def test_values_are_one_or_several_of_any_kind() -> None:
         values(["10cm..20cm"])
 
 
-def test_worlds_may_be_made_in_the_program() -> None:
+def test_worlds_may_be_built_in_the_program() -> None:
     made = [afp.World.parse(afp.World.random(seed).text) for seed in (3, 3, 4)]
     runs = swept(worlds=[*made, "random:3"])
     names = runs.columns["world"]
@@ -92,7 +92,7 @@ def test_a_metric_without_values_is_a_column_of_every_table(tmp_path: Path) -> N
             swept(seeds=1, metrics={name: lambda result: None})
 
 
-def test_a_metric_that_breaks_ends_the_sweep() -> None:
+def test_a_failing_metric_ends_the_sweep() -> None:
     def breaks(result: afp.Result) -> float:
         raise LookupError(result.plan)
 
@@ -106,13 +106,13 @@ def test_a_metric_that_breaks_ends_the_sweep() -> None:
         swept(metrics={"a b": len})
     with pytest.raises(TypeError, match="gets a Result"):
         swept(metrics={"a": 1})
-    with pytest.raises(ValueError, match="there is a figure 'contacts_s'"):
+    with pytest.raises(ValueError, match="every run has a result 'contacts_s'"):
         swept(metrics={"contacts_s": lambda result: 0})
-    with pytest.raises(ValueError, match="there is a column 'time_s'"):
+    with pytest.raises(ValueError, match="every run has a column 'time_s'"):
         swept(metrics={"time_s": lambda result: 0})
 
 
-def test_each_run_is_told_as_it_comes() -> None:
+def test_each_run_is_reported_when_it_ends() -> None:
     rows: list[dict[str, Any]] = []
     runs = swept(seeds=5, jobs=2, on_run=rows.append)
     assert sorted(rows, key=lambda row: int(row["run"])) == list(runs)
@@ -124,7 +124,7 @@ def test_each_run_is_told_as_it_comes() -> None:
         swept(seeds=5, on_run=enough)
 
 
-def test_runs_are_cut_and_filtered() -> None:
+def test_runs_are_sliced_and_filtered() -> None:
     runs = swept(seeds=4, vary={"way": [0.1, 0.2]})
     assert [row["run"] for row in runs[2:4]] == [2, 3] and len(runs[::2]) == 4
     assert runs.where(seed=3).columns["way_si"] == [0.1, 0.2]
@@ -137,7 +137,7 @@ def test_runs_are_cut_and_filtered() -> None:
     assert "afpc run" in runs._repr_html_()
 
 
-def test_runs_are_found_by_the_value_that_was_varied() -> None:
+def test_runs_are_found_by_the_varied_value() -> None:
     runs = swept(seeds=2, vary={"way": [afp.cm(10), "0.2 m", 0.3]})
     for way in (afp.cm(20), afp.mm(200), 0.2, np.float64(0.2), "0.2 m", "20cm", "20 cm", "200 mm"):
         assert [row["seed"] for row in runs.where(way=way)] == [0, 1], way
@@ -172,7 +172,7 @@ def test_a_notebook_shows_the_first_run_of_each_group() -> None:
     assert "<img" not in runs._repr_html_()
 
 
-def test_what_components_of_the_user_run_is_not_done_again_to_be_shown() -> None:
+def test_runs_with_user_components_are_not_repeated_for_display() -> None:
     tools = afp.Toolbox("tools")
     called: list[int] = []
 
@@ -188,7 +188,7 @@ def test_what_components_of_the_user_run_is_not_done_again_to_be_shown() -> None
     assert "<img" not in runs._repr_html_() and len(called) == times
 
 
-def test_a_row_leads_back_to_its_run() -> None:
+def test_a_row_repeats_its_run() -> None:
     runs = swept(worlds=["random:1"], seeds=[4], vary={"way": [0.1, 0.2], "world.robot.charge": [0.5]})
     result = runs.result(1)
     assert result.trace_hash == runs[1]["trace"] and result.seed == 4
@@ -200,7 +200,7 @@ def test_a_row_leads_back_to_its_run() -> None:
         pickled.result(0)
 
 
-def test_a_row_leads_back_to_components_in_python() -> None:
+def test_a_row_repeats_a_run_with_components_in_python() -> None:
     tools = afp.Toolbox("tools")
 
     @tools.actor(states=["Done"])

@@ -28,7 +28,7 @@ def hash_of(afpc: str, plan: Path, seed: int) -> str:
 
 
 @pytest.mark.parametrize("plan", PLANS, ids=lambda plan: plan.stem)
-def test_the_trace_is_that_of_afpc(afpc: str, plan: Path) -> None:
+def test_the_trace_equals_the_trace_of_afpc(afpc: str, plan: Path) -> None:
     loaded = afp.load(plan)
     with ThreadPoolExecutor(2) as pool:
         theirs = list(pool.map(lambda seed: hash_of(afpc, plan, seed), range(20)))
@@ -36,7 +36,7 @@ def test_the_trace_is_that_of_afpc(afpc: str, plan: Path) -> None:
         assert afp.Simulation(loaded, seed=seed).run(until=UNTIL).trace_hash == told, f"seed {seed}"
 
 
-def test_driving_bit_by_bit_is_the_same(wall_following: afp.Plan) -> None:
+def test_a_run_in_pieces_equals_the_whole_run(wall_following: afp.Plan) -> None:
     whole = afp.Simulation(wall_following, seed=3).run(until=8.0)
     stepped = afp.Simulation(wall_following, seed=3)
     while stepped.time < 2.0:
@@ -48,7 +48,7 @@ def test_driving_bit_by_bit_is_the_same(wall_following: afp.Plan) -> None:
     assert [str(event) for event in whole.events] == [str(event) for event in stepped.events]
 
 
-def test_a_result_tells_everything(wall_following: afp.Plan) -> None:
+def test_a_result_has_all_fields(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following, seed=7)
     result = simulation.run(until=10.0)
     assert (result.plan, result.seed, result.ending, result.stopped_by) == ("WallFollowing", 7, "time_limit", "until")
@@ -63,7 +63,7 @@ def test_a_result_tells_everything(wall_following: afp.Plan) -> None:
     assert result.path[-1, 0] == 10.0
 
 
-def test_an_event_says_which_element_was_active_and_whether_it_answered() -> None:
+def test_an_event_has_the_active_element_and_its_reaction() -> None:
     plan = afp.Plan("""use carbot
 plan Keys {
     start wait
@@ -97,7 +97,7 @@ def test_stimuli(wall_following: afp.Plan) -> None:
     assert frozen.run(until=5.0).fault is not None
 
 
-def test_what_comes_from_outside_is_among_the_events_and_in_the_timeline(wall_following: afp.Plan) -> None:
+def test_external_inputs_are_in_the_events_and_the_timeline(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     simulation.set("walldist", afp.cm(40), at=0.2)
     simulation.fail(afp.Fault("ultrasonic", "frozen", at=0.5, lasting=1.0))
@@ -110,7 +110,7 @@ def test_what_comes_from_outside_is_among_the_events_and_in_the_timeline(wall_fo
     assert [str(event) for event in result.events if event.kind == "requested"][2] == result.timeline[-4]
 
 
-def test_the_timeline_is_that_of_the_command_line(wall_following: afp.Plan, afpc: str) -> None:
+def test_the_timeline_equals_the_timeline_of_the_command_line(wall_following: afp.Plan, afpc: str) -> None:
     simulation = afp.Simulation(wall_following)
     simulation.fail(afp.Fault("ultrasonic", "frozen", at=0.5, lasting=1.0))
     simulation.press(afp.Press(at=1.0))
@@ -119,7 +119,7 @@ def test_the_timeline_is_that_of_the_command_line(wall_following: afp.Plan, afpc
     assert all(line in ran.stdout + ran.stderr for line in simulation.run(until=3.0).timeline)
 
 
-def test_the_world_is_changed_and_the_start_chosen_as_on_the_command_line(wall_following: afp.Plan, tmp_path: Path) -> None:
+def test_world_values_and_the_start_match_the_command_line(wall_following: afp.Plan, tmp_path: Path) -> None:
     log, start = tmp_path / "run.mcap", (1.0, 1.2, afp.deg(90))
     given = {"world.robot.charge": 0.5, "walldist": afp.cm(35)}
     with afp.Simulation(wall_following, "random:1", start=start, set=given, log=log) as simulation:
@@ -139,7 +139,7 @@ def test_entries_are_in_a_simulation(wall_following: afp.Plan) -> None:
     assert "walldist" in simulation and "nothing" not in simulation and simulation.time == 0.0
 
 
-def test_a_simulation_that_was_closed_with_its_log_takes_nothing_more(wall_following: afp.Plan, tmp_path: Path) -> None:
+def test_a_closed_simulation_accepts_no_requests(wall_following: afp.Plan, tmp_path: Path) -> None:
     simulation = afp.Simulation(wall_following, log=tmp_path / "run.mcap")
     simulation.run_to(1.0)
     simulation.close()
@@ -153,7 +153,7 @@ def test_a_simulation_that_was_closed_with_its_log_takes_nothing_more(wall_follo
             ask()
 
 
-def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
+def test_invalid_stimuli_are_refused(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     with pytest.raises(ValueError, match="it can be frozen, lost"):
         simulation.fail(afp.Fault("ultrasonic", "melted"))
@@ -179,7 +179,7 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
         simulation.set("walldist", 0.4, at=0.5)
 
 
-def test_actors_that_idle(wall_following: afp.Plan) -> None:
+def test_idle_actors_do_nothing(wall_following: afp.Plan) -> None:
     idle = afp.Simulation(wall_following)
     idle.idle()
     assert idle.run_to(2.0) and idle.active == "searchFirstWall" and idle.pose[:2] == pytest.approx((2.1, 1.95))
@@ -191,15 +191,15 @@ def test_actors_that_idle(wall_following: afp.Plan) -> None:
         later.idle("searchFirstWall.touch")
 
 
-def test_what_is_fired_comes_with_its_outputs(wall_following: afp.Plan) -> None:
+def test_a_fired_outcome_has_its_outputs(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     simulation.step()
     simulation.fire("searchFirstWall.checkLane", "LaneNotFree")
     simulation.run_to(0.2)
     assert simulation.active == "findWallAngle"
-    with pytest.raises(ValueError, match=r'also brings .angle., which has no value here: give outputs={"angle": ...}'):
+    with pytest.raises(ValueError, match=r'also has the output .angle., which has no value here: give outputs={"angle": ...}'):
         simulation.fire("findWallAngle", "WallFound")
-    with pytest.raises(ValueError, match="brings no connected output 'size'"):
+    with pytest.raises(ValueError, match="has no connected output 'size'"):
         simulation.fire("findWallAngle", "WallFound", {"angle": 0.1, "size": 3})
     with pytest.raises(TypeError, match="not a quantity in m"):
         simulation.fire("findWallAngle", "WallFound", {"angle": afp.cm(3)})
@@ -262,7 +262,7 @@ def test_worlds() -> None:
     assert named.name == "Furnished room" and named.start == (2.1, 1.95, 0.0)
 
 
-def test_the_interpreter_is_free_while_a_plan_runs(wall_following: afp.Plan) -> None:
+def test_the_interpreter_lock_is_free_while_a_plan_runs(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     counted = 0
     runner = threading.Thread(target=lambda: simulation.run(until=120.0))
@@ -307,7 +307,7 @@ def test_a_forked_process_is_refused(wall_following: afp.Plan) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no fork")
-def test_a_forked_process_leaves_the_log_alone(tmp_path: Path) -> None:
+def test_a_forked_process_does_not_change_the_log(tmp_path: Path) -> None:
     code = f"""
 import os, sys, afp
 simulation = afp.Simulation(afp.load({str(ROOT / "plans/wall_following.afp")!r}), log="run.mcap")
@@ -325,7 +325,7 @@ assert os.wait()[1] == 0 and afp.Log("run.mcap").cut_short is None
     assert (ran.returncode, ran.stderr) == (0, "")
 
 
-def test_a_class_of_ones_own_builds_on_it(wall_following: afp.Plan) -> None:
+def test_a_simulation_can_be_subclassed(wall_following: afp.Plan) -> None:
     class Counted(afp.Simulation):
         def __init__(self, steps: int) -> None:
             if steps:
@@ -345,7 +345,7 @@ def test_a_class_of_ones_own_builds_on_it(wall_following: afp.Plan) -> None:
     assert "next step" in (afp.Simulation.step.__doc__ or "")
 
 
-def test_single_steps_are_those_of_a_run_also_once_it_has_ended(tmp_path: Path) -> None:
+def test_single_steps_equal_the_steps_of_a_run(tmp_path: Path) -> None:
     plan = afp.Plan("use carbot\nplan P { start go actor go: Forward(distance = 5 cm) { ForwardSuccessful -> terminate } }")
     whole = afp.Simulation(plan).run(until=30.0)
     with afp.Simulation(plan, log=tmp_path / "run.mcap") as simulation:

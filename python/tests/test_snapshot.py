@@ -21,7 +21,7 @@ def hash_at_the_end(simulation: afp.Simulation) -> str:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("at", [0.0, 1.234, 7.5])
-def test_a_run_goes_on_from_a_moment_as_it_would_have(wall_following: afp.Plan, seed: int, at: float) -> None:
+def test_a_restored_run_continues_like_the_original(wall_following: afp.Plan, seed: int, at: float) -> None:
     whole = afp.Simulation(wall_following, seed=seed)
     whole.bump(at=9.0)
     wanted = whole.run(STOPPED)
@@ -51,7 +51,7 @@ def test_a_moment_may_lead_to_several_futures(wall_following: afp.Plan) -> None:
     assert len(set(hashes)) == 2
 
 
-def test_what_cannot_be_saved_or_restored_says_why(wall_following: afp.Plan, tmp_path: Path) -> None:
+def test_unsavable_simulations_report_the_reason(wall_following: afp.Plan, tmp_path: Path) -> None:
     simulation = afp.Simulation(wall_following)
     saved = simulation.save()
     assert "Snapshot of WallFollowing" in repr(saved) and "at 0.000 s" in repr(saved)
@@ -77,7 +77,7 @@ def test_what_cannot_be_saved_or_restored_says_why(wall_following: afp.Plan, tmp
         driven.save()
 
 
-def test_others_read_while_one_drives(wall_following: afp.Plan) -> None:
+def test_other_threads_read_during_a_run(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following, seed=3)
     driving = threading.Thread(target=lambda: simulation.run(5000.0))
     driving.start()
@@ -94,7 +94,7 @@ def test_others_read_while_one_drives(wall_following: afp.Plan) -> None:
     assert simulation.time >= times[-1]
 
 
-def test_a_simulation_begins_in_a_moment_of_a_log(tmp_path: Path, wall_following: afp.Plan) -> None:
+def test_a_simulation_starts_from_a_moment_of_a_log(tmp_path: Path, wall_following: afp.Plan) -> None:
     file = tmp_path / "run.mcap"
     first = afp.Simulation(wall_following, seed=3, set={"walldist": afp.cm(40)}, log=file)
     first.bump(at=1.0)
@@ -111,7 +111,7 @@ def test_a_simulation_begins_in_a_moment_of_a_log(tmp_path: Path, wall_following
     assert other.run(until=6.0).trace_hash != result.trace_hash
 
 
-def test_a_log_has_the_plan_as_it_was(tmp_path: Path) -> None:
+def test_a_log_has_the_plan_of_its_run(tmp_path: Path) -> None:
     (tmp_path / "part.afp").write_text("use carbot\nplan Part { start go actor go: Forward(distance = 20 cm) { ForwardSuccessful -> terminate } }\n")
     (tmp_path / "whole.afp").write_text('use "part.afp"\nplan Whole { start part subplan part: Part { OK -> terminate } }\n')
     plan = afp.load(tmp_path / "whole.afp")
@@ -123,6 +123,6 @@ def test_a_log_has_the_plan_as_it_was(tmp_path: Path) -> None:
     assert afp.Log(tmp_path / "run.mcap").simulation().run(until=5.0).trace_hash == result.trace_hash
 
 
-def test_a_log_that_does_not_say_what_ran_is_told_so(tmp_path: Path) -> None:
+def test_a_log_without_a_description_is_reported(tmp_path: Path) -> None:
     with pytest.raises(OSError):
         afp.Log(tmp_path / "nothing.mcap").simulation()

@@ -21,7 +21,7 @@ GROWTH = 2.0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it interrupts calls by SIGALRM, and forks")
-def test_nothing_undocumented_comes_out(tmp_path: Path) -> None:
+def test_only_documented_exceptions_are_raised(tmp_path: Path) -> None:
     steps = tmp_path / "steps.txt"
     command = [sys.executable, str(STRESS), "--seconds", os.environ.get("AFP_STRESS", "0"), "--steps", str(steps)]
     done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
@@ -32,7 +32,7 @@ def test_nothing_undocumented_comes_out(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read from /proc")
-def test_simulations_leave_nothing_behind() -> None:
+def test_simulations_leave_no_files_or_threads() -> None:
     count = os.environ.get("AFP_SIMULATIONS", "300")
     command = [sys.executable, str(STRESS / "memory.py"), count]
     grown = float(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)

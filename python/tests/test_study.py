@@ -17,7 +17,7 @@ def bumps(rng: np.random.Generator) -> list[afp.Press]:
     return [afp.Press("touch", at=time) for time in rng.uniform(0.5, 2.5, rng.poisson(1.0))]
 
 
-def test_a_press_is_tried_at_several_times(wall_following: afp.Plan) -> None:
+def test_a_press_can_vary_in_time(wall_following: afp.Plan) -> None:
     runs = afp.sweep(wall_following, vary={afp.Press("touch"): [0.5, 1.0]}, **GRID)
     assert runs.columns["press.touch"] == ["@0.5s", "@1s"] and runs.columns["press.touch_si"] == [0.5, 1.0]
     assert "--press touch@1s" in runs[1]["command"]
@@ -26,7 +26,7 @@ def test_a_press_is_tried_at_several_times(wall_following: afp.Plan) -> None:
     assert runs[1]["trace"] == alone.run(until=3.0).trace_hash == runs.result(1).trace_hash
 
 
-def test_a_fault_is_tried_at_several_times(wall_following: afp.Plan) -> None:
+def test_a_fault_can_vary_in_time(wall_following: afp.Plan) -> None:
     slip = afp.Fault("wheels", "slip", share=0.5, lasting=1.0)
     runs = afp.sweep(wall_following, vary={slip: np.array([0.5, 1.0])}, **GRID)
     assert runs.columns["fail.wheels.slip"] == ["=0.5@0.5s..1.5s", "=0.5@1s..2s"]
@@ -35,7 +35,7 @@ def test_a_fault_is_tried_at_several_times(wall_following: afp.Plan) -> None:
     assert runs[0]["trace"] == alone.run(until=3.0).trace_hash
 
 
-def test_draws_depend_on_only_the_seed(wall_following: afp.Plan) -> None:
+def test_draws_depend_only_on_the_seed(wall_following: afp.Plan) -> None:
     draw = {"walldist": lambda rng: afp.cm(rng.uniform(25, 45)), "world.robot.charge": lambda rng: rng.uniform(0.3, 1.0)}
     runs = afp.sweep(wall_following, ["random:1", "random:2"], 3, draw=draw, presses=bumps, **GRID)
     assert len(runs) == 6 and len(set(runs.columns["walldist_si"])) == 3
@@ -59,7 +59,7 @@ def test_a_journal_keeps_draws(wall_following: afp.Plan, tmp_path: Any) -> None:
         afp.sweep(wall_following, seeds=3, presses=lambda rng: [], out=out, **GRID)
 
 
-def test_a_finished_sweep_gets_more_seeds(wall_following: afp.Plan) -> None:
+def test_a_finished_sweep_can_get_more_seeds(wall_following: afp.Plan) -> None:
     runs = afp.sweep(wall_following, seeds=2, presses=bumps, **GRID).extended([2, 3])
     whole = afp.sweep(wall_following, seeds=4, presses=bumps, **GRID)
     assert runs.columns["run"] == [0, 1, 2, 3] and runs.columns["trace"] == whole.columns["trace"]

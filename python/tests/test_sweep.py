@@ -35,7 +35,7 @@ def test_every_combination_is_a_row_with_its_command() -> None:
     assert sum(runs.endings.values()) == 12 and sum(group["count"] for group in runs.groups) == 12
 
 
-def test_a_range_is_that_of_the_command_line() -> None:
+def test_a_range_equals_the_range_of_the_command_line() -> None:
     runs = afp.sweep(afp.Plan(GO), vary={"way": "10cm..30cm:10cm"}, until=5.0, progress=False)
     assert runs.columns["way_si"] == [0.1, 0.2, 0.3]
 
@@ -46,7 +46,7 @@ def test_a_row_is_the_run_of_a_simulation(wall_following: afp.Plan) -> None:
     assert runs[1]["trace"] == alone.trace_hash
 
 
-def test_each_run_is_pressed_and_disturbed(wall_following: afp.Plan) -> None:
+def test_each_run_has_its_presses_and_faults(wall_following: afp.Plan) -> None:
     grid: dict[str, Any] = {
         "presses": [afp.Press("escape", at=0.5)],
         "faults": [afp.Fault("ultrasonic", "frozen", at=0.1, lasting=0.1)],
@@ -60,7 +60,7 @@ def test_each_run_is_pressed_and_disturbed(wall_following: afp.Plan) -> None:
     assert runs[0]["trace"] == alone.run(until=2.0).trace_hash and runs.result(0).trace_hash == runs[0]["trace"]
 
 
-def test_where_the_robot_starts_makes_another_sweep(wall_following: afp.Plan, tmp_path: Path) -> None:
+def test_another_start_makes_another_sweep(wall_following: afp.Plan, tmp_path: Path) -> None:
     world = afp.Simulation(wall_following, "random:1", start=(1.0, 1.2, 0.0)).world
     grid: dict[str, Any] = {"until": 0.5, "progress": False, "out": tmp_path / "runs.csv"}
     afp.sweep(wall_following, world, **grid)
@@ -68,7 +68,7 @@ def test_where_the_robot_starts_makes_another_sweep(wall_following: afp.Plan, tm
         afp.sweep(wall_following, afp.Simulation(wall_following, "random:1", start=(1.1, 1.2, 0.0)).world, **grid)
 
 
-def test_jobs_do_not_matter_and_progress_is_told() -> None:
+def test_jobs_do_not_change_results_and_progress_is_reported() -> None:
     told: list[tuple[int, int]] = []
     one = afp.sweep(afp.Plan(GO), seeds=6, until=5.0, jobs=1, progress=lambda *it: told.append(it))
     four = afp.sweep(afp.Plan(GO), seeds=6, until=5.0, jobs=4, progress=False)
@@ -76,7 +76,7 @@ def test_jobs_do_not_matter_and_progress_is_told() -> None:
     assert told[-1] == (6, 6) and told == sorted(told)
 
 
-def test_what_makes_no_sense_is_refused() -> None:
+def test_invalid_arguments_are_refused() -> None:
     plan = afp.Plan(GO)
     with pytest.raises(KeyError, match="no.*'nothing'"):
         afp.sweep(plan, vary={"nothing": [1]}, progress=False)
@@ -96,13 +96,13 @@ def test_what_makes_no_sense_is_refused() -> None:
         afp.sweep(plan, vary={"way": [None]})
     with pytest.raises(TypeError, match="needs a Plan, not a str"):
         afp.sweep("go.afp")  # type: ignore[arg-type]
-    with pytest.raises(afp.AfpError, match="1000000000000 runs, and a sweep has at most 10000000"):
+    with pytest.raises(afp.AfpError, match="a sweep has at most 10000000 runs, not 1000000000000"):
         afp.sweep(plan, seeds=10**12)
     with pytest.raises(afp.PlanError):
         afp.sweep(afp.Plan("plan P {"))
 
 
-def test_a_sweep_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
+def test_a_stopped_sweep_continues(tmp_path: Path) -> None:
     plan, out = afp.Plan(GO), tmp_path / "runs.csv"
 
     def stop(done: int, total: int) -> None:
@@ -133,7 +133,7 @@ def test_outcomes_of_other_processes_count_once() -> None:
     assert len(sweeper.columns()["run"][0]) == 5
 
 
-def test_what_makes_a_sweep_is_short_however_many_seeds_it_names() -> None:
+def test_the_description_of_a_sweep_is_short_for_many_seeds() -> None:
     def identity(last: int) -> str:
         return Spec(([None], False), [*range(0, 30_000, 3), last], [], 5.0, {}).sweeper(afp.Plan(GO)).identity
 
@@ -141,7 +141,7 @@ def test_what_makes_a_sweep_is_short_however_many_seeds_it_names() -> None:
     assert len(identity(30_001)) < 300
 
 
-def test_the_command_line_goes_on_with_it(tmp_path: Path, afpc: str) -> None:
+def test_the_command_line_continues_a_sweep_of_python(tmp_path: Path, afpc: str) -> None:
     file, out = tmp_path / "go.afp", tmp_path / "runs.csv"
     file.write_text(GO)
     afp.sweep(afp.load(file), seeds=4, until=5.0, progress=False, out=out)
@@ -173,7 +173,7 @@ def test_components_in_python_take_turns() -> None:
     assert threading.get_ident() not in threads
 
 
-def test_what_never_happened_took_no_time() -> None:
+def test_runs_that_never_started_have_no_duration() -> None:
     runs = afp.sweep(afp.Plan(GO), seeds=2, until=0.5, progress=False)
     assert [str(took) for took in runs.columns["contacts_s"]] == ["0.0", "0.0"]
 
@@ -200,7 +200,7 @@ def test_ctrl_c_stops_a_sweep_whose_component_hangs() -> None:
     assert interrupted(lambda: afp.sweep(plan, seeds=8, jobs=2, progress=False)) < 5.0
 
 
-def test_ctrl_c_leaves_a_component_that_blocks_outside_of_python() -> None:
+def test_ctrl_c_ends_a_component_that_blocks_outside_of_python() -> None:
     tools = afp.Toolbox("tools")
     blocked = threading.Event()
 
@@ -234,7 +234,7 @@ def test_tables(tmp_path: Path) -> None:
         runs.plot("nothing")
 
 
-def test_a_command_says_when_it_does_something_else(wall_following: afp.Plan) -> None:
+def test_a_command_notes_its_differences(wall_following: afp.Plan) -> None:
     def command(plan: afp.Plan) -> str:
         runs = afp.sweep(plan, worlds="random:1", until=0.5, progress=False)
         [row] = list(runs)
@@ -242,11 +242,11 @@ def test_a_command_says_when_it_does_something_else(wall_following: afp.Plan) ->
 
     assert "#" not in command(wall_following)
     wall_following.set_entry_value("walldist", afp.cm(31))
-    assert command(wall_following).endswith("  # the plan has been changed and not saved")
+    assert command(wall_following).endswith("  # the plan has unsaved changes")
     assert command(afp.Plan(wall_following.text)).endswith("  # the plan has no file")
     tools = afp.Toolbox("tools")
     with_python = afp.Plan(wall_following.text, toolboxes=(tools,))
-    assert command(with_python).endswith("  # components are in Python: run it there")
+    assert command(with_python).endswith("  # the plan has components in Python: run it in Python")
 
 
 def test_the_bar_is_drawn_ten_times_a_second_and_at_the_end() -> None:

@@ -28,7 +28,7 @@ def test_tables_agree(result: afp.Result) -> None:
     assert polars.DataFrame(result).height == len(frame) and pyarrow.table(result).num_rows == len(frame)
 
 
-def test_tables_have_all_that_events_say(wall_following: afp.Plan, tmp_path: Path) -> None:
+def test_tables_have_all_fields_of_events(wall_following: afp.Plan, tmp_path: Path) -> None:
     arrow = pytest.importorskip("pyarrow")
     simulation = afp.Simulation(wall_following, set={"walldist": afp.cm(35)}, log=tmp_path / "run.mcap")
     simulation.set("walldist", afp.cm(40), at=0.5)
@@ -70,7 +70,7 @@ MISSING = {
 
 
 @pytest.mark.parametrize("module", MISSING)
-def test_what_is_not_installed_says_so(module: str, tmp_path: Path) -> None:
+def test_missing_packages_are_reported(module: str, tmp_path: Path) -> None:
     calls = MISSING[module]
     program = f"""
 import sys
@@ -94,7 +94,7 @@ for call in {calls!r}:
     assert done.stdout.splitlines() == [said] * len(calls)
 
 
-def test_the_extras_that_are_named_are_there() -> None:
+def test_named_extras_exist() -> None:
     project = (ROOT / "python/pyproject.toml").read_text(encoding="utf-8")
     assert 'name = "action-flow-plans"' in project
     packages = {"matplotlib": "plot", "stable-baselines3": "sb3", **EXTRAS}

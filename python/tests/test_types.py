@@ -109,7 +109,7 @@ def test_the_program_uses_every_name_of_the_package() -> None:
     assert not unused
 
 
-def test_a_program_is_clean_in_strict_mode(tmp_path: Path) -> None:
+def test_a_program_passes_strict_type_checks(tmp_path: Path) -> None:
     program = tmp_path / "program.py"
     program.write_text(PROGRAM)
     checked = subprocess.run(

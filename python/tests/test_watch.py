@@ -42,7 +42,7 @@ def pictures(bundle: dict[str, str]) -> list[str]:
     return [base64.b64decode(found).decode() for found in re.findall(r"base64,([A-Za-z0-9+/=]+)", bundle["text/html"])]
 
 
-def test_a_run_is_shown_while_it_goes_on(cell: list[dict[str, str]], wall_following: afp.Plan) -> None:
+def test_a_run_is_shown_while_it_continues(cell: list[dict[str, str]], wall_following: afp.Plan) -> None:
     begin = time.monotonic()
     result = afp.Simulation(wall_following, seed=7).watch(until=3.0, speed=5.0)
     assert time.monotonic() - begin >= 0.6
@@ -56,7 +56,7 @@ def test_a_run_is_shown_while_it_goes_on(cell: list[dict[str, str]], wall_follow
     assert pictures(cell[0])[0] != pictures(cell[-1])[0]
 
 
-def test_a_run_that_was_interrupted_goes_on(cell: list[dict[str, str]], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupted_run_continues(cell: list[dict[str, str]], monkeypatch: pytest.MonkeyPatch) -> None:
     simulation = afp.Simulation(afp.load(ROOT / "plans/wall_following.afp"))
 
     def interrupt(seconds: float) -> None:
@@ -69,12 +69,12 @@ def test_a_run_that_was_interrupted_goes_on(cell: list[dict[str, str]], monkeypa
     assert simulation.ending == "running" and simulation.run_to(simulation.time + 1.0)
 
 
-def test_outside_of_a_notebook_it_says_what_to_do(wall_following: afp.Plan) -> None:
+def test_outside_of_a_notebook_the_error_names_the_fix(wall_following: afp.Plan) -> None:
     assert not notebook.is_here()
     with pytest.raises(RuntimeError, match="run\\(\\) runs it"):
         afp.Simulation(wall_following).watch()
 
 
-def test_speeds_that_make_no_sense(cell: list[dict[str, str]], wall_following: afp.Plan) -> None:
+def test_invalid_speeds_are_refused(cell: list[dict[str, str]], wall_following: afp.Plan) -> None:
     with pytest.raises(ValueError, match="speed is 0; give how many times"):
         afp.Simulation(wall_following).watch(speed=0)

@@ -5,7 +5,7 @@ import { pathOf, uriOf } from "../page/documents/addresses";
 import { hello, type Hello } from "../page/server/session";
 import { inBrowser, shows } from "./browser";
 
-test("a path of the folder, and a whole one, become the address that the server writes, and back", () => {
+test("relative and absolute paths convert to the server's addresses and back", () => {
   hello.value = { root: "file:///w/robot%20%28copy%29" } as Hello;
   const root = "/w/robot (copy)";
   for (const [path, written] of [
@@ -35,7 +35,7 @@ scenario "never there" for Away {
 }
 `;
 
-inBrowser("the text of a failed scenario is opened under its one address, and saved", { "plan.afp": PLAN, "tests/room (1).afp": SCENARIO }, async ({ page, becomes, isSaved }) => {
+inBrowser("the text of a failed scenario is opened under its address, and saved", { "plan.afp": PLAN, "tests/room (1).afp": SCENARIO }, async ({ page, becomes, isSaved }) => {
   await page.locator(".node text").first().waitFor();
   await page.locator(".rail button", { hasText: "Text" }).click();
   await page.locator(".cm-line", { hasText: "start go" }).waitFor();

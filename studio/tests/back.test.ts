@@ -29,7 +29,7 @@ const places = (page: Page, items: readonly string[]) => async (): Promise<strin
   return JSON.stringify(boxes.map((box) => box && [box.x, box.y].map(Math.round)));
 };
 
-inBrowser("the first move writes every place; undone or tidied up, everything is back; so does one whose file is emptied elsewhere", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("the first move writes every position; undo and tidying restore everything", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await page.locator('.node [data-item="P.drive"]').first().waitFor();
   const at = places(page, ["P.drive", "P.turn"]);
@@ -63,7 +63,7 @@ inBrowser("the first move writes every place; undone or tidied up, everything is
   await isBack();
 });
 
-inBrowser("everything is cut and pasted in the order of the text, with its start", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("the whole plan is cut and pasted in source order, with its start", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await page.locator('.node [data-item="P.drive"]').first().waitFor();
   await page.locator(".board").focus();
@@ -74,7 +74,7 @@ inBrowser("everything is cut and pasted in the order of the text, with its start
   await studio.holds("plan.afp", PLAN);
 }, { permissions: ["clipboard-read", "clipboard-write"] });
 
-test("what is undone is a change that is on its way, and not the one before it", async () => {
+test("undo reverts the pending change and not the change before it", async () => {
   const texts = new Map([["a", "one"]]);
   attach({
     make: (changes) => changes.map(({ uri, from, to, insert }) => {

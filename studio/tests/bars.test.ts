@@ -154,7 +154,7 @@ const LASTS = Number(process.env.AFP_HOUR ?? 0);
 const GROWS = 5;
 
 if (LASTS > 0) {
-  inBrowser("a plan that runs for long does not fill the page", { "plan.afp": await readFile(new URL("../../plans/wall_following.afp", import.meta.url), "utf8") }, async ({ page }) => {
+  inBrowser("a long run does not fill the page", { "plan.afp": await readFile(new URL("../../plans/wall_following.afp", import.meta.url), "utf8") }, async ({ page }) => {
     const session = await page.context().newCDPSession(page);
     const heap = async (): Promise<number> => {
       await session.send("HeapProfiler.collectGarbage");

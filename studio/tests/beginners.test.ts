@@ -46,7 +46,7 @@ async function value(page: Page, item: string, port: string): Promise<void> {
   await page.locator(".inspector .value").waitFor();
 }
 
-inBrowser("a plan that was just made is empty and not wrong", {}, async ({ page }) => {
+inBrowser("a new plan is empty and has no errors", {}, async ({ page }) => {
   await page.getByRole("button", { name: /Your first plan/ }).click();
   await shows(page.locator(".count"), /^empty/);
   assert.equal(await page.locator(".bar .severity, .inspector .severity").count(), 0);
@@ -60,7 +60,7 @@ inBrowser("a plan that was just made is empty and not wrong", {}, async ({ page 
   await page.locator(".banner.error").waitFor({ state: "detached" });
 });
 
-inBrowser("the map makes room for the element that is selected", { "plan.afp": large(30) }, async ({ page }) => {
+inBrowser("the map makes room for the selected element", { "plan.afp": large(30) }, async ({ page }) => {
   const map = page.locator(".minimap");
   await map.waitFor();
   const nodes = page.locator(".nodes .node .box");
@@ -83,7 +83,7 @@ inBrowser("the map makes room for the element that is selected", { "plan.afp": l
   assert.fail("no element was near the map");
 });
 
-inBrowser("an entry is added by a form, and the sign and an operation of a formula by buttons", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("a form adds an entry, and buttons add the sign and an operation of a formula", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await ready(page, "P.go");
   await page.locator(".inspector").getByRole("button", { name: "Add an entry" }).click();
@@ -158,7 +158,7 @@ plan P {
 }
 `;
 
-inBrowser("a step takes no real time; why something ran follows the selection, also after the end", { "plan.afp": SLOW }, async ({ page }) => {
+inBrowser("a step takes no real time; the reason of an activation follows the selection, even after the end", { "plan.afp": SLOW }, async ({ page }) => {
   await ready(page, "P.one");
   await page.locator(".board").focus();
   for (const item of ["P.one", "P.two"]) {
@@ -192,7 +192,7 @@ inBrowser("the value of an entry stays in its frame", { "plan.afp": SLOW.replace
 
 const tablet = { hasTouch: true, viewport: { width: 800, height: 1100 } };
 
-inBrowser("on a tablet, a tap on a template shows what it added, and the start stays in sight", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("on a tablet, a tap on a template shows the new element, and the start stays visible", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await ready(page, "P.go");
   await page.locator(".narrow").getByRole("button", { name: "Palette" }).tap();
@@ -206,7 +206,7 @@ inBrowser("on a tablet, a tap on a template shows what it added, and the start s
   }
 }, tablet);
 
-inBrowser("a selection that cannot become a plan is refused before its name is asked for", { "plan.afp": PLAN.replace("terminate", "go") }, async ({ page }) => {
+inBrowser("an invalid selection for a plan is refused before its name is requested", { "plan.afp": PLAN.replace("terminate", "go") }, async ({ page }) => {
   await ready(page, "P.again");
   await page.mouse.click(...(await middle(page, name("P.again"))));
   await page.keyboard.press("Control+g");
@@ -215,7 +215,7 @@ inBrowser("a selection that cannot become a plan is refused before its name is a
   assert.equal(await page.locator("dialog").count(), 0);
 });
 
-inBrowser("without a server, a change of the drawing says that it waits", { "plan.afp": PLAN }, async ({ page, crash }) => {
+inBrowser("without a server, a change of the drawing is shown as waiting", { "plan.afp": PLAN }, async ({ page, crash }) => {
   await ready(page, "P.go");
   await page.mouse.click(...(await middle(page, name("P.go"))));
   await crash();
@@ -226,7 +226,7 @@ inBrowser("without a server, a change of the drawing says that it waits", { "pla
 }, { ignore: /WebSocket|ERR_/ });
 
 for (const colorScheme of ["light", "dark"] as const) {
-  inBrowser(`axe finds nothing in any state of the page, ${colorScheme}`, { "plan.afp": PLAN }, async ({ page }) => {
+  inBrowser(`axe finds no problem in any state of the page, ${colorScheme}`, { "plan.afp": PLAN }, async ({ page }) => {
     await ready(page, "P.go");
     const clean = async (state: string): Promise<void> => {
       await page.evaluate(() => Promise.all(document.getAnimations().map((motion) => motion.finished.catch(() => {}))));

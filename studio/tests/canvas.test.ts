@@ -23,7 +23,7 @@ plan P {
 }
 `;
 
-inBrowser("the menu of what is pressed: by mouse, by key, closed by Escape", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("the menu of a part opens by mouse and key, and Escape closes it", { "plan.afp": PLAN }, async (studio) => {
   const { page, holds } = studio;
   await page.locator(name("P.turn")).first().waitFor();
   const menu = page.locator(".context-menu");
@@ -41,7 +41,7 @@ inBrowser("the menu of what is pressed: by mouse, by key, closed by Escape", { "
   await page.locator(".marks .ring:not(.second, .third)").nth(1).waitFor();
 });
 
-inBrowser("a folded box hides ports and supervisors, leads where it led, and is folded after a reload", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a folded box hides ports and supervisors, keeps its edges, and stays folded after a reload", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(name("P.turn")).first().waitFor();
   const ports = page.locator("text.port");
   const edges = page.locator("[data-item='P.go.touch'][data-exit]");
@@ -71,7 +71,7 @@ inBrowser("a folded box hides ports and supervisors, leads where it led, and is 
   assert.equal(await ports.count(), before);
 });
 
-inBrowser("elements become a plan, a sub-plan becomes its elements, undo gives the first bytes", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("elements become a plan, a sub-plan becomes its elements, undo restores the bytes", { "plan.afp": PLAN }, async (studio) => {
   const { page, holds } = studio;
   await page.locator(name("P.turn")).first().waitFor();
   await page.mouse.click(...(await middle(page, name("P.turn"))));
@@ -128,7 +128,7 @@ inBrowser("a note is written above its element; the flow of data is shown", { "p
   await page.locator(".data-flow.reads").waitFor();
 });
 
-inBrowser("what is looked for is found in drawing and text, and gone to by its name", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("the search finds and shows items in the drawing and the text", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(name("P.go")).first().waitFor();
   await page.keyboard.press("Control+e");
   await page.locator(".cm-content").waitFor();
@@ -149,7 +149,7 @@ inBrowser("what is looked for is found in drawing and text, and gone to by its n
   await page.locator(".inspector-head, .cm-shown", { hasText: "go" }).first().waitFor();
 });
 
-inBrowser("of a large plan what is in sight is in the page; far away it is painted; the map leads elsewhere", { "plan.afp": large(400) }, async ({ page }) => {
+inBrowser("a large plan has only its visible part in the page; from far away it is painted; the map moves the view", { "plan.afp": large(400) }, async ({ page }) => {
   // An unoptimised server lays out four hundred boxes.
   await page.locator(name("Large.element0")).first().waitFor({ timeout: 60_000 });
   const filled = (): Promise<number> => page.locator(".node > g").count();
@@ -169,7 +169,7 @@ inBrowser("of a large plan what is in sight is in the page; far away it is paint
   assert.ok(painted > 2000, `${painted} pixels are painted`);
 });
 
-inBrowser("an element that no way leads to has a dotted border and a word, until one does", { "plan.afp": `use std
+inBrowser("an unreachable element has a dotted border and a note until it is connected", { "plan.afp": `use std
 
 plan P {
     start go

@@ -15,7 +15,7 @@ plan P {
 }
 `;
 
-inBrowser("a server killed in mid-drag loses no finished edit", { "plan.afp": PLAN }, async ({ page, read, becomes, crash, restart }) => {
+inBrowser("a server that is killed during a drag loses no finished edit", { "plan.afp": PLAN }, async ({ page, read, becomes, crash, restart }) => {
   const node = page.locator('.node [data-item="P.rest"] text.name').first();
   await node.waitFor();
   await page.locator(".rail button", { hasText: "Text" }).click();
@@ -65,7 +65,7 @@ const codeFor = (folder: string): string =>
 const WHOLE = PLAN.replace("start go", `start go${typed}`);
 const ignore = /WebSocket|connection/i;
 
-inBrowser("what was typed without a server is kept where another page has the pen by then", { "plan.afp": PLAN }, async ({ page, folder, crash, restart, read, holds }) => {
+inBrowser("text typed without a server is kept if another page has taken the edit lock", { "plan.afp": PLAN }, async ({ page, folder, crash, restart, read, holds }) => {
   await typeAlone(page, crash);
   // Another browser comes first; this one has no code yet.
   const others = await page.context().browser()!.newContext();
@@ -84,7 +84,7 @@ inBrowser("what was typed without a server is kept where another page has the pe
   await others.close();
 }, { ignore });
 
-inBrowser("what was typed without a server is offered to the page that is opened after it", { "plan.afp": PLAN }, async ({ page, crash, restart, read, holds }) => {
+inBrowser("text typed without a server is offered to the next page", { "plan.afp": PLAN }, async ({ page, crash, restart, read, holds }) => {
   await typeAlone(page, crash);
   let asked = 0;
   page.on("dialog", (dialog) => void (asked++, dialog.accept()));

@@ -8,7 +8,7 @@ import { sector } from "../page/world/geometry";
 const plain = (text: string) => ({ number: Number(text), unit: "" });
 const told = (...all: [number, string][]): Curve => all.reduce<Curve | undefined>((curve, [at, text]) => extended(curve, at, plain(text)), undefined)!;
 
-test("a value lasts until another one is told, whatever order moments come in", () => {
+test("a value lasts until the next value, for any order of moments", () => {
   const curve = told([0, "1"], [1, "1"], [2, "3"]);
   assert.deepEqual(curve.points, [[0, 1], [2, 3]]);
   assert.deepEqual([-1, 0, 1.9, 2, 9].map((at) => valueAt(curve, at)), [null, 1, 1, 3, 3]);
@@ -18,7 +18,7 @@ test("a value lasts until another one is told, whatever order moments come in", 
   assert.deepEqual(cut(back, 1.7).points, [[0, 1], [1.5, 2]]);
 });
 
-test("a long curve is thinned out and keeps its shape", () => {
+test("a long curve is simplified and keeps its shape", () => {
   let curve: Curve | undefined;
   for (let nth = 0; nth < 20_000; nth++) curve = extended(curve, nth, plain(String(nth)));
   assert.ok(curve!.points.length <= 2000);
@@ -32,6 +32,6 @@ test("a curve is drawn as steps within its window, up to now", () => {
   assert.equal(drawn({ unit: "", points: [] }, { from: 0, to: 1 }, x, 0).line, "");
 });
 
-test("a range sensor's view is a sector around where it looks", () => {
+test("a range sensor's view is a sector around its bearing", () => {
   assert.equal(sector([1, 2, 0], Math.PI / 2, 2), "M1 2L1 0A2 2 0 0 1 1 4Z");
 });

@@ -29,7 +29,7 @@ plan Blink {
 
 const record = (step: number, at: number, kind: string, path: string, more: Partial<Record> = {}): Record => ({ at, step, kind, path, text: `${path} ${kind}`, ...more });
 
-test("records become rows: what was active, what watched, what was written", () => {
+test("records become rows: active elements, supervisors, writes", () => {
   const found = rows([
     record(1, 0, "started", "go"),
     record(1, 0, "started", "go.touch", { supervisor: true }),
@@ -47,7 +47,7 @@ test("records become rows: what was active, what watched, what was written", () 
   assert.deepEqual(found[3]!.marks, [{ at: 1.5, label: "1" }]);
 });
 
-test("what happens again after a step back takes the place of what had happened", () => {
+test("events after a step back replace the earlier events", () => {
   const before = [record(1, 0, "started", "a"), record(2, 1, "finished", "a"), record(3, 1, "started", "b")];
   assert.equal(extended(before, []), before);
   assert.deepEqual(extended(before, [record(2, 1, "interrupted", "a")]).map(({ kind }) => kind), ["started", "interrupted"]);
@@ -66,7 +66,7 @@ test("windows stay within the run; a scale has round seconds", () => {
   assert.equal(beside([0, 1, 2], 0, -1), null);
 });
 
-test("an entry of the plan that is shown holds what the innermost plan of that name holds", () => {
+test("an entry of the shown plan has the value of the innermost plan of that name", () => {
   const frames = [{ path: "", plan: "Outer" }, { path: "work", plan: "Inner" }];
   const now = { at: 2.5, entries: { left: "1", "work.left": "2" }, forced: [{ path: "work.left", value: "3", until: 9 }] };
   assert.deepEqual(holding(frames, "Outer", now, "Outer.left"), { text: "1", left: null });
@@ -75,7 +75,7 @@ test("an entry of the plan that is shown holds what the innermost plan of that n
   assert.equal(holding(frames, "Outer", now, "Outer.right"), null);
 });
 
-inBrowser("while a plan runs, its entries show what they hold", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("while a plan runs, its entries show their values", { "plan.afp": PLAN }, async ({ page }) => {
   // Slowly, so that each value is visible.
   await begun(page, "2");
   const held = async (): Promise<string[]> => page.locator(".run-value-text").allTextContents();
@@ -106,7 +106,7 @@ const begun = async (page: Page, speed = "20"): Promise<void> => {
 
 const clock = async (page: Page): Promise<number> => Number.parseFloat((await page.locator(".clock").textContent())!);
 
-inBrowser("a timeline shows the run; a moment of it is gone to by mouse and keys", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a timeline shows the run; mouse and keys go to its moments", { "plan.afp": PLAN }, async ({ page }) => {
   await begun(page);
   await page.locator(".end-card").waitFor();
   await page.keyboard.press("Control+Shift+Y");
@@ -132,7 +132,7 @@ inBrowser("a timeline shows the run; a moment of it is gone to by mouse and keys
   await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock")!.textContent!) < 3);
 });
 
-inBrowser("why something runs is said; what is forced is shown until it ends", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("the reason of an activation is shown; a forced value is shown until it ends", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator('.node [data-item="Blink.light"] text.name').first().click({ force: true });
   // Slowly, so that it pauses in the middle: entries have values after the start.
   await begun(page, "1");
@@ -160,7 +160,7 @@ inBrowser("why something runs is said; what is forced is shown until it ends", {
   assert.equal(await page.locator(".forced-bar").count(), 0);
 });
 
-inBrowser("a stop has a condition, may speak instead, and stands at exits and supervisors", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a breakpoint may have a condition or a message, also at exits and supervisors", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator('.node [data-item="Blink.dark"] text.name').first().click({ force: true });
   await page.keyboard.press("F9");
   await page.locator("circle.breakpoint").waitFor();
@@ -182,7 +182,7 @@ inBrowser("a stop has a condition, may speak instead, and stands at exits and su
   await page.locator("circle.breakpoint.off").waitFor();
 });
 
-inBrowser("the outline has everything as buttons, and says what is active", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("the outline has a button for every part, and marks the active element", { "plan.afp": PLAN }, async ({ page }) => {
   await page.getByRole("button", { name: "Outline" }).click();
   const outline = page.locator("[data-when=outline]");
   await outline.getByRole("button", { name: /^actor light/ }).waitFor();

@@ -32,7 +32,7 @@ const isHonest = async (page: Page, on: () => Promise<string>, wanted: string): 
   if (/\bsaved saved\b/.test(said ?? "")) assert.equal(await on(), wanted);
 };
 
-inBrowser("a file that cannot be written is said not to be saved, and is as soon as it can be", { "plan.afp": PLAN }, async ({ page, folder, read, holds, isSaved }) => {
+inBrowser("an unwritable file is reported as unsaved, and is saved as soon as possible", { "plan.afp": PLAN }, async ({ page, folder, read, holds, isSaved }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
   const file = join(folder, "plan.afp");
@@ -53,7 +53,7 @@ inBrowser("a file that cannot be written is said not to be saved, and is as soon
   assert.equal(await page.locator(".banner.error").count(), 0);
 });
 
-inBrowser("of what is typed while another program writes again and again no letter is lost", { "plan.afp": `// 0\n\n${PLAN}` }, async ({ page, folder, holds, isSaved, read }) => {
+inBrowser("no letter is lost while another program keeps writing", { "plan.afp": `// 0\n\n${PLAN}` }, async ({ page, folder, holds, isSaved, read }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
   await type(page, "start go", " // ");
@@ -75,7 +75,7 @@ inBrowser("of what is typed while another program writes again and again no lett
   await holds("plan.afp", await page.evaluate(() => [...document.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\n")));
 });
 
-inBrowser("lines of a file that end in several ways stay so, and what is pasted brings no other ends", { "plan.afp": PLAN.replace("\n", "\r\n") }, async ({ page, holds, isSaved }) => {
+inBrowser("mixed line endings stay, and pasted text does not add new kinds", { "plan.afp": PLAN.replace("\n", "\r\n") }, async ({ page, holds, isSaved }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
   await type(page, "use std", " x");
@@ -92,7 +92,7 @@ inBrowser("lines of a file that end in several ways stay so, and what is pasted 
   await holds("plan.afp", wanted);
 });
 
-inBrowser("a long text is taken, and one that is too long is refused", { "plan.afp": PLAN }, async ({ page, holds, isSaved }) => {
+inBrowser("a long text is accepted, and a text above the limit is refused", { "plan.afp": PLAN }, async ({ page, holds, isSaved }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
   const lines = (mebibytes: number): string => `\n// ${"x".repeat(60)}`.repeat(mebibytes * 2 ** 14);
@@ -113,7 +113,7 @@ inBrowser("a long text is taken, and one that is too long is refused", { "plan.a
   await holds("plan.afp", wanted);
 });
 
-inBrowser("a file that another program removes is not saved until it is written anew", { "plan.afp": PLAN }, async ({ page, folder, holds, isSaved, read }) => {
+inBrowser("a file that another program removes is not saved until it is changed", { "plan.afp": PLAN }, async ({ page, folder, holds, isSaved, read }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
   await rm(join(folder, "plan.afp"));
@@ -124,7 +124,7 @@ inBrowser("a file that another program removes is not saved until it is written 
   await holds("plan.afp", PLAN.replace("start go", "start go // still here"));
 });
 
-inBrowser("a plan that is made under the name of one that another program has removed is shown, and typed into", { "plan.afp": PLAN, "other.afp": PLAN }, async ({ page, folder, becomes, isSaved, read }) => {
+inBrowser("a new plan under the name of a removed plan is shown and can be edited", { "plan.afp": PLAN, "other.afp": PLAN }, async ({ page, folder, becomes, isSaved, read }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
   await page.getByRole("button", { name: "Files" }).click();
@@ -146,7 +146,7 @@ inBrowser("a plan that is made under the name of one that another program has re
   assert.equal(await read("plan.afp"), made.replace("plan Plan {", "plan Plan { // here"));
 });
 
-inBrowser("a full disk keeps the old bytes, and takes the new ones once it has room", { "plan.afp": PLAN }, async ({ page, folder, isSaved, read }) => {
+inBrowser("a full disk keeps the old bytes, and receives the new bytes once it has space", { "plan.afp": PLAN }, async ({ page, folder, isSaved, read }) => {
   // A separate small file system, if the test may create one.
   const small = join(folder, "small");
   await mkdir(small);
@@ -176,7 +176,7 @@ inBrowser("a full disk keeps the old bytes, and takes the new ones once it has r
   }
 });
 
-inBrowser("what two programs write at once is saved once both lie on the disk; of one line somebody chooses", { "plan.afp": PLAN }, async ({ page, folder, read, write, holds, isSaved }) => {
+inBrowser("simultaneous changes of two programs are merged and saved; conflicts in a line need a choice", { "plan.afp": PLAN }, async ({ page, folder, read, write, holds, isSaved }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
   const file = join(folder, "plan.afp");
@@ -201,7 +201,7 @@ inBrowser("what two programs write at once is saved once both lie on the disk; o
   await holds("plan.afp", before.replace("-> rest }", "-> rest } // mine"));
 });
 
-inBrowser("a link stays a link, and what it leads to is written", {}, async ({ page, folder, read, isSaved }) => {
+inBrowser("a link stays a link, and its target is written", {}, async ({ page, folder, read, isSaved }) => {
   await mkdir(join(folder, "real"));
   await writeFile(join(folder, "real/plan.afp"), PLAN.replaceAll("\n", "\r\n"));
   await symlink("real/plan.afp", join(folder, "plan.afp"));
@@ -215,7 +215,7 @@ inBrowser("a link stays a link, and what it leads to is written", {}, async ({ p
   assert.equal(await readFile(join(folder, "plan.afp"), "utf8"), wanted);
 });
 
-inBrowser("who starts a second studio in the folder comes to the first one", { "a.afp": PLAN, "b.afp": PLAN.replaceAll("P", "Q") }, async ({ page, folder }) => {
+inBrowser("a second studio in the folder opens the page of the first studio", { "a.afp": PLAN, "b.afp": PLAN.replaceAll("P", "Q") }, async ({ page, folder }) => {
   await page.locator(".node text").first().waitFor();
   const second = spawnSync(AFPC, ["studio", join(folder, "b.afp"), "--no-open"], { encoding: "utf8", timeout: 10_000, env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } });
   assert.equal(second.status, 0, second.stderr);
@@ -229,7 +229,7 @@ inBrowser("who starts a second studio in the folder comes to the first one", { "
   assert.equal(new URL(other.url()).hash, "");
 });
 
-inBrowser("an example comes with its world and the plans that it uses, and runs at once", {}, async ({ page, read }) => {
+inBrowser("an example has its world and its imported plans, and runs at once", {}, async ({ page, read }) => {
   await page.locator(".card", { hasText: "Find object" }).click();
   await page.locator(".bar .file", { hasText: "find_object.afp" }).waitFor();
   await page.locator(".count", { hasText: "ready" }).waitFor();

@@ -96,7 +96,7 @@ test("random typing, edits and undo: the server has the page's text", async () =
   assert.equal(room.texts.get(uri), first);
 });
 
-test("edits of one text are made from its end, two at one place in their order", () => {
+test("edits of a text are applied from its end, and at one place in their order", () => {
   const at = (line: number, character: number) => ({ line, character });
   const edits = [
     { range: { start: at(0, 1), end: at(0, 1) }, newText: "1" },
@@ -108,7 +108,7 @@ test("edits of one text are made from its end, two at one place in their order",
   assert.equal(result, "12b\nBc");
 });
 
-test("an edit for an older text is asked for again, never made", async () => {
+test("an edit for an older text is requested again and never applied", async () => {
   const uri = fresh();
   room.texts.set(uri, "ab");
   await open(uri);
@@ -127,7 +127,7 @@ test("an edit for an older text is asked for again, never made", async () => {
   assert.equal(text(uri), "xa!b");
 });
 
-test("an edit that is too old each time is told, and not counted as made", async () => {
+test("an edit that is always too old is reported and does not count", async () => {
   const uri = fresh();
   await open(uri);
   const edit = { documentChanges: [{ textDocument: { uri, version: -1 }, edits: [] }] };
@@ -136,7 +136,7 @@ test("an edit that is too old each time is told, and not counted as made", async
   assert.equal(asked, 4);
 });
 
-test("lines end with \\n alone, wherever a text comes from", async () => {
+test("lines end only with \\n, for every source of a text", async () => {
   const uri = fresh();
   await open(uri);
   typed([{ uri, from: 0, to: 0, insert: "a\r\nb\rc" }]);
@@ -144,7 +144,7 @@ test("lines end with \\n alone, wherever a text comes from", async () => {
   assert.equal(room.texts.get(uri), text(uri));
 });
 
-test("what is typed while the page greets a new server is sent, of every text that is open", async () => {
+test("text typed while the page connects to a new server is sent, for every open file", async () => {
   const [one, two] = [fresh(), fresh()];
   for (const uri of [one, two]) room.texts.set(uri, "// ");
   for (const uri of [one, two]) await open(uri);
@@ -168,7 +168,7 @@ test("what is typed while the page greets a new server is sent, of every text th
   }
 });
 
-test("a text that a new server cannot read is not saved, and the others go on", async () => {
+test("a text that a new server cannot read is not saved, and other texts continue", async () => {
   const [one, two] = [fresh(), fresh()];
   for (const uri of [one, two]) await open(uri);
   const request: Lsp["request"] = async (method, params: any) => {
@@ -181,7 +181,7 @@ test("a text that a new server cannot read is not saved, and the others go on", 
   assert.equal(room.texts.get(two), "a");
 });
 
-test("a change that would make a text too long is not made, by nobody and not by undo, and nothing is lost", async () => {
+test("a change that would make a text too long is refused, also for undo, without a loss", async () => {
   const uri = fresh();
   room.texts.set(uri, "ö".repeat(10));
   await open(uri);
@@ -205,7 +205,7 @@ test("a change that would make a text too long is not made, by nobody and not by
   }
 });
 
-test("of very many changes the text is told", async () => {
+test("after very many changes the whole text is sent", async () => {
   const uri = fresh();
   room.texts.set(uri, "a".repeat(5000));
   await open(uri);
@@ -214,7 +214,7 @@ test("of very many changes the text is told", async () => {
   assert.equal(room.texts.get(uri), text(uri));
 });
 
-test("saved is what the server says, of the newest version", async () => {
+test("a text is saved if the server confirms its newest version", async () => {
   const uri = fresh();
   await open(uri);
   assert.equal(saved.value, "saved");
@@ -248,7 +248,7 @@ test("a change of another program arrives, and undoing it asks", async () => {
   assert.equal(text(uri), "one\ntwo\n");
 });
 
-test("a file that is made anew under the address of a text that is open has its own text, which is typed into", async () => {
+test("a file that is created again under the address of an open text has its own text", async () => {
   const uri = fresh();
   room.texts.set(uri, "plan Old { }\n");
   await open(uri);
@@ -268,7 +268,7 @@ test("a file that is made anew under the address of a text that is open has its 
   assert.equal(room.texts.get(uri), "plan Old { }\n");
 });
 
-test("of two changes of the same lines a person chooses; the room does it", async () => {
+test("conflicting changes need a choice, which the room applies", async () => {
   for (const [keep, stays] of [["mine", "mine"], ["theirs", "theirs"], ["both", "mine theirs"]] as const) {
     const uri = fresh();
     room.texts.set(uri, "one");
@@ -293,7 +293,7 @@ test("of two changes of the same lines a person chooses; the room does it", asyn
   }
 });
 
-test("after a lost connection what was not told is sent, and what others did is taken over", async () => {
+test("after a lost connection unsent changes are sent, and changes of others are received", async () => {
   const cases = [
     // the page's text, the room's text, the holder of the edit lock, the final text of both,
     // whether there is a conflict
@@ -338,7 +338,7 @@ test("after a lost connection what was not told is sent, and what others did is 
   session.pen.value = true;
 });
 
-test("what the server tells while it is being greeted is newer than its greeting", async () => {
+test("messages of the server during the connection are newer than its first answer", async () => {
   let greeted: Promise<Finish> | null = null;
   const takers = new Map<string, (params: any) => void>();
   const one = { uri: "file:///w/a.afp", name: "a.afp" };

@@ -30,7 +30,7 @@ function example(): Drawing {
   return whole("file:///p.afp", answer);
 }
 
-test("a difference replaces what it names and leaves everything else the very same", () => {
+test("a difference replaces only its named parts", () => {
   const before = example();
   const moved = element("P.b", [112, 212]);
   const after = changed(before, {
@@ -43,7 +43,7 @@ test("a difference replaces what it names and leaves everything else the very sa
   assert.equal(before.elements.size, 4);
 });
 
-test("a plan with another name is the one that stands where it did", () => {
+test("a renamed plan is identified by its place", () => {
   const called = (name: string, ...now: string[]) => calledNow(name, ["A", "B", "C"], now);
   assert.deepEqual([called("B", "A", "B", "C"), called("B", "B"), called("B", "A", "X", "C")], ["B", "B", "X"]);
   assert.deepEqual([called("B", "A", "C"), called("B", "B2", "C", "A"), called("B", "A", "C", "D")], [null, null, null]);
@@ -52,7 +52,7 @@ test("a plan with another name is the one that stands where it did", () => {
   assert.deepEqual(itemsNow(["A.go", "B.start"], ["A", "B"], ["A"]), ["A.go", "B.start"]);
 });
 
-test("what is under a point: exits before boxes, supervisors, edges, heads, ground", () => {
+test("the part under a point: exits before boxes, supervisors, edges, heads, ground", () => {
   const drawn = example();
   const at = (x: number, y: number): string | undefined => hit(drawn, [x, y], 1)?.on;
   assert.equal(at(110, 10), "element");
@@ -80,7 +80,7 @@ test("arrow keys lead along exits, back, and to neighbours", () => {
   assert.deepEqual(home(drawn), { item: "P" });
 });
 
-test("what is not drawn yet stands nowhere", () => {
+test("a part that is not drawn has no place", () => {
   const drawn = example();
   assert.deepEqual(rectOf(drawn, { item: "P.a.touch" }), [220, 0, 120, 44]);
   assert.deepEqual(rectOf(drawn, { item: "P.a", part: { kind: "input", name: "distance" } }), [100, 0, 120, 60]);
@@ -88,7 +88,7 @@ test("what is not drawn yet stands nowhere", () => {
   assert.equal(rectOf(drawn, { item: "P.d" }), null);
 });
 
-test("names for screen readers", () => {
+test("parts have names for screen readers", () => {
   const drawn = example();
   assert.equal(spoken(drawn, { item: "P.a" }), "actor a, Forward, 1 supervisor, 1 exit");
   assert.equal(spoken(drawn, { item: "P.a", part: { kind: "exit", name: "Done" } }), "exit Done of a, leads to b");
@@ -116,13 +116,13 @@ test("a bent edge keeps its right corners and its other end", () => {
   assert.deepEqual(bent(cases[0]!, [0, 0], [0, 0]), cases[0]);
 });
 
-test("the road of an edge ends at its arrow's neck, its tip at the end", () => {
+test("the line of an edge ends at its arrow's neck, and the arrow's tip at the end", () => {
   const { line, tip } = road([[0, 0], [0, 50], [80, 50]]);
   assert.equal(line, "M0 0L0 43Q0 50 7 50L71 50");
   assert.ok(tip.startsWith("M80 50L70 "));
 });
 
-test("dragged elements keep to the grid, the first one's corner on it", () => {
+test("dragged elements keep to the grid, with the first element's corner on it", () => {
   const drawn = example();
   assert.deepEqual(snapped(drawn, ["P.a", "P.b"], [5, 5], false), [8, 0]);
   assert.deepEqual(snapped(drawn, ["P.a"], [5.4, 5], true), [5, 5]);
@@ -130,7 +130,7 @@ test("dragged elements keep to the grid, the first one's corner on it", () => {
   assert.deepEqual(movable(drawn, ["P.a.touch", "P.a", "P"]), ["P.a", "P.start"]);
 });
 
-test("zooming keeps what is under the pointer, fitting shows everything, showing moves no more than needed", () => {
+test("zooming keeps the point under the pointer, fitting shows everything, showing moves as little as possible", () => {
   const view = { x: 30, y: -20, zoom: 0.7 };
   const at: Point = [200, 100];
   assert.deepEqual(toPlan(zoomed(view, 1.5, at), at).map(Math.round), toPlan(view, at).map(Math.round));
@@ -144,7 +144,7 @@ test("zooming keeps what is under the pointer, fitting shows everything, showing
   assert.equal(shown({ x: 0, y: 0, zoom: 1 }, [500, 100, 50, 50], size).x, -74);
 });
 
-test("templates become changes, and what is between two elements leads on", () => {
+test("templates become changes, and an element dropped between two others is connected", () => {
   const offer = { template: "Wait", name: "wait", kind: "actor" as const, toolbox: "std", icon: null, help: "", ports: [], exits: ["Elapsed"], missingUse: "std" };
   assert.equal(freeName(offer), "wait");
   assert.equal(freeName(offer, new Set(["wait", "wait2"])), "wait3");
@@ -157,7 +157,7 @@ test("templates become changes, and what is between two elements leads on", () =
   assert.deepEqual(between("P", offer, edge("P.a", "P.b", [])).at(-1), { connect: { from: "P.wait", outcome: "Elapsed", to: "b" } });
 });
 
-test("a plan is first shown with where it starts, however large it is", () => {
+test("the first view of a plan includes its start, for plans of any size", () => {
   const size = { width: 800, height: 600 };
   const drawn = (bounds: Rect, start: Rect) => ({ bounds, plan: "P", elements: new Map([["P.start", { rect: start }]]) });
   const view = first(drawn([0, 0, 20_000, 9000], [9000, 40, 120, 50]), size);
@@ -167,7 +167,7 @@ test("a plan is first shown with where it starts, however large it is", () => {
   assert.deepEqual(first(small, size), first({ ...small, elements: new Map() }, size));
 });
 
-test("a list is filtered by all words, what is called so first, then what begins with them, what is refused last", () => {
+test("a list is filtered by all words: exact names first, then prefixes, refused items last", () => {
   const choice = (label: string, hint = "", refused: string | null = null) => ({ id: label, label, hint, refused });
   const all = [choice("goOn"), choice("turn", "goes round", "no"), choice("wait a go"), choice("go")];
   assert.deepEqual(filtered(all, "go").map(({ label }) => label), ["go", "goOn", "wait a go", "turn"]);

@@ -21,7 +21,7 @@ const typeAtOnce = (page: Page, selector: string, text: string): Promise<void> =
     watch.observe(document.body, { childList: true, subtree: true });
   }, [selector, text] as const);
 
-inBrowser("a name that is typed as soon as its field is there is taken", { "plan.afp": PLAN }, async ({ page, becomes }) => {
+inBrowser("a name typed as soon as its field opens is accepted", { "plan.afp": PLAN }, async ({ page, becomes }) => {
   await page.locator('.node [data-item="P.go"]').waitFor();
   await page.locator(".inspector-head strong", { hasText: /^P$/ }).waitFor();
   await typeAtOnce(page, ".inspector:has(button.field) .line input", "roll");
@@ -29,7 +29,7 @@ inBrowser("a name that is typed as soon as its field is there is taken", { "plan
   await becomes("plan.afp", /actor roll: Forward/);
 });
 
-inBrowser("the robot stands at its start when it is seen first", { "wall_following.afp": PAPER }, async ({ page }) => {
+inBrowser("the robot is first shown at its start", { "wall_following.afp": PAPER }, async ({ page }) => {
   await page.locator(".floor .robot").waitFor();
   await page.addInitScript(() => {
     const watch = new MutationObserver(() => {

@@ -20,7 +20,7 @@ plan P {
 
 const ready = (page: Page, item: string): Promise<void> => page.locator(`.node [data-item="${item}"]`).first().waitFor();
 
-inBrowser("the question mark of an open exit asks what comes then", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("the question mark of an open exit offers targets", { "plan.afp": PLAN }, async ({ page }) => {
   await ready(page, "P.go");
   await page.mouse.click(...(await middle(page, '.node [data-item="P.go"] text.nowhere')));
   await shows(page.locator(".chooser-title"), /ForwardSuccessful/);
@@ -57,7 +57,7 @@ inBrowser("a sub-plan of another file is entered by a double click, and left by 
   assert.deepEqual([await read("outer.afp"), await read("parts.afp")], [OUTER, PARTS]);
 }, { open: "outer.afp" });
 
-inBrowser("errors of a file that is used are errors of the plan, which does not run", { "outer.afp": OUTER, "parts.afp": PARTS.replace("-> terminate", "-> nowhere") }, async ({ page }) => {
+inBrowser("errors in an imported file are errors of the plan, which does not run", { "outer.afp": OUTER, "parts.afp": PARTS.replace("-> terminate", "-> nowhere") }, async ({ page }) => {
   await ready(page, "Outer.inner");
   await shows(page.locator(".count"), /1 error/);
   await page.keyboard.press("F5");
@@ -65,7 +65,7 @@ inBrowser("errors of a file that is used are errors of the plan, which does not 
   assert.doesNotMatch(await page.locator(".banners").innerText(), /-->|\^\^/);
 }, { open: "outer.afp" });
 
-inBrowser("a new plan has a name that is free, and what is wrong with another is said", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a new plan has an unused name, and an invalid name is explained", { "plan.afp": PLAN }, async ({ page }) => {
   await ready(page, "P.go");
   await page.keyboard.press("Control+k");
   await page.keyboard.type("new plan");
@@ -86,7 +86,7 @@ inBrowser("a long name of a plan leaves room for the button that runs it", { "pl
   assert.ok(top, "nothing lies over it");
 });
 
-inBrowser("the menu of an element covers nothing of it, and all of the menu is in sight", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("the menu of an element does not cover the element and is completely visible", { "plan.afp": PLAN }, async ({ page }) => {
   await ready(page, "P.turn");
   await page.mouse.click(...(await middle(page, name("P.turn"))), { button: "right" });
   const menu = (await page.locator(".context-menu").boundingBox())!;
@@ -112,7 +112,7 @@ inBrowser("a drag with the space bar held pans, also over an element", { "plan.a
   assert.equal(await read("plan.afp.layout"), "");
 });
 
-inBrowser("a file gets another name, is copied, removed and put back; Ctrl+S says that it is saved", { "plan.afp": PLAN, "plan.afp.layout": "P.go 0 96\n" }, async ({ page, read, holds }) => {
+inBrowser("a file is renamed, copied, removed and restored; Ctrl+S shows that it is saved", { "plan.afp": PLAN, "plan.afp.layout": "P.go 0 96\n" }, async ({ page, read, holds }) => {
   await ready(page, "P.go");
   const menu = async (item: string): Promise<void> => {
     await page.locator(".bar .file").click();
@@ -150,7 +150,7 @@ plan P {
 }
 `;
 
-inBrowser("the end of a run belongs to its file, and nobody watches any more", { "a.afp": TWO, "b.afp": TWO.replace("plan P", "plan B") }, async ({ page }) => {
+inBrowser("the end of a run belongs to its file, and the run has no observers afterwards", { "a.afp": TWO, "b.afp": TWO.replace("plan P", "plan B") }, async ({ page }) => {
   await ready(page, "P.go");
   await page.keyboard.press("F5");
   const card = page.locator(".end-card");
@@ -169,7 +169,7 @@ inBrowser("a chain of few elements is drawn as a chain", { "plan.afp": PLAN.repl
   assert.ok(second > first + 60, `${first} ${second}`);
 });
 
-inBrowser("the drawing goes into a sub-plan that a step goes into, and out of it; the sub-plan is as green as an element", { "outer.afp": OUTER, "parts.afp": PARTS.replace("Forward {", "Forward(distance = 5 cm) {") }, async ({ page }) => {
+inBrowser("the drawing follows a step into a sub-plan and out of it; an active sub-plan is green", { "outer.afp": OUTER, "parts.afp": PARTS.replace("Forward {", "Forward(distance = 5 cm) {") }, async ({ page }) => {
   await ready(page, "Outer.inner");
   await page.locator(".board").focus();
   const inner = page.locator('.node [data-item="Inner.go"]').first();

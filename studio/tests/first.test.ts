@@ -46,7 +46,7 @@ const template = (name: string): string => `[data-template=${name}]`;
 const name = (item: string): string => `.node [data-item="Plan.${item}"] text.name`;
 const open = (item: string): string => `.node [data-item="Plan.${item}"] text.open`;
 
-inBrowser("from an empty folder to a first run that ends well in five gestures", {}, async ({ page }) => {
+inBrowser("five gestures lead from an empty folder to a successful run", {}, async ({ page }) => {
   const mouse = new Mouse(page);
   await mouse.click(".card.main");
   await mouse.click(template("Forward"));
@@ -59,7 +59,7 @@ inBrowser("from an empty folder to a first run that ends well in five gestures",
   assert.equal(mouse.gestures, 5);
 });
 
-inBrowser("a first plan by the mouse alone", {}, async ({ page, becomes }) => {
+inBrowser("a first plan needs only the mouse", {}, async ({ page, becomes }) => {
   const mouse = new Mouse(page);
   await mouse.click(".card.main");
   await page.locator('.node [data-item="Plan.start"]').waitFor();

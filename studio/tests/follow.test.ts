@@ -6,7 +6,7 @@ import { connect } from "../page/server/dap";
 import { at, taken, within } from "../page/debug/follow";
 import { differs, hash } from "../page/documents/hash";
 
-test("a text has the hash that the debugger gives it, however its lines end", () => {
+test("a text has the debugger's hash for all line endings", () => {
   assert.equal(hash(""), "cbf29ce484222325");
   assert.equal(hash("foobar"), "85944171f73967e8");
   assert.equal(hash("\uFEFFuse std\r\nplan P {}\r\n"), hash("use std\nplan P {}\n"));
@@ -17,7 +17,7 @@ test("a text has the hash that the debugger gives it, however its lines end", ()
 
 const outer = { path: "", plan: "Outer" };
 
-test("in the outermost plan", () => {
+test("the active element is found in the outermost plan", () => {
   assert.deepEqual(at([outer], "Outer", ["drive"], ["escape", "drive.touch"]), {
     active: [{ item: "Outer.drive", inside: false }],
     watching: ["Outer.escape", "Outer.drive.touch"],
@@ -25,7 +25,7 @@ test("in the outermost plan", () => {
   assert.deepEqual(at([outer], "Other", ["drive"], ["escape"]), { active: [], watching: [] });
 });
 
-test("inside of a sub-plan, in whatever order the stack comes", () => {
+test("the active element is found in a sub-plan for any order of the stack", () => {
   const frames = [outer, { path: "work", plan: "Inner" }];
   for (const stack of [["work", "work.second"], ["work.second", "work"]]) {
     const watching = ["limit", "work.late", "work.second.touch"];
@@ -34,7 +34,7 @@ test("inside of a sub-plan, in whatever order the stack comes", () => {
   }
 });
 
-test("a sub-plan shows the names of what is active inside", () => {
+test("a sub-plan shows the names of its active elements", () => {
   const frames = [outer, { path: "work", plan: "Inner" }];
   const stack = ["work", "work.second.third", "work.second"];
   assert.equal(within(frames, "Outer", stack, "Outer.work"), "second › third");
@@ -42,12 +42,12 @@ test("a sub-plan shows the names of what is active inside", () => {
   assert.equal(within(frames, "Inner", stack, "Inner.other"), "");
 });
 
-test("a plan inside of itself shows the innermost", () => {
+test("a plan that contains itself shows its innermost instance", () => {
   const frames = [{ path: "", plan: "P" }, { path: "a", plan: "P" }];
   assert.deepEqual(at(frames, "P", ["a", "a.b"], []).active, [{ item: "P.b", inside: false }]);
 });
 
-test("edges that were taken are of the only way that can have been", () => {
+test("the taken edges are the edges of the only possible path", () => {
   const edges = [
     { id: "1", from: "P.a", to: "P.b" },
     { id: "2", from: "P.a.touch", to: "P.c" },
@@ -61,7 +61,7 @@ test("edges that were taken are of the only way that can have been", () => {
   assert.deepEqual(taken(edges, "P.b", "P.b"), []);
 });
 
-test("a way goes through computations, which take no time", () => {
+test("a path leads through computations, which take no time", () => {
   const edges = [
     { id: "1", from: "P.a", to: "P.count" },
     { id: "2", from: "P.count", to: "P.b" },
@@ -77,7 +77,7 @@ test("a way goes through computations, which take no time", () => {
   assert.deepEqual(taken(edges, "P.a", "P.b"), []);
 });
 
-test("the debugger's socket: requests wait for it, refusals are sentences, its end is told once", async () => {
+test("requests wait for the debugger's socket, refusals are sentences, its end is reported once", async () => {
   const sent: any[] = [];
   const socket: Socket = { send: (text) => void sent.push(JSON.parse(text)), close: () => socket.onclose?.({}), onopen: null, onclose: null, onmessage: null };
   let lost = 0;

@@ -33,7 +33,7 @@ const FOUL = [
   '</g><script>window.ran = 1</script><g>',
 ];
 
-test("fragments of the engine are let in, others are not, alone and among many", { skip, timeout: 60_000 }, async () => {
+test("only fragments of the engine are accepted", { skip, timeout: 60_000 }, async () => {
   const made = await build({ entryPoints: ["page/drawing/fragment.ts"], bundle: true, format: "iife", globalName: "fragment", write: false });
   browser ??= await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"] });
   const page = await browser.newPage();

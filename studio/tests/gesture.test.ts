@@ -34,7 +34,7 @@ test("a press that does not move is a click", () => {
   assert.deepEqual(effects, [{ do: "click", hit: ELEMENT, at: [102, 102], add: false }]);
 });
 
-test("the first pixels decide, and what was moved before them is not lost", () => {
+test("the first pixels select the gesture, and the motion before them is not lost", () => {
   const [state, effects] = run(down(ELEMENT), move([100 + DECIDES - 1, 100]));
   assert.deepEqual([state.is, effects], ["pressed", []]);
   const [moving, lifted] = run(down(ELEMENT), move([100 + DECIDES, 100]));
@@ -42,14 +42,14 @@ test("the first pixels decide, and what was moved before them is not lost", () =
   assert.deepEqual(lifted, [{ do: "lift", elements: ["P.go"] }, { do: "drag", by: [DECIDES, 0], free: false, at: [104, 100] }]);
 });
 
-test("a drag of one of the selection carries all of it, of another one that alone", () => {
+test("a drag of a selected element moves the selection; a drag of another element moves only that element", () => {
   const [, all] = run(down(ELEMENT, [0, 0], { selection: ["P.go", "P.turn"] }), move([9, 0]));
   assert.deepEqual(all[0], { do: "lift", elements: ["P.go", "P.turn"] });
   const [, one] = run(down(ELEMENT, [0, 0], { selection: ["P.turn"] }), move([9, 0]));
   assert.deepEqual(one[0], { do: "lift", elements: ["P.go"] });
 });
 
-test("a drop comes once; Escape puts back and nothing is dropped afterwards", () => {
+test("a drop happens once; Escape restores the positions without a drop", () => {
   const [state, effects] = run(down(ELEMENT), move([120, 100]), up([130, 90]));
   assert.equal(state.is, "idle");
   assert.deepEqual(effects.at(-1), { do: "drop", by: [30, -10], free: false, at: [130, 90] });
@@ -78,7 +78,7 @@ test("an exit, an arrow's head and an entry draw a line; Escape sends nothing", 
   assert.deepEqual(done(run(down(EXIT), move([130, 100]), { type: "cancel" }, up([200, 200]))[1]), ["draw", "lead", "undraw"]);
 });
 
-test("two fingers zoom about their middle and pan with it, and one of them goes on", () => {
+test("two fingers zoom around their middle and pan with it; one remaining finger continues", () => {
   const touch = { touch: true };
   const second: Event = { ...(down(null, [200, 100], touch) as Extract<Event, { type: "down" }>), id: 2 };
   const [state, effects] = run(down(null, [100, 100], touch), second, move([300, 100], 2));
@@ -88,13 +88,13 @@ test("two fingers zoom about their middle and pan with it, and one of them goes 
   assert.deepEqual([after, more], [{ is: "panning", id: 1, last: [100, 100] }, []]);
 });
 
-test("a pointer that nobody knows changes nothing", () => {
+test("an unknown pointer changes nothing", () => {
   const [state] = run(down(ELEMENT), move([120, 100]));
   assert.deepEqual(next(state, up([0, 0], 7)), [state, []]);
   assert.deepEqual(next(IDLE, move([5, 5])), [IDLE, []]);
 });
 
-test("whatever comes, a drag ends once: random events", () => {
+test("a drag ends once for random events", () => {
   let seed = 20;
   const random = (below: number): number => ((seed = (seed * 1103515245 + 12345) & 0x7fffffff) >> 8) % below;
   let state: State = IDLE;
@@ -114,7 +114,7 @@ test("whatever comes, a drag ends once: random events", () => {
   }
 });
 
-test("arrows carry the selection, Shift farther, Enter puts it down and Escape back", () => {
+test("arrow keys move the selection, Shift moves it farther, Enter drops it and Escape restores it", () => {
   const start = { elements: ["P.go"], by: [0, 0] as Point };
   const [one] = pressed(start, { key: "ArrowRight", shiftKey: false })!;
   assert.deepEqual(one!.by, [12, 0]);
@@ -125,7 +125,7 @@ test("arrows carry the selection, Shift farther, Enter puts it down and Escape b
   assert.equal(pressed(two!, { key: "a", shiftKey: false }), null);
 });
 
-test("a finger that rests opens the menu, and means nothing more; one that has moved does not, and a mouse never", () => {
+test("only a resting finger opens the menu, and then does nothing else", () => {
   const [state, effects] = run(down(ELEMENT, [100, 100], { touch: true }), { type: "rest", id: 1 }, move([160, 100]), up([160, 100]));
   assert.equal(state.is, "idle");
   assert.deepEqual(effects, [{ do: "menu", hit: ELEMENT, at: [100, 100] }]);
@@ -135,7 +135,7 @@ test("a finger that rests opens the menu, and means nothing more; one that has m
   assert.deepEqual([pressed.is, none], ["pressed", []]);
 });
 
-test("a supervisor is drawn to another element, its element is moved", () => {
+test("a drag moves a supervisor to another element, and its element to another place", () => {
   const touch: Hit = { on: "element", part: { item: "P.go.touch" }, element: "P.go" };
   const [, drawn] = run(down(touch), move([160, 100]), up([200, 100]));
   assert.deepEqual(done(drawn), ["draw", "lead", "connect"]);
@@ -143,7 +143,7 @@ test("a supervisor is drawn to another element, its element is moved", () => {
   assert.deepEqual(done(moved), ["lift", "drag", "drop"]);
 });
 
-test("with several to be selected, a finger draws a box and a tap adds", () => {
+test("in selection mode, a finger draws a box and a tap adds an element", () => {
   const [, boxed] = run(down(null, [100, 100], { touch: true, shift: true }), move([160, 100]), up([200, 100]));
   assert.deepEqual(done(boxed), ["box", "boxed"]);
   const [, tapped] = run(down(ELEMENT, [100, 100], { touch: true, shift: true }), up([100, 100]));

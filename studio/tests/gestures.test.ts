@@ -43,7 +43,7 @@ async function choose(page: Page, typed: string, label: string): Promise<void> {
   await list.waitFor({ state: "detached" });
 }
 
-inBrowser("a drag writes one place on the grid, Escape none, undo gives the first bytes", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("a drag writes one position on the grid, Escape writes none, undo restores the bytes", { "plan.afp": PLAN }, async (studio) => {
   const { page, read, holds } = studio;
   await ready(page, "P.turn");
   let places = 0;
@@ -67,7 +67,7 @@ inBrowser("a drag writes one place on the grid, Escape none, undo gives the firs
   assert.equal(await read("plan.afp"), PLAN);
 });
 
-inBrowser("an exit dragged onto an element connects, onto the ground it asks, an arrow's head leads elsewhere", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("an exit dragged onto an element is connected, onto the ground it asks for a target; an arrow's head can be moved", { "plan.afp": PLAN }, async (studio) => {
   const { page, holds } = studio;
   await ready(page, "P.turn");
   await drag(page, await middle(page, exit("P.turn", "TurnSuccessful")), await middle(page, name("P.go")));
@@ -105,7 +105,7 @@ inBrowser("templates are dropped on the ground, onto an element and onto an edge
   assert.match(await read("plan.afp"), /actor curve: Curve \{\n\s*CurveSuccessful -> turn\n/);
 });
 
-inBrowser("a value is set by steps, sign and formula; a name where it stands; a template by a click", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("a value is set by steps, sign and formula; a name is changed in place; a template by a click", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await ready(page, "P.turn");
   await page.mouse.click(...(await middle(page, '.node [data-item="P.turn"] text.formula')));
@@ -126,7 +126,7 @@ inBrowser("a value is set by steps, sign and formula; a name where it stands; a 
   await studio.becomes("plan.afp", /actor go: Forward \{\n        supervise checkEscapeButton: CheckEscapeButton/);
 });
 
-inBrowser("an entry dragged onto an element or a port is bound to it, elsewhere the reason is said", { "plan.afp": PLAN.replace("    start go", "    var gap: length = 20 cm\n    var way: angle = 5 deg\n\n    start go") }, async (studio) => {
+inBrowser("an entry dragged onto an element or a port is bound to it; other places are explained", { "plan.afp": PLAN.replace("    start go", "    var gap: length = 20 cm\n    var way: angle = 5 deg\n\n    start go") }, async (studio) => {
   const { page } = studio;
   await ready(page, "P.go");
   const entry = (name: string): Promise<Spot> => middle(page, `.node [data-item="P.start"] text.entry:text-is("${name}")`);
@@ -142,7 +142,7 @@ inBrowser("an entry dragged onto an element or a port is bound to it, elsewhere 
   await page.locator(".board-notice", { hasText: "Drop an entry on an element" }).waitFor();
 });
 
-inBrowser("zoom, fit and pan change no byte; what is beside the window comes into sight by keys", { "plan.afp": PLAN }, async ({ page, read }) => {
+inBrowser("zoom, fit and pan change no byte; keys show parts outside of the window", { "plan.afp": PLAN }, async ({ page, read }) => {
   await ready(page, "P.go");
   const zoom = page.locator(".board-zoom");
   for (const [key, wanted] of [["+", "125 %"], ["-", "100 %"], ["1", "100 %"]] as const) {
@@ -156,7 +156,7 @@ inBrowser("zoom, fit and pan change no byte; what is beside the window comes int
   await page.keyboard.up("Control");
   await zoom.filter({ hasText: /11\d %/ }).waitFor();
   const after = await middle(page, name("P.go"));
-  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 12, "what is under the pointer stays");
+  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 12, "the point under the pointer stays");
   for (let round = 0; round < 40; round++) await page.keyboard.press("Shift+ArrowRight");
   await page.keyboard.press("Home");
   const [x] = await middle(page, name("P.go"));
@@ -188,7 +188,7 @@ inBrowser("the selection is moved, copied, pasted and removed by keys", { "plan.
   await holds("plan.afp", PLAN);
 });
 
-inBrowser("where the browser keeps its clipboard to itself, that is said and nothing is lost", { "plan.afp": PLAN }, async ({ page, read }) => {
+inBrowser("a blocked clipboard is reported, and no data is lost", { "plan.afp": PLAN }, async ({ page, read }) => {
   const first = await read("plan.afp");
   await ready(page, "P.go");
   await page.evaluate(() => {
@@ -207,7 +207,7 @@ inBrowser("where the browser keeps its clipboard to itself, that is said and not
 
 const clipboard = { permissions: ["clipboard-read", "clipboard-write"] };
 
-inBrowser("items are copied as text with their toolbox, cut and pasted, a supervisor onto another element", { "plan.afp": PLAN.replace("    }\n\n    actor turn", "        supervise touch: CheckTouchSensor { TouchSensorPressed -> turn }\n    }\n\n    actor turn") }, async (studio) => {
+inBrowser("items are copied as text with their toolbox, cut and pasted; supervisors can be pasted into other elements", { "plan.afp": PLAN.replace("    }\n\n    actor turn", "        supervise touch: CheckTouchSensor { TouchSensorPressed -> turn }\n    }\n\n    actor turn") }, async (studio) => {
   const { page, read } = studio;
   const first = await read("plan.afp");
   await ready(page, "P.go");
@@ -243,7 +243,7 @@ plan P {
 }
 `;
 
-inBrowser("what is cut takes its note along, and a start that is pasted is the start again; a scenario that names it does not hold it", { "plan.afp": NOTED, "tests/s.afp": 'use "../plan.afp"\n\nscenario "s" for P {\n    expect go active\n}\n' }, async (studio) => {
+inBrowser("a cut element keeps its note, a pasted start is the start again, and scenarios do not block the cut", { "plan.afp": NOTED, "tests/s.afp": 'use "../plan.afp"\n\nscenario "s" for P {\n    expect go active\n}\n' }, async (studio) => {
   const { page } = studio;
   await ready(page, "P.go");
   const stood = await page.locator('.node [data-item="P.go"]').first().boundingBox();
@@ -274,7 +274,7 @@ plan Q {
 }
 `;
 
-inBrowser("into a sub-plan and out of it, each with its own view; problems are said where they are", { "plan.afp": NESTED }, async (studio) => {
+inBrowser("each sub-plan has its own view; problems are shown at their places", { "plan.afp": NESTED }, async (studio) => {
   const { page } = studio;
   await ready(page, "P.q");
   await page.keyboard.press("-");

@@ -7,7 +7,7 @@ import { test } from "node:test";
 const PAGE = new URL("../page", import.meta.url).pathname;
 const files = (readdirSync(PAGE, { recursive: true }) as string[]).filter((name) => /\.tsx?$/.test(name));
 
-/** What the page must not contain, with the files that may: the names of files are not plans. */
+/** Words that the page must not contain, except in some files: the names of files are not plans. */
 const FORBIDDEN: [what: string, pattern: RegExp, except: readonly string[]][] = [
   ["a pattern of numbers with units", /\/[^/\n]*\\d[^/\n]*\[A-Za-z[^/\n]*\/[a-z]*\.(exec|test)/, []],
   ["a pattern of names in plans", /\[A-Za-z_\]\\w/, []],

@@ -8,7 +8,7 @@ import { inBrowser, shows } from "./browser";
 
 const NOTHING: Facts = { actors: 0, errors: 1, watched: 0, stoppers: 0, crates: 0, runs: 0 };
 
-test("each step follows from what the plan has", () => {
+test("each step depends on the contents of the plan", () => {
   const way: [Partial<Facts>, ReturnType<typeof next>][] = [
     [{}, "drive"],
     [{ actors: 1 }, "connect"],
@@ -28,7 +28,7 @@ test("each step follows from what the plan has", () => {
   assert.deepEqual(progress("done"), [STEPS.length, STEPS.length]);
 });
 
-test("a drawing is read: elements, supervisors of an element and of the plan", () => {
+test("a drawing is searched for elements, local and global supervisors", () => {
   const piece = (item: string, kind: string) => ({ item, part: { kind, name: "x" }, rect: [0, 0, 1, 1] as const, severity: null, tag: null });
   const element = (item: string, kind: string | null, pieces: Element["pieces"]): [string, Element] => [
     item,
@@ -43,7 +43,7 @@ test("a drawing is read: elements, supervisors of an element and of the plan", (
 
 const QUIET: Now = { isChanged: false, errors: 0, runs: 0, files: 0, isTested: false };
 
-test("each step of the second chapter ends with what it asks for", () => {
+test("each step of the second chapter ends with its task", () => {
   const ends: Record<Later, Partial<Now>> = {
     change: { isChanged: true },
     rerun: { runs: 1 },
@@ -120,7 +120,7 @@ inBrowser("the second chapter: change a value, break it, repair it, write and ru
   await becomes("plan.afp", /Forward/);
 });
 
-inBrowser("the first plan: from nothing to a robot that drives, by the mouse alone", {}, async ({ page, read, isSaved }) => {
+inBrowser("the first plan: from an empty folder to a driving robot with only the mouse", {}, async ({ page, read, isSaved }) => {
   const card = page.locator(".guide-card");
   const says = (words: string) => card.getByRole("heading", { name: words }).waitFor();
   await page.getByRole("button", { name: /Your first plan/ }).click();

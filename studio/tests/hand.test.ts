@@ -25,7 +25,7 @@ async function drag(page: Page, from: string, by: [number, number]): Promise<voi
   await page.mouse.up();
 }
 
-inBrowser("an empty folder shows the world; the robot and what is dropped are dragged before any run", {}, async ({ page }) => {
+inBrowser("an empty folder shows the world; the robot and dropped objects can be dragged before a run", {}, async ({ page }) => {
   const robot = page.locator(".floor .robot");
   await robot.waitFor();
   const [x, y] = await poseOf(page);
@@ -47,7 +47,7 @@ inBrowser("an empty folder shows the world; the robot and what is dropped are dr
   assert.equal(await page.locator(".floor .thing").count(), things);
 });
 
-inBrowser("during a run the robot is carried, a crate dropped and carried, and its camera looks on", { "wall_following.afp": PAPER }, async ({ page }) => {
+inBrowser("during a run the robot and a crate can be dragged, and the camera shows it", { "wall_following.afp": PAPER }, async ({ page }) => {
   await page.locator(".floor .robot").waitFor();
   await page.keyboard.press("F10");
   await page.locator(".clock.held").waitFor();

@@ -25,7 +25,7 @@ const begin = (agrees = true) => {
 };
 
 for (let seed = 1; seed <= 40; seed++) {
-  test(`undo of all gives the first texts back (seed ${seed})`, async () => {
+  test(`undoing everything restores the first texts (seed ${seed})`, async () => {
     const below = random(seed);
     const { texts } = begin();
     const states = [texts.shown()];
@@ -71,7 +71,7 @@ test("a new entry forgets what was undone", async () => {
 
 const typed = (from: number, removed: string, inserted: string, at: number, uri = "b"): Entry => ({ label: "typing", steps: [{ uri, from, removed, inserted }], typed: at });
 
-test("typing is one entry until a pause, another place or a new line", () => {
+test("typing makes one entry until a pause, a move or a new line", () => {
   const count = (...entries: Entry[]) => entries.reduce(recorded, EMPTY).past.length;
   assert.equal(count(typed(0, "", "a", 0), typed(1, "", "b", 300), typed(2, "", "c", 900)), 1);
   assert.equal(count(typed(0, "", "a", 0), typed(1, "", "b", 800)), 2);
@@ -81,7 +81,7 @@ test("typing is one entry until a pause, another place or a new line", () => {
   assert.equal(count(typed(0, "", "ab", 0), typed(1, "b", "", 100)), 1);
 });
 
-test("joined typing is undone as one", () => {
+test("joined typing is undone in one step", () => {
   const log = [typed(0, "", "ab", 0), typed(1, "b", "", 100), typed(1, "", "c", 200)].reduce(recorded, EMPTY);
   const steps = log.past[0]!.steps;
   const run = (text: string, changes: Change[]) => changes.reduce((now, { from, to, insert }) => now.slice(0, from) + insert + now.slice(to), text);
@@ -100,7 +100,7 @@ test("undoing a change of others asks first", async () => {
   }
 });
 
-test("of a long history the newest entries are kept", () => {
+test("a long history keeps its newest entries", () => {
   const entries = Array.from({ length: 9 }, (_, at) => typed(at, "", "x", at * 1000));
   const size = JSON.stringify(entries[0]).length;
   assert.deepEqual(newest(entries, 4 * JSON.stringify(entries[8]).length).length, 4);

@@ -34,7 +34,7 @@ const order = { kind: "new", name: "x" };
 const done = (id: number): Done => ({ id, ok: true, code: 0, results: [], said: "" });
 const soon = () => new Promise((done) => setTimeout(done, 5));
 
-test("a job is heard to its end on the next connection, unless the server knows nothing of it", async () => {
+test("a job continues to its end on the next connection, unless the server does not know it", async () => {
   const { tell, greet, resumed } = await page();
   const one = run("one", order);
   const two = run("two", order);
@@ -51,7 +51,7 @@ test("a job is heard to its end on the next connection, unless the server knows 
   assert.deepEqual(said.value, ["> one", "> two", "another", "last"]);
 });
 
-test("a page that is loaded anew takes up what goes on, and what has ended meanwhile", async () => {
+test("a reloaded page shows running jobs, and jobs that have ended meanwhile", async () => {
   const { tell, greet, resumed } = await page();
   await greet([{ id: 7, order, said: "before" }]);
   assert.deepEqual(resumed.map(({ id }) => id), [7]);
@@ -71,7 +71,7 @@ plan Away {
 }
 `;
 
-inBrowser("a sweep goes on while the page is loaded anew, and is ended there", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a sweep continues while the page reloads, and can be ended there", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".node text").first().waitFor();
   await page.keyboard.press("Control+k");
   await page.keyboard.type("build and sweep");

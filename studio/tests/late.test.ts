@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { ChangeSet, Text } from "@codemirror/state";
 import { Late } from "../page/text/late";
 
-test("a place of an older version is where it went, one of an unknown version nowhere", () => {
+test("a place in an older version is mapped to the new version; in an unknown version it is lost", () => {
   let doc = Text.of(["plan P {", "}"]);
   const late = new Late(4, doc);
   const insert = (version: number, from: number, text: string): void => {

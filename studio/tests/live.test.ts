@@ -70,7 +70,7 @@ inBrowser("a slider writes an entry of the run at once, keep writes it into the 
   await studio.becomes("plan.afp", /pause: duration = 20 s from/);
   await page.keyboard.press("Escape");
   await popup.waitFor({ state: "detached" });
-  // What the plan gives to the outside has no control.
+  // An output of the plan has no control.
   await page.mouse.click(...(await middle(page, '.run-value-text[data-item="P.count"]')));
   assert.equal(await page.locator(".live").count(), 0);
   // The list has choices for a truth value.

@@ -24,7 +24,7 @@ async function clean(page: Page): Promise<void> {
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
 }
 
-inBrowser("a log is shown as a run is, and nothing of it can be changed", { "plan.afp": PLAN }, async ({ page, folder }) => {
+inBrowser("a log is shown like a run and cannot be changed", { "plan.afp": PLAN }, async ({ page, folder }) => {
   await mkdir(join(folder, "logs"));
   await promisify(execFile)(process.env.AFPC!, ["run", "plan.afp", "--log", "logs/one.mcap"], { cwd: folder });
   await page.getByRole("button", { name: "Files" }).click();
@@ -41,7 +41,7 @@ inBrowser("a log is shown as a run is, and nothing of it can be changed", { "pla
   assert.equal(await page.getByRole("button", { name: /^Force/ }).count(), 0);
 });
 
-inBrowser("a new project is made in a folder of its own, and its plan is shown", {}, async ({ page, read }) => {
+inBrowser("a new project is created in its own folder, and its plan is shown", {}, async ({ page, read }) => {
   await page.getByRole("button", { name: "Files" }).click();
   await page.getByRole("menuitem", { name: "New project" }).click();
   await page.locator("dialog input").fill("rounds");
@@ -50,7 +50,7 @@ inBrowser("a new project is made in a folder of its own, and its plan is shown",
   assert.notEqual(await read("rounds/afp.toml"), "");
 });
 
-inBrowser("what builds programs asks once whether the folder is trusted; panes of jobs are accessible", { "plan.afp": PLAN }, async ({ page, read }) => {
+inBrowser("jobs that build programs ask once for trust in the folder; panes of jobs are accessible", { "plan.afp": PLAN }, async ({ page, read }) => {
   await page.locator(".count", { hasText: /ready|warning/ }).waitFor();
   await page.locator(".count").click();
   await page.getByRole("tab", { name: "Scenarios" }).click();
@@ -66,7 +66,7 @@ inBrowser("what builds programs asks once whether the folder is trusted; panes o
   await clean(page);
 }, { timeout: 90_000 });
 
-inBrowser("errors of a build stand on the elements that they are about, and lead to their text", { "plan.afp": PLAN.replace("TurnSuccessful", "TurnDone") }, async ({ page, write }) => {
+inBrowser("errors of a build are shown at their elements and lead to their text", { "plan.afp": PLAN.replace("TurnSuccessful", "TurnDone") }, async ({ page, write }) => {
   await page.locator(".count", { hasText: "error" }).click();
   await page.getByRole("tab", { name: "Build and sweep" }).click();
   await page.getByRole("button", { name: "Build", exact: true }).click();

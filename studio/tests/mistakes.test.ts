@@ -26,7 +26,7 @@ function built(plan: string): any[] {
   return stdout.trim().split("\n").map((line) => JSON.parse(line));
 }
 
-test("an error has its place, one without is an error all the same; warnings and the summary are none", { skip: !AFPC && "AFPC does not say where afpc is" }, () => {
+test("errors are found with and without a place; warnings and the summary are not errors", { skip: !AFPC && "AFPC does not say where afpc is" }, () => {
   const [wrong, ...more] = mistakes(built(PLAN));
   assert.deepEqual([wrong?.code, wrong?.place?.file, wrong?.place?.line, wrong?.place?.column, more.length], ["E0203", "p.afp", 5, 34, 0]);
   assert.match(wrong!.message, /^expected a duration/);

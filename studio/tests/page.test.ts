@@ -19,7 +19,7 @@ const openText = async (page: Page): Promise<void> => {
 
 const lines = (page: Page): Promise<string[]> => page.locator(".cm-line").allInnerTexts();
 
-inBrowser("opens, types, sees what is wrong, is told 'saved'; undo gives the first bytes", { "plan.afp": PLAN }, async ({ page, holds, isSaved }) => {
+inBrowser("a user opens, types, sees errors and 'saved'; undo restores the bytes", { "plan.afp": PLAN }, async ({ page, holds, isSaved }) => {
   await openText(page);
   assert.equal(await page.title(), "plan.afp · AFP Studio");
   await page.locator(".count", { hasText: "ready" }).waitFor();
@@ -42,7 +42,7 @@ inBrowser("opens, types, sees what is wrong, is told 'saved'; undo gives the fir
   await holds("plan.afp", PLAN);
 });
 
-inBrowser("the history survives a reload, and not a change of others meanwhile", { "plan.afp": PLAN }, async ({ page, write, holds, isSaved }) => {
+inBrowser("the history survives a reload, but not a change of another program", { "plan.afp": PLAN }, async ({ page, write, holds, isSaved }) => {
   await openText(page);
   await page.locator(".cm-line", { hasText: "start go" }).click();
   await page.keyboard.press("End");
@@ -64,7 +64,7 @@ inBrowser("the history survives a reload, and not a change of others meanwhile",
   await page.getByRole("button", { name: "Nothing to undo" }).waitFor();
 });
 
-inBrowser("opening a file and looking at it changes no byte, whatever its line ends are", { "plan.afp": `\ufeff${PLAN.replaceAll("\n", "\r\n")}` }, async ({ page, holds, isSaved }) => {
+inBrowser("opening a file changes no byte for any line endings", { "plan.afp": `\ufeff${PLAN.replaceAll("\n", "\r\n")}` }, async ({ page, holds, isSaved }) => {
   await openText(page);
   await isSaved();
   await holds("plan.afp", `\ufeff${PLAN.replaceAll("\n", "\r\n")}`);
@@ -88,7 +88,7 @@ inBrowser("a change of another program arrives; undoing it asks first", { "plan.
   await holds("plan.afp", PLAN);
 });
 
-inBrowser("completion writes a whole element, a fix mends a mistake, a name is changed everywhere", { "plan.afp": PLAN.replace("Forward {", "Forwrad {") }, async ({ page, holds }) => {
+inBrowser("completion inserts an element, a fix removes an error, a name is changed everywhere", { "plan.afp": PLAN.replace("Forward {", "Forwrad {") }, async ({ page, holds }) => {
   await openText(page);
   await page.locator(".count", { hasText: "error" }).click();
   await page.locator(".problems .fix", { hasText: "Forward" }).first().click();
@@ -111,7 +111,7 @@ inBrowser("completion writes a whole element, a fix mends a mistake, a name is c
   await holds("plan.afp", PLAN.replaceAll("go", "drive"));
 });
 
-inBrowser("an empty folder: nothing is written before something is chosen; plans by name, by examples", {}, async ({ page, read, holds }) => {
+inBrowser("an empty folder stays empty until the user creates a plan by name or from an example", {}, async ({ page, read, holds }) => {
   await page.getByRole("heading", { name: /^No plan in/ }).waitFor();
   assert.equal(await read("plan.afp"), "");
   await page.getByRole("button", { name: /Your first plan/ }).click();
@@ -129,7 +129,7 @@ inBrowser("an empty folder: nothing is written before something is chosen; plans
 
 for (const colorScheme of ["light", "dark"] as const) {
   const files = { "plan.afp": PLAN.replace("start go", "start gone") };
-  inBrowser(`axe has nothing serious to say, ${colorScheme}`, files, async ({ page }) => {
+  inBrowser(`axe finds no serious problem, ${colorScheme}`, files, async ({ page }) => {
     const clean = async (where: string): Promise<void> => {
       const axe = new AxeBuilder({ page });
       // Light and dark mode differ only in colours.
@@ -161,7 +161,7 @@ for (const colorScheme of ["light", "dark"] as const) {
   }, { colorScheme });
 }
 
-inBrowser("a code opens its page of the book, with both examples", { "plan.afp": PLAN.replace("start go", "start gone") }, async ({ page }) => {
+inBrowser("an error code opens its page, with both examples", { "plan.afp": PLAN.replace("start go", "start gone") }, async ({ page }) => {
   await page.locator(".count", { hasText: "error" }).click();
   const button = page.getByRole("button", { name: /^Explain E\d+/ }).first();
   const code = await button.textContent();
@@ -192,7 +192,7 @@ const focusAfter = (page: Page, init: { key: string; ctrlKey?: boolean }): Promi
     return document.activeElement!.getAttribute("role");
   }, init);
 
-inBrowser("what is opened by a key takes the next one, however fast it comes", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a dialog opened by a key receives the next key", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".count", { hasText: "ready" }).waitFor();
   assert.equal(await focusAfter(page, { key: "k", ctrlKey: true }), "combobox");
   await page.keyboard.press("Escape");
@@ -217,7 +217,7 @@ inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLA
   assert.ok(["bar", "Palette", "Drawing", "World", "Text", "Problems"].every((pane) => reached.has(pane)), [...reached].join());
 });
 
-inBrowser("a name that is none is said, in the drawing and in the inspector, and stays there to be mended", { "plan.afp": PLAN }, async ({ page, read }) => {
+inBrowser("an invalid name is explained in the drawing and the inspector, and stays there for correction", { "plan.afp": PLAN }, async ({ page, read }) => {
   const node = page.locator('.node [data-item="P.go"] text.name').first();
   const { x, y } = (await node.boundingBox())!;
   await page.mouse.click(x + 5, y + 5);

@@ -9,7 +9,7 @@ import { fillEntry } from "./spots";
 
 const PLAN = "WallFollowing";
 
-inBrowser("the paper's plan from an empty file by keys alone", { "plan.afp": `use carbot\n\nplan ${PLAN} {\n}\n` }, async ({ page, read }) => {
+inBrowser("the paper's plan can be entered with only the keyboard", { "plan.afp": `use carbot\n\nplan ${PLAN} {\n}\n` }, async ({ page, read }) => {
   await page.locator(`.node [data-item="${PLAN}.start"]`).waitFor();
   await page.locator(".board").focus();
   const hands = new Hands(page, () => read("plan.afp"));

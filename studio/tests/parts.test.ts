@@ -7,7 +7,7 @@ import { connect, type Socket } from "../page/server/lsp";
 import { blocks } from "../page/screen/markdown";
 import { offset, position } from "../page/documents/positions";
 
-test("positions and offsets are each other's inverse", () => {
+test("positions and offsets convert in both directions", () => {
   const text = "a\n\nö😀x\nlast";
   for (let at = 0; at <= text.length; at++) assert.equal(offset(text, position(text, at)), at);
   assert.deepEqual(position(text, text.length), { line: 3, character: 4 });
@@ -15,7 +15,7 @@ test("positions and offsets are each other's inverse", () => {
   assert.equal(offset(text, { line: 99, character: 0 }), text.length);
 });
 
-test("Markdown becomes blocks; markup of others stays text", () => {
+test("Markdown becomes blocks; other markup stays text", () => {
   assert.deepEqual(blocks("```afp\nactor A\n```\n\nDrives `x` and **y**, *z*.\nOn.\n\n- `in a`: one\n  more\n- two"), [
     { kind: "code", text: "actor A" },
     {
@@ -47,7 +47,7 @@ test("keys have one name each", () => {
   for (const key of ["F6", "Ctrl+K", "Ctrl+."]) assert.ok(!isForField(key), key);
 });
 
-test("letters act in the drawing alone; a command of the same name takes the place", () => {
+test("letters are shortcuts only in the drawing; a new command replaces a command of the same name", () => {
   const ran: string[] = [];
   commands.value = [];
   command({ id: "a", label: "Add an element", key: "A", where: "drawing", run: () => ran.push("a") });
@@ -77,7 +77,7 @@ class Server {
 
 const soon = () => new Promise((done) => setTimeout(done));
 
-test("greeting goes first, others wait for it; errors are sentences; a lost connection is made anew", { timeout: 5000 }, async () => {
+test("the first request goes first, others wait; errors are sentences; a lost connection is restored", { timeout: 5000 }, async () => {
   const server = new Server();
   const lsp = connect("ws://x/lsp", async (first) => void (await first.request("afp/hello", {})), server.make);
   const early = lsp.request<number>("early", { a: 1 });

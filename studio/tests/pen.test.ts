@@ -18,7 +18,7 @@ const type = async (page: Page, words: string): Promise<void> => {
   await page.keyboard.type(words);
 };
 
-inBrowser("one changes, the other watches; who takes the pen begins a history of his own", { "plan.afp": PLAN }, async ({ page, holds }) => {
+inBrowser("one page edits and the other watches; taking the edit lock starts a new history", { "plan.afp": PLAN }, async ({ page, holds }) => {
   await openText(page);
   const other = await page.context().newPage();
   await other.goto(new URL("/", page.url()).href);

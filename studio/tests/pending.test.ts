@@ -61,7 +61,7 @@ async function begun(): Promise<SlowRoom> {
   return room;
 }
 
-test("letters under way stay where they were typed, around what another program writes", async () => {
+test("unsent letters keep their place around the changes of another program", async () => {
   const room = await begun();
   typed([{ uri: URI, from: 7, to: 7, insert: "A" }]);
   room.hear();
@@ -77,7 +77,7 @@ test("letters under way stay where they were typed, around what another program 
   assert.equal(room.text, text(URI));
 });
 
-test("whatever is typed, taken back and written by others at random: both have one text, with every letter", async () => {
+test("after random edits, undo and other writers, both sides have the same text with every letter", async () => {
   for (let seed = 1; seed <= 60; seed++) {
     const below = random(seed);
     const room = await begun();
@@ -99,7 +99,7 @@ test("whatever is typed, taken back and written by others at random: both have o
   }
 });
 
-test("with letters taken out on both sides, both have one text in the end", async () => {
+test("after deletions on both sides, both have the same text", async () => {
   for (let seed = 1; seed <= 60; seed++) {
     const below = random(seed);
     const room = await begun();
@@ -128,7 +128,7 @@ test("with letters taken out on both sides, both have one text in the end", asyn
 const applied = (before: string, after: string): string =>
   difference("u", before, after).reduce((now, { from, to, insert }) => now.slice(0, from) + insert + now.slice(to), before);
 
-test("the difference of two texts makes one of the other, and leaves lines between alone", () => {
+test("the difference of two texts converts one into the other and keeps equal lines", () => {
   const below = random(3);
   for (let round = 0; round < 2000; round++) {
     const any = () => Array.from({ length: below(14) }, () => ["a", "b", "\n", "\n", "😀", "😁"][below(6)]).join("");

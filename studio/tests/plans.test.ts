@@ -5,7 +5,7 @@ import { inBrowser, shows } from "./browser";
 const plan = (name: string, element: string): string => `\nplan ${name} {\n    start ${element}\n    actor ${element}: Wait { Elapsed -> terminate }\n}\n`;
 const TEXT = `use std\n${plan("A", "one")}${plan("B", "two")}`;
 
-inBrowser("a plan that is renamed or removed while it is shown leaves no dead drawing", { "plan.afp": TEXT }, async ({ page, write, isSaved, becomes }) => {
+inBrowser("renaming or removing a shown plan updates its drawing", { "plan.afp": TEXT }, async ({ page, write, isSaved, becomes }) => {
   const board = page.locator(".board");
   const crumbs = page.locator(".crumbs");
   await page.locator('.node [data-item="A.one"]').first().waitFor();

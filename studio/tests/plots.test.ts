@@ -6,7 +6,7 @@ import { inBrowser, shows } from "./browser";
 
 const PAPER = await readFile(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 
-inBrowser("what sensors say is seen on the floor, in a list and as curves", { "wall_following.afp": PAPER }, async ({ page }) => {
+inBrowser("sensor readings are shown on the floor, in a list and as curves", { "wall_following.afp": PAPER }, async ({ page }) => {
   await page.locator(".floor .robot").waitFor();
   assert.equal(await page.locator(".sensors").count(), 0);
   await page.keyboard.press("F5");

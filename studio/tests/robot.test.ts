@@ -32,7 +32,7 @@ version = "0.1.0"
 edition = "2024"
 `;
 
-inBrowser("a robot of the folder is built and run once it is trusted, and not before", { "plan.afp": PLAN, "afp.toml": PROJECT, "rover.afp": TOOLBOX, "Cargo.toml": MANIFEST }, async ({ page, read }) => {
+inBrowser("a robot of the folder is built and run only after the folder is trusted", { "plan.afp": PLAN, "afp.toml": PROJECT, "rover.afp": TOOLBOX, "Cargo.toml": MANIFEST }, async ({ page, read }) => {
   await page.locator(".node text").first().waitFor();
   await shows(page.locator(".world .empty"), /the robot 'rover::Rover'.* would be built and run: .*trust the folder/);
   await page.keyboard.press("F5");

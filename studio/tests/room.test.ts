@@ -1,5 +1,4 @@
-// The room editor: a new room, boxes and walls of any size and the robot's start by the mouse alone,
-// in a world file that runs use.
+// The room editor: a new room, boxes and walls of any size and the robot's start with only the mouse, in a world file for runs.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { inBrowser, settled } from "./browser";
@@ -27,7 +26,7 @@ async function drag(page: Page, from: [number, number], to: [number, number]): P
   await page.mouse.up();
 }
 
-inBrowser("a room is made, furnished and run by the mouse alone; undo takes a box away", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("a room is created, furnished and run with only the mouse; undo removes a box", { "plan.afp": PLAN }, async (studio) => {
   const { page, read } = studio;
   const things = page.locator(".floor .thing");
   await page.locator(".floor .robot").waitFor();

@@ -84,7 +84,7 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await card.waitFor({ state: "detached" });
 });
 
-inBrowser("with errors nothing is run and the first is shown; a run of an older text says so", { "plan.afp": PLAN.replace("start rest", "start best") }, async ({ page }) => {
+inBrowser("a plan with errors does not run and shows its first error; a run of an older text is marked", { "plan.afp": PLAN.replace("start rest", "start best") }, async ({ page }) => {
   await page.locator(".count", { hasText: "error" }).waitFor();
   await page.keyboard.press("F5");
   await page.getByText("Nothing was run: the plan has").waitFor();
@@ -149,7 +149,7 @@ inBrowser("a run stops at a breakpoint, which moves with the text and is remembe
   await shows(page.locator(".clock"), /^0\.5 s/);
 });
 
-inBrowser("the world is there before a run; a run moves the robot, a press of a control ends it", { "wall_following.afp": PAPER }, async ({ page }) => {
+inBrowser("the world is shown before a run; a run moves the robot, and a press of a control ends the run", { "wall_following.afp": PAPER }, async ({ page }) => {
   const robot = page.locator(".floor .robot");
   await robot.waitFor();
   assert.ok((await page.locator(".floor .thing").count()) > 4);
@@ -169,7 +169,7 @@ inBrowser("the world is there before a run; a run moves the robot, a press of a 
   assert.equal(await page.locator(".floor .driven").count(), 0);
 });
 
-inBrowser("another world and another seed are those of the next run; what fails is said", { "wall_following.afp": PAPER }, async ({ page }) => {
+inBrowser("a new world and a new seed apply to the next run; failures are explained", { "wall_following.afp": PAPER }, async ({ page }) => {
   await page.locator(".floor .robot").waitFor();
   const before = await page.locator(".floor").getAttribute("viewBox");
   await page.getByLabel("World", { exact: true }).and(page.locator("select")).selectOption("random:1");
@@ -190,7 +190,7 @@ inBrowser("another world and another seed are those of the next run; what fails 
 const ROOM = `version = 1\nname = "room"\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n`;
 const PROJECT = { "plan.afp": PAPER, "afp.toml": `[run]\nworld = "a.toml"\n`, "a.toml": ROOM, "b.toml": "version = 1\n" };
 
-inBrowser("a world that cannot be had leaves the one that is there and says why", PROJECT, async ({ page }) => {
+inBrowser("an invalid world keeps the old world and is explained", PROJECT, async ({ page }) => {
   const where = page.locator(".where select");
   await where.waitFor();
   const named = await where.inputValue();
@@ -201,7 +201,7 @@ inBrowser("a world that cannot be had leaves the one that is there and says why"
   await page.waitForFunction((named) => document.querySelector<HTMLSelectElement>(".where select")!.value === named, named);
 });
 
-inBrowser("why no world can be shown is said, and asked once more", { ...PROJECT, "a.toml": "version = 1\n" }, async ({ page, write }) => {
+inBrowser("a missing world is explained and requested again", { ...PROJECT, "a.toml": "version = 1\n" }, async ({ page, write }) => {
   await page.locator(".world .empty", { hasText: "a.toml" }).waitFor();
   await write("a.toml", ROOM);
   await page.getByRole("button", { name: "Try again" }).click();

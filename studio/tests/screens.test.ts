@@ -43,7 +43,7 @@ async function held(page: Page, element: string): Promise<void> {
 }
 
 for (const [look, options] of compared ? Object.entries(LOOKS) : []) {
-  inBrowser(`a plan looks as it should, ${look}`, {}, async ({ page, folder }) => {
+  inBrowser(`a plan has its recorded look, ${look}`, {}, async ({ page, folder }) => {
     const heading = page.locator("h1");
     await heading.waitFor();
     await page.waitForTimeout(1000);
@@ -56,7 +56,7 @@ for (const [look, options] of compared ? Object.entries(LOOKS) : []) {
 }
 
 if (compared) {
-  inBrowser("the picture of the README is what one sees", {}, async ({ page }) => {
+  inBrowser("the picture of the README shows the current page", {}, async ({ page }) => {
     await example(page, "Avoid obstacle");
     await held(page, "arrive");
     // Goes back to the previously active sub-plan, which avoids the obstacle.

@@ -8,7 +8,7 @@ async function select(page: Page, name: string): Promise<void> {
   await page.mouse.click(x + 6, y + 6);
 }
 
-inBrowser("the session of the book goes as it is told", {}, async ({ page }) => {
+inBrowser("the session of the book works as described", {}, async ({ page }) => {
   await page.locator(".card", { hasText: "Wall following" }).click();
   await page.locator(".node text.name", { hasText: "backupCollision" }).first().waitFor();
   await page.locator(".floor .robot").waitFor({ state: "attached" });

@@ -15,7 +15,7 @@ plan P {
 }
 `;
 
-inBrowser("what is suspended is striped and shows since when, until it continues", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a suspended element is striped and shows the time of its suspension until it continues", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator('.node [data-item="P.work"]').first().waitFor();
   await page.keyboard.press("F5");
   await page.locator('.node.active [data-item="P.handle"]').first().waitFor();

@@ -9,7 +9,7 @@ const run = (nth: number, ending: Ending, seed: number, values: Record<string, n
   values: Object.fromEntries(Object.entries(values).map(([name, si]) => [name, { text: `${si * 100} cm`, si }])),
 });
 
-test("two things that were varied are columns and rows in the order of their size, a third comes together in a cell", () => {
+test("two varied values are sorted columns and rows; a third one is merged in a cell", () => {
   const far = [0.2, 1, 0.3];
   const runs = far.flatMap((dist, at) => [0.1, 0.2].flatMap((gain, nth) => [0, 1].map((seed) => run(4 * at + 2 * nth + seed, seed ? "error" : "ok", seed, { dist, gain }))));
   const map = mapOf(runs);
@@ -20,7 +20,7 @@ test("two things that were varied are columns and rows in the order of their siz
   assert.deepEqual(counted(map.cells[0]![0]!), [{ ending: "ok", count: 1 }, { ending: "error", count: 1 }]);
 });
 
-test("one thing and seeds; seeds alone go on in rows; what has one value is not in the map", () => {
+test("seeds are wrapped into rows; a constant value is not in the map", () => {
   const one = mapOf([2, 1].flatMap((dist, at) => [0, 1].map((seed) => run(2 * at + seed, "ok", seed, { dist, same: 1 }))));
   assert.deepEqual([one.across.name, one.down.name, one.across.labels], ["dist", "seed", ["100 cm", "200 cm"]]);
   const seeds = mapOf(Array.from({ length: ROW + 3 }, (_, seed) => run(seed, "ok", seed)));
@@ -29,13 +29,13 @@ test("one thing and seeds; seeds alone go on in rows; what has one value is not 
   assert.equal(mapOf([run(0, "ok", 5)]).cells.flat(2).length, 1);
 });
 
-test("runs that came to the same are one line, and what they came to together is no run", () => {
+test("runs with equal results are one line, and the summary is not a run", () => {
   const runs = [run(0, "ok", 0), run(1, "error", 1, {}, "fault"), run(2, "error", 2, {}, "fault")];
   assert.deepEqual(grouped(runs).map(({ run, count }) => [run.run, count]), [[1, 2], [0, 1]]);
   assert.deepEqual(runsOf([...runs, { summary: { runs: 3 } }]), runs);
 });
 
-test("what all runs came to is said of all of them, also of those that are not listed", () => {
+test("the summary covers all runs, also runs that are not listed", () => {
   const summary = { runs: 9, of: 100, endings: { error: 2, ok: 7 } };
   const lines = [run(0, "ok", 0), { summary }];
   assert.deepEqual(sumOf(lines), summary);
@@ -59,7 +59,7 @@ plan Away {
 }
 `;
 
-inBrowser("a plan is run many times; a cell of the map says what its runs came to, and one is watched", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a plan is run many times; a cell of the map shows the results of its runs, and a run can be watched", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".node text").first().waitFor();
   await page.keyboard.press("Control+k");
   await page.keyboard.type("build and sweep");
@@ -84,7 +84,7 @@ inBrowser("a plan is run many times; a cell of the map says what its runs came t
   assert.equal(await page.locator(".given").count(), 0);
 });
 
-inBrowser("what cannot be swept is said of the field that it stands in", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("an invalid sweep value is explained at its field", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".node text").first().waitFor();
   await page.keyboard.press("Control+k");
   await page.keyboard.type("build and sweep");

@@ -22,7 +22,7 @@ plan Outer {
 }
 `;
 
-inBrowser("a plan that needs a value says which before anything runs, as long as it is shown", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a plan that needs a value names it before the run, while the plan is shown", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator('.node [data-item="Inner.first"]').first().waitFor();
   await page.keyboard.press("F5");
   const banner = page.locator(".banner.error");
@@ -34,7 +34,7 @@ inBrowser("a plan that needs a value says which before anything runs, as long as
   await banner.waitFor({ state: "detached" });
 });
 
-inBrowser("a page that is loaded anew shows the plan that it showed, and says that its run is gone", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("a reloaded page shows its last plan and reports that its run has ended", { "plan.afp": PLAN }, async ({ page }) => {
   const shown = page.locator(".crumbs [aria-current]");
   await page.getByRole("button", { name: "Plans of this file" }).click();
   await page.getByRole("menuitemradio", { name: "Outer" }).click();
@@ -50,7 +50,7 @@ inBrowser("a page that is loaded anew shows the plan that it showed, and says th
   assert.equal(await page.locator(".banner.error").count(), 0);
 });
 
-inBrowser("with an error the cursor stays where somebody writes, and the message goes with the error", { "plan.afp": PLAN.replace("start work", "start best") }, async (studio) => {
+inBrowser("an error does not move the cursor, and its message disappears with the error", { "plan.afp": PLAN.replace("start work", "start best") }, async (studio) => {
   const { page } = studio;
   await page.locator(".rail button", { hasText: "Text" }).click();
   await page.locator(".count", { hasText: "error" }).waitFor();
@@ -69,7 +69,7 @@ inBrowser("with an error the cursor stays where somebody writes, and the message
   await banner.waitFor({ state: "detached" });
 });
 
-inBrowser("who watches runs the plan, too", { "plan.afp": PLAN.replace("pause: duration", "pause: duration = 30 s") }, async ({ page }) => {
+inBrowser("an observer can also run the plan", { "plan.afp": PLAN.replace("pause: duration", "pause: duration = 30 s") }, async ({ page }) => {
   await page.locator('.node [data-item="Inner.first"]').first().waitFor();
   const other = await page.context().newPage();
   const wrong: string[] = [];
@@ -82,7 +82,7 @@ inBrowser("who watches runs the plan, too", { "plan.afp": PLAN.replace("pause: d
   assert.deepEqual(wrong, []);
 });
 
-inBrowser("all keys are shown from the first on", { "plan.afp": PLAN }, async ({ page }) => {
+inBrowser("the list of keys is complete from the start", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator('.node [data-item="Inner.first"]').first().waitFor();
   await page.keyboard.press("?");
   await page.locator(".keys h2:focus").waitFor();
@@ -91,7 +91,7 @@ inBrowser("all keys are shown from the first on", { "plan.afp": PLAN }, async ({
   await page.locator(".keys").waitFor({ state: "detached" });
 });
 
-inBrowser("a name that cannot be is told why and stays to be mended, wherever it is left", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("an invalid name is explained and stays for correction wherever the focus moves", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await page.locator('.node [data-item="Inner.first"]').first().waitFor();
   await page.mouse.dblclick(...(await middle(page, name("Inner.first"))));
@@ -120,7 +120,7 @@ inBrowser("a name that cannot be is told why and stays to be mended, wherever it
   await page.keyboard.press("Escape");
 });
 
-inBrowser("a file without a plan gets one by a button, or by what is put into it", { "wall_following.afp": "use std\n" }, async (studio) => {
+inBrowser("a file without a plan gets one by a button or by its first element", { "wall_following.afp": "use std\n" }, async (studio) => {
   const { page } = studio;
   await page.getByRole("button", { name: "Start a plan" }).click();
   await studio.holds("wall_following.afp", "use std\n\nplan WallFollowing {}\n");
@@ -133,6 +133,6 @@ inBrowser("a file without a plan gets one by a button, or by what is put into it
   assert.match(await settled(() => page.locator(".crumbs").innerText(), (now) => now !== ""), /WallFollowing/);
 });
 
-test("a plan is called as its file", () => {
+test("a plan has the name of its file", () => {
   assert.deepEqual(["wall_following.afp", "plans/my-first plan.afp", "2nd.afp", "größe.afp", "A.afp"].map(nameFor), ["WallFollowing", "MyFirstPlan", "2nd", "Größe", "A"]);
 });

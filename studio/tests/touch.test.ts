@@ -44,7 +44,7 @@ inBrowser("taps add, connect and set values", { "plan.afp": PLAN }, async (studi
   assert.match(await read("plan.afp.layout"), /^P\.go -?\d+ -?\d+\nP\.start -?\d+ -?\d+\nP\.turn -?\d+ -?\d+\n$/);
 }, fingers);
 
-inBrowser("one finger pans, two fingers zoom, nothing is changed", { "plan.afp": PLAN }, async ({ page, read }) => {
+inBrowser("one finger pans and two fingers zoom without a change", { "plan.afp": PLAN }, async ({ page, read }) => {
   await page.locator('.node [data-item="P.go"]').waitFor();
   const client = await page.context().newCDPSession(page);
   const touch = (type: string, ...points: [number, number][]) => client.send("Input.dispatchTouchEvent", { type: type as "touchStart", touchPoints: points.map(([x, y], id) => ({ x, y, id })) });

@@ -19,7 +19,7 @@ function storage() {
 
 const one = (name: string): string => `afp-studio-unsent-${name}`;
 
-test("the newest text of a file is offered, and once", () => {
+test("the newest text of a file is offered once", () => {
   const here = storage();
   here.setItem("afp-studio-history", "{}");
   here.setItem(one("broken"), "{");
@@ -33,7 +33,7 @@ test("the newest text of a file is offered, and once", () => {
   assert.deepEqual(kept(here), []);
 });
 
-test("of a file that has a question open, the question's text and what is typed meanwhile are both kept", () => {
+test("a file with an open question keeps the question's text and newly typed text", () => {
   const here = storage();
   keep(here, one("a"), { at: 1, texts: [{ uri: "u", text: "asked" }, { uri: "u", text: "typed" }] });
   assert.equal(claim(here, "u", ""), "typed");

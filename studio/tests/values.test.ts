@@ -31,7 +31,7 @@ async function open(page: Page, item: string): Promise<void> {
 /** An empty place of the drawing. */
 const ground = [900, 690] as const;
 
-inBrowser("a value that was typed or stepped is written when its field is left", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("a typed or stepped value is written when its field loses the focus", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await open(page, "P.turn");
   await page.keyboard.type("-75 deg");
@@ -51,7 +51,7 @@ inBrowser("a value that was typed or stepped is written when its field is left",
   await studio.becomes("plan.afp", /angle = -\d+ deg/);
 });
 
-inBrowser("what cannot be written stays in its field, marked, and nothing is written; Escape discards", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("an invalid value stays marked in its field and is not written; Escape discards it", { "plan.afp": PLAN }, async (studio) => {
   const { page, read } = studio;
   const field = page.locator(".value-popup input[type=text]");
   await open(page, "P.turn");
@@ -76,7 +76,7 @@ inBrowser("what cannot be written stays in its field, marked, and nothing is wri
   assert.equal(await read("plan.afp"), PLAN);
 });
 
-inBrowser("a line of the inspector that is refused stays, marked", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("a refused line of the inspector stays marked", { "plan.afp": PLAN }, async (studio) => {
   const { page, read } = studio;
   await page.locator('.node [data-item="P.go"]').first().waitFor();
   await page.mouse.click(...(await middle(page, '.node [data-item="P.start"] text.entry')));
@@ -92,7 +92,7 @@ inBrowser("a line of the inspector that is refused stays, marked", { "plan.afp":
   assert.equal(await line.inputValue(), "20 cm");
 });
 
-inBrowser("a step goes to the next number of the grid, and another unit keeps the value", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("a step selects the next number of the grid, and a new unit keeps the value", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await open(page, "P.go");
   const popup = page.locator(".value-popup");

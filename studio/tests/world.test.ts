@@ -13,13 +13,13 @@ const thing = (outline: Point[], path: Point[] = []) => ({ id: "0 box", name: "b
 const world = (change: Partial<World>): World => ({ start: [0, 0, 0], body: BODY, things: [], patches: [], lights: [], ...change });
 const near = (found: number, wanted: number): void => assert.ok(Math.abs(found - wanted) < 1e-9, `${found} is not ${wanted}`);
 
-test("a body stands at its pose, turned counter-clockwise", () => {
+test("a body is drawn at its pose, turned counter-clockwise", () => {
   const [front] = placed(BODY, [1, 2, Math.PI / 2]);
   near(front![0], 0.9);
   near(front![1], 2.2);
 });
 
-test("a picture holds the robot, things and where they go, patches and lights, with a margin; y goes up", () => {
+test("a picture has the robot, objects with their paths, patches and lights, with a margin; y points up", () => {
   const all = frame(world({ things: [thing([[1, 0], [2, 0], [2, 1]], [[2, 1], [2, 3]])], patches: [{ corners: [[-1, 0], [0, -2]], color: [1, 2, 3] }], lights: [[4, 0]] }));
   near(all.x, -1.15);
   near(all.y, -2.15);
@@ -29,19 +29,19 @@ test("a picture holds the robot, things and where they go, patches and lights, w
   near(scaleIn(all, 530, 265), 50);
 });
 
-test("a picture of nearly nothing is half a metre wide at least", () => {
+test("an almost empty picture is at least half a metre wide", () => {
   const small = frame(world({ body: [[0, 0]] }));
   near(small.width, 0.53);
   near(small.height, 0.53);
   assert.ok(frame(world({ body: [] })).width > 0);
 });
 
-test("outlines: their points and their middle", () => {
+test("outlines have their points and their middle", () => {
   assert.equal(points([[0.123456, -1], [2, 0]]), "0.1235,-1 2,0");
   assert.deepEqual(middle([[0, 0], [2, 0], [2, 2], [0, 2]]), [1, 1]);
 });
 
-test("a name stands in its thing, below it where it would hide it, and never out of the picture", () => {
+test("a name is inside its object, or below it if it would hide it, and always inside the picture", () => {
   const box = { x: 0, y: 0, width: 4, height: 4 };
   const square = (x: number, y: number, size: number): Point[] => [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
   assert.deepEqual(placeOf(square(1, 1, 2), box, [1, 0.2]), [2, 2]);
@@ -52,7 +52,7 @@ test("a name stands in its thing, below it where it would hide it, and never out
   assert.deepEqual(placeOf(square(3.6, 0, 0.4), box, [1, 0.2]), [3.5, 0.1]);
 });
 
-test("a path grows as the robot moves, in pieces that hang together", () => {
+test("a path grows with the robot's motion, in connected pieces", () => {
   let path: Path = [];
   for (let at = 0; at <= 450; at++) path = extended(path, [at / 10, 0, 0], at);
   assert.deepEqual(path.map((piece) => piece.length), [200, 200, 53]);
@@ -61,7 +61,7 @@ test("a path grows as the robot moves, in pieces that hang together", () => {
   assert.equal(extended(path, [45, 0.001, 1], 451), path);
 });
 
-test("a run that is moved back takes its path back", () => {
+test("a run that goes back shortens its path", () => {
   let path: Path = [];
   for (let at = 0; at <= 250; at++) path = extended(path, [at / 10, 0, 0], at);
   const back = extended(path, [10, 0, 0], 100);
@@ -70,14 +70,14 @@ test("a run that is moved back takes its path back", () => {
   assert.deepEqual(extended(path, [3, 4, 0], 0), [[[3, 4, 0]]]);
 });
 
-test("between two poses the robot turns the shorter way", () => {
+test("between two poses the robot turns in the shorter direction", () => {
   const [x, y, heading] = between([0, 0, 3], [1, 2, -3], 0.5);
   near(x, 0.5);
   near(y, 1);
   near(Math.cos(heading), -1);
 });
 
-test("a motion goes on from what is shown, as long as poses take to come, and ends", () => {
+test("a motion continues from the shown pose until the next pose, and ends", () => {
   const first = towards(null, [0, 0, 0], 1000, false);
   assert.deepEqual(shown(first, 1000), [0, 0, 0]);
   const second = towards(first, [1, 0, 0], 1050, false);
@@ -89,7 +89,7 @@ test("a motion goes on from what is shown, as long as poses take to come, and en
   assert.deepEqual(shown(towards(second, [5, 5, 0], 1060, true), 1060), [5, 5, 0]);
 });
 
-test("what is dragged goes with the pointer, or turns around itself", () => {
+test("a dragged object follows the pointer or turns around its middle", () => {
   assert.deepEqual(dragged([1, 2, 0.5], [1, 2], [1.5, 1], false), [1.5, 1, 0.5]);
   const [x, y, heading] = dragged([1, 2, 0], [2, 2], [1, 3], true);
   assert.deepEqual([x, y], [1, 2]);
@@ -99,7 +99,7 @@ test("what is dragged goes with the pointer, or turns around itself", () => {
   assert.equal(nudged([1, 2, 0], "a", false), null);
 });
 
-test("a thing is put with its middle at a pose, and its pose is found again", () => {
+test("an object is placed with its middle at a pose, and the pose is read back", () => {
   const square: Point[] = [[1, 0], [2, 0], [2, 1], [1, 1]];
   const [x, y, turn] = poseOf(put(square, [5, 6, 0.7]), square);
   near(x, 5);
@@ -107,7 +107,7 @@ test("a thing is put with its middle at a pose, and its pose is found again", ()
   near(turn, 0.7);
 });
 
-test("before a run things stand where the hand has put them, during one where it says", () => {
+test("objects are at the user's places before a run and at the run's places during it", () => {
   const one = world({ things: [thing([[1, 0], [2, 0], [2, 1], [1, 1]])] });
   const shapes = [{ shape: "can", outline: BODY }];
   const before = seen(one, null, { "0 box": [0, 0, 0] }, [{ shape: "can", at: [3, 3, 0] }], shapes);

@@ -2,8 +2,7 @@
 
     python compare_engine.py MANOEUVRES.json OURS.jsonl
 
-The other engine is Chipmunk (pymunk). The robot is modelled anew there, from the figures in
-docs/simulator.md and with other means: contact patches are joints of the engine that hold up to their
+The other engine is Chipmunk (pymunk). The robot is modelled again there, from the numbers in docs/simulator.md and by other means: contact patches are joints of the engine that hold up to their
 friction, a box rests on many patches, and the step is 1 ms instead of 5. No code of the project takes
 part. Prints a table of differences and fails where one is larger than its limit.
 """
@@ -50,8 +49,7 @@ Patch = namedtuple("Patch", "anchor body")
 
 
 class Wheel:
-    """A wheel that steers and drives; the floor under it moves as its rim does, and that as the motor does unless it is
-    too weak."""
+    """A wheel that steers and drives; the floor under it moves like its rim, and the rim follows the motor unless it is too weak."""
 
     def __init__(self, space, chassis, patch):
         self.at = patch.anchor

@@ -1,4 +1,4 @@
-"""What an installed package says of runs of a plan, which is the same on every machine: `python installed.py PLAN`."""
+"""Prints the results of runs of a plan with an installed package; they are equal on every machine: `python installed.py PLAN`."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Reads a log of a run of wall following with the public MCAP reader alone.
+"""Reads a log of a run of wall following with only the public MCAP reader.
 
     python read_log.py LOG
 

@@ -1,4 +1,4 @@
-//! The limit of counting loops within one step in help texts is exact: one more is a livelock.
+//! The limit in the help for counting loops within one step is exact: one more round is a livelock.
 
 use afp_dsl::compile;
 use afp_dsl::files::Texts;

@@ -49,7 +49,7 @@ fn an_invalid_string_is_answered_with_valid_ones() {
         assert!(said.as_ref().is_err_and(|said| said.contains(why)), "{entry}: {said:?}");
     }
     let long = scheduler.set_named("word", &"w".repeat(65)).unwrap_err().to_string();
-    assert_eq!(long, "a text is longer than 64 bytes; write a shorter one");
+    assert_eq!(long, "a text is longer than 64 bytes; write a shorter string");
     for (entry, text) in
         [("way", "80 cm"), ("side", "right"), ("side", "Side.right"), ("word", "x y")]
     {

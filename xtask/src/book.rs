@@ -12,7 +12,7 @@ pub fn run() -> Result<(), Failure> {
     if let Err(error) = program("mdbook").arg("--version").output()
         && error.kind() == ErrorKind::NotFound
     {
-        let why = "error: there is no mdbook\n  help: 'cargo install mdbook --locked' gets it";
+        let why = "error: mdbook is not installed\n  help: run 'cargo install mdbook --locked'";
         return Err(Failure(why.to_owned()));
     }
     let book = target().join("book");

@@ -86,7 +86,7 @@ pub fn grammar() -> Result<(), Failure> {
     let texts = Texts::sorted()?;
     let refused = refused(&tool, &folder, &texts.sound)?;
     if !refused.is_empty() {
-        let why = "the parser of afp-syntax reads these without a mistake, the grammar does not";
+        let why = "the parser of afp-syntax accepts these files, the grammar does not";
         return Err(format!("{why}:\n{}", refused.join("\n")).into());
     }
     let refused = self::refused(&tool, &folder, &texts.wrong)?;
@@ -94,7 +94,7 @@ pub fn grammar() -> Result<(), Failure> {
     let taken = taken.filter(|file| !BEYOND_GRAMMAR.iter().any(|known| file.ends_with(known)));
     let taken: Vec<_> = taken.map(String::as_str).collect();
     if !taken.is_empty() {
-        let why = "the parser of afp-syntax finds mistakes in these, the grammar does not";
+        let why = "the parser of afp-syntax rejects these files, the grammar does not";
         return Err(format!("{why}:\n{}", taken.join("\n")).into());
     }
     let samples = ["plans/wall_following.afp", "plans/tests/wall_following.afp"];
@@ -106,16 +106,18 @@ pub fn grammar() -> Result<(), Failure> {
     }
     neovim(&folder)?;
     let Texts { sound, wrong } = &texts;
-    println!("{} texts without a mistake, {} with, read as they are", sound.len(), wrong.len());
+    println!(
+        "{} valid and {} invalid files are read like the parser reads them",
+        sound.len(),
+        wrong.len()
+    );
     Ok(())
 }
 
 /// Neovim with the grammar, installed as in docs/editors.md; reports a missing Neovim.
 fn neovim(grammar: &Path) -> Result<(), Failure> {
     if program("nvim").arg("--version").output().is_err() {
-        eprintln!(
-            "skipped: there is no 'nvim' on this machine; 'apt-get install neovim' brings it"
-        );
+        eprintln!("skipped: 'nvim' is not installed; run 'apt-get install neovim'");
         return Ok(());
     }
     let data = root().join(target()).join("xtask/neovim");
@@ -165,7 +167,7 @@ fn refused(tool: &Path, folder: &Path, texts: &[String]) -> Result<Vec<String>, 
     if said.status.success() == found.is_empty() {
         Ok(found)
     } else {
-        Err(format!("cannot read what it says:\n{lines}").into())
+        Err(format!("cannot read its output:\n{lines}").into())
     }
 }
 

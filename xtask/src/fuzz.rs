@@ -92,7 +92,7 @@ fn search(tool: &PathBuf, name: &str, seeds: &[&str], seconds: u32) -> Result<()
     command.arg(format!("-dict={}", root().join("fuzz/afp.dict").display()));
     run_command(&mut command).map_err(|Failure(why)| {
         Failure(format!(
-            "{why}\nhelp: mend what fuzz/artifacts/{name}/ shows, and keep the file in fuzz/corpus/{name}/"
+            "{why}\nhelp: fix the error in fuzz/artifacts/{name}/, and keep the file in fuzz/corpus/{name}/"
         ))
     })
 }

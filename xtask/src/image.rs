@@ -21,7 +21,7 @@ pub fn read(bytes: &[u8]) -> Result<Image, Failure> {
     let symbols: Vec<String> =
         file.symbols().filter_map(|symbol| symbol.name().ok().map(str::to_owned)).collect();
     if symbols.is_empty() {
-        return Err(Failure("error: the image has no symbols to look at".to_owned()));
+        return Err(Failure("error: the image has no symbols".to_owned()));
     }
     let kept = file
         .sections()
@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_that_are_no_image_are_refused() {
+    fn bytes_that_are_not_an_image_are_refused() {
         assert!(read(b"plan").is_err());
     }
 }

@@ -72,7 +72,7 @@ fn use_it(afpc: &Path, folder: &Path, profile: Profile) -> Result<(), Failure> {
     let binary = Path::new(path.lines().last().unwrap_or_default()).to_owned();
     let again = output(here(&binary).arg("--json").args(UNTIL))?;
     if said != again {
-        return Err("the program and 'afpc run' do not say the same".into());
+        return Err("the program and 'afpc run' print different results".into());
     }
     Ok(())
 }

@@ -31,7 +31,9 @@ pub fn print() -> Result<(), Failure> {
         collect(formatted(path)?.parse()?, path, &mut lines, &mut tests);
         files.insert(path, lines.len());
     }
-    files.retain(|path, _| !tests.contains(*path));
+    let of_test =
+        |path: &Path| path.ancestors().any(|part| tests.contains(&part.with_extension("rs")));
+    files.retain(|path, _| !of_test(path));
     let mut crates: BTreeMap<_, usize> = BTreeMap::new();
     for (path, lines) in &files {
         *crates
@@ -61,7 +63,8 @@ fn formatted(path: &Path) -> Result<String, Failure> {
     Ok(String::from_utf8(done.stdout)?)
 }
 
-/// Collects the lines with a token of code, and the files of test modules.
+/// Collects the lines with a token of code, and the files of test modules. Submodules of a test
+/// module are in the folder of its name.
 fn collect(
     tokens: TokenStream,
     path: &Path,

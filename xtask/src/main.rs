@@ -38,97 +38,97 @@ use clap::{Parser, Subcommand};
 
 use shell::{Failure, cargo};
 
-/// Chores of the project.
+/// Run the tasks of the project.
 #[derive(Parser)]
 #[command(name = "cargo xtask")]
 struct Options {
     #[command(subcommand)]
-    chore: Chore,
+    task: Task,
 }
 
 #[derive(Subcommand)]
-enum Chore {
-    /// Runs every suite, or those named, and installs what they need under target/. A suite whose program is missing is
-    /// named and left out.
+enum Task {
+    /// Run the tests, and install their packages under target/; skip a suite if its program is
+    /// missing.
     Test {
-        /// Suites by name; all without any.
+        /// Names of suites [default: all]
         suites: Vec<String>,
-        /// Fails on a missing program; so does CI=true.
+        /// Fail if a program is missing, like CI=true
         #[arg(long)]
         all: bool,
     },
-    /// Measures against peers; options go on to the benchmark (--json, --check, FILTER).
+    /// Run the benchmarks; pass options to them (--json, --check, FILTER).
     Bench {
-        /// Options of the benchmark.
+        /// Options of the benchmarks
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         options: Vec<String>,
     },
-    /// Looks for texts that break a reader; needs a C++ compiler.
+    /// Run the fuzz targets; needs a C++ compiler.
     Fuzz {
-        /// Targets by name; all without any.
+        /// Names of targets [default: all]
         targets: Vec<String>,
-        /// How long each is searched for.
+        /// Seconds for each target
         #[arg(long, default_value_t = 60)]
         seconds: u32,
     },
-    /// Tries what leaves the checkout: a plan on a microcontroller, in whose image any panic is refused; what an editor needs,
-    /// for the web; an installed afpc; projects of their own; a Raspberry Pi.
+    /// Test builds for other targets: a microcontroller, the web, a Raspberry Pi, installed
+    /// programs.
     Gate {
-        /// Suites by name; all without any.
+        /// Names of suites [default: all]
         suites: Vec<String>,
     },
-    /// Runs the long suites: hundreds of random plans, long runs, fuzzing, benchmarks with limits.
+    /// Run the long suites: random plans, long runs, fuzzing, benchmarks with limits.
     Nightly {
-        /// Suites by name; all without any.
+        /// Names of suites [default: all]
         suites: Vec<String>,
     },
-    /// Checks formatting, lints, and the links of doc comments.
+    /// Check formatting, lints and the links of doc comments.
     Lint {
-        /// Suites by name; all without any.
+        /// Names of suites [default: all]
         suites: Vec<String>,
     },
-    /// Counts the lines of code of each crate, without blanks, comments and tests.
+    /// Count each crate's lines of code, without blank lines, comments and tests.
     Lines,
-    /// Renders the book of docs/ with mdBook.
+    /// Build the book of docs/ with mdBook.
     Book,
-    /// Packs the extension for Visual Studio Code and the grammar for tree-sitter.
+    /// Pack the Visual Studio Code extension and the tree-sitter grammar.
     Editors,
-    /// Draws, runs and sweeps the shipped plans for the gallery of the book.
+    /// Draw, run and sweep the shipped plans for the book's gallery.
     Gallery {
-        /// Plans by name; all without any.
+        /// Names of plans [default: all]
         plans: Vec<String>,
     },
-    /// Builds the Python package's wheels, with the command line inside, and its source distribution, into target/wheels.
+    /// Build the Python wheels and the source distribution into target/wheels.
     Wheels {
-        /// Machines by name (x86_64, aarch64); all without any.
+        /// Machines, x86_64 or aarch64 [default: all]
         machines: Vec<String>,
     },
-    /// Makes the studio's page and opens the studio; arguments go on to 'afpc studio'.
+    /// Build and open the studio; pass arguments to 'afpc studio'.
     Studio {
-        /// Makes the page, nothing else.
+        /// Build only the page
         #[arg(long)]
         page: bool,
-        /// Arguments of 'afpc studio'.
+        /// Arguments of 'afpc studio'
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
     },
 }
 
 fn main() -> ExitCode {
-    let done = match Options::parse().chore {
-        Chore::Test { suites, all } => suites::run(suites::TEST, &suites, all),
-        Chore::Bench { options } => bench(&options),
-        Chore::Fuzz { targets, seconds } => fuzz::run(&targets, seconds),
-        Chore::Gate { suites } => suites::run(suites::GATE, &suites, true),
-        Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites, true),
-        Chore::Lint { suites } => suites::run(suites::LINT, &suites, true),
-        Chore::Lines => lines::print(),
-        Chore::Book => book::run(),
-        Chore::Editors => editors::pack(),
-        Chore::Gallery { plans } => gallery::run(&plans),
-        Chore::Wheels { machines } => wheels::run(&machines),
-        Chore::Studio { page: true, .. } => studio::page(),
-        Chore::Studio { arguments, .. } => studio::open(&arguments),
+    let done = match Options::parse().task {
+        Task::Test { suites, all } => suites::run(suites::TEST, &suites, all),
+        Task::Bench { options } => bench(&options),
+        Task::Fuzz { targets, seconds } => fuzz::run(&targets, seconds),
+        Task::Gate { suites } => suites::run(suites::GATE, &suites, true),
+        Task::Nightly { suites } => suites::run(suites::NIGHTLY, &suites, true),
+        Task::Lint { suites } => suites::run(suites::LINT, &suites, true),
+        Task::Lines => lines::print(),
+        Task::Book => book::run(),
+        Task::Editors => editors::pack(),
+        Task::Gallery { plans } => gallery::run(&plans),
+        Task::Wheels { machines } => wheels::run(&machines),
+        Task::Studio { page: true, .. } => studio::page(),
+        Task::Studio { arguments, .. } => studio::open(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

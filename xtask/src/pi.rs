@@ -72,7 +72,7 @@ fn compare(machine: &Emulated, (folder, plan, until): Case, quick: bool) -> Resu
             output(here(qemu.as_ref()).args(words).arg(binary).args(until).args(options))?;
         if said != emulated {
             let name = machine.name;
-            return Err(format!("'{plan}' with seed {seed} says something else on '{name}'").into());
+            return Err(format!("'{plan}' with seed {seed} differs on '{name}'").into());
         }
         println!(
             "{plan}, seed {seed}: {} lines, equal on '{}'",

@@ -155,7 +155,7 @@ fn said_of(left_out: &[(&str, Vec<Need>)]) -> String {
         all.extend(missing.iter().filter(|need| !all.contains(need)).copied().collect::<Vec<_>>());
     }
     if !all.is_empty() {
-        lines += &format!("to run them, too:\n    {}\n", needs::install(&all));
+        lines += &format!("to run them as well:\n    {}\n", needs::install(&all));
     }
     lines
 }
@@ -194,7 +194,7 @@ fn conclude(account: &[Account]) -> Result<(), Failure> {
     }
     let again: Vec<String> = failed.iter().map(|name| again(name)).collect();
     Err(Failure(format!(
-        "\nfailed: {}\nto run just that:\n{}",
+        "\nfailed: {}\nto repeat only these:\n{}",
         failed.join(", "),
         again.join("\n")
     )))
@@ -277,7 +277,7 @@ fn rust_alone_whole() -> Result<(), Failure> {
         |name: &str| said.lines().any(|line| line.starts_with(name) && line.contains("left out"));
     match left_out.map(|(name, ..)| *name).find(|name| !named(name)) {
         None => Ok(()),
-        Some(name) => Err(format!("'{name}' was not left out").into()),
+        Some(name) => Err(format!("'{name}' was not skipped").into()),
     }
 }
 
@@ -372,7 +372,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unknown_suite_is_named_with_those_that_exist() {
+    fn an_unknown_suite_is_reported_with_the_known_suites() {
         let Err(Failure(text)) = run(LINT, &["clipy".to_owned()], false) else {
             panic!("it passed")
         };
@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn a_suite_that_is_left_out_is_named_with_its_needs() {
+    fn a_skipped_suite_is_named_with_its_needs() {
         let text = said_of(&[("studio", vec![Node, Chromium]), ("dap", vec![Node])]);
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(lines[0], "studio         left out: it needs Node.js with npm and Chromium");
@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_is_missing_fails_what_asks_for_all() {
+    fn a_missing_program_fails_a_run_of_all_suites() {
         let Failure(text) = not_there(&[Python]);
         assert!(text.starts_with("error: there is no Python 3 with venv\nhelp: run '"), "{text}");
     }

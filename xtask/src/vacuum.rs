@@ -80,7 +80,7 @@ fn on_the_board(command: &mut Command) -> Result<(), Failure> {
         if signal.is_none() {
             run.args(["--until", "2s"]);
         }
-        eprintln!("$ on a board that stands in: {run:?}");
+        eprintln!("$ on a simulated board: {run:?}");
         let mut run = run.spawn()?;
         if let Some(signal) = signal {
             // It was built before, so it drives soon.
@@ -99,7 +99,7 @@ fn on_the_board(command: &mut Command) -> Result<(), Failure> {
         let moved = told.lines().any(|line| line.starts_with("Drive { speed: 0.2"));
         if ended != Some(code) || !moved || !told.ends_with("Stop\n") {
             return Err(
-                format!("error: it ended with {ended:?}, the board was told\n{told}").into()
+                format!("error: it ended with {ended:?}, the board received\n{told}").into()
             );
         }
     }

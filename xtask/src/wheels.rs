@@ -64,8 +64,10 @@ pub fn run(names: &[String]) -> Result<(), Failure> {
         let wheel = machine.wheel(&python, &folder)?;
         let says = machine.try_out(&python, &wheel)?;
         if said.as_ref().is_some_and(|said| *said != says) {
-            let text =
-                format!("the wheel for '{}' runs otherwise than others:\n{says}", machine.name);
+            let text = format!(
+                "the wheel for '{}' gives other results than the other wheels:\n{says}",
+                machine.name
+            );
             return Err(text.into());
         }
         println!("{}", wheel.display());

@@ -11,7 +11,7 @@ use afp_sim::{Simulation, World};
 use crate::measure::Race;
 use crate::report::{Report, Row};
 
-/// The rows of the grid of walls; one in so many walls has a moving thing next to it.
+/// The rows of the grid of walls; one wall of this number has a moving object next to it.
 const ROWS: usize = 40;
 const COLUMNS: usize = 50;
 const WALLS_A_MOVER: usize = ROWS * COLUMNS / 50;

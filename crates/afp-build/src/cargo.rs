@@ -18,7 +18,6 @@ use crate::NotBuilt;
 pub use blame::{Blame, Generated};
 use message::Message;
 
-/// A job for cargo.
 pub struct Job<'a> {
     /// The folder of the crate.
     pub folder: &'a Path,
@@ -191,7 +190,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn manifests_are_those_of_packages_on_this_machine() {
+    fn only_manifests_of_local_packages_are_returned() {
         for (id, here) in [
             ("path+file:///p/box#0.1.0", true),
             ("box 0.1.0 (path+file:///p/box)", true),

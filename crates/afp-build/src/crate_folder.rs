@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use afp_codegen::{MADE_BY, Origin, RUST_MADE_BY};
 use afp_run::{RunError, hash, write_whole};
 
-/// The locked versions for cargo.
 const LOCK: &str = "Cargo.lock";
 /// The hash of the checkout's lock file.
 const LOCK_OF: &str = "locked";
@@ -209,6 +208,6 @@ mod tests {
         fs::write(folder.path().join(LOCK), "engine 1\nmine 1\n").unwrap();
         assert_eq!(locked("engine 1\n", true), "engine 1\nmine 1\n", "additions by cargo stay");
         assert_eq!(locked("engine 2\n", true), "engine 2\n");
-        assert_eq!(locked("engine 3\n", false), "engine 2\n", "a folder of somebody else");
+        assert_eq!(locked("engine 3\n", false), "engine 2\n", "a folder of another program");
     }
 }

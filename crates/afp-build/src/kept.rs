@@ -122,11 +122,10 @@ impl Kept {
         let names = parts.names();
         let no_cargo = RunError::Missing {
             message: format!(
-                "the plan needs {names}, whose Rust has to be built first: there is no cargo"
+                "the plan needs {names}, whose Rust must be built first, but cargo is not installed"
             ),
             help:
-                "install Rust from https://rustup.rs, then run the same command again; plans that \
-                   use built-in toolboxes alone run without it"
+                "install Rust from https://rustup.rs, then run the same command again; plans that use only built-in toolboxes run without it"
                     .to_owned(),
         };
         let texts: Vec<_> = files.iter().map(|(path, text)| (&**path, &**text)).collect();

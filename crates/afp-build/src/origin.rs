@@ -17,7 +17,6 @@ pub fn of_afp(project: &ProjectFile) -> Result<Origin, RunError> {
     }
 }
 
-/// The crate of a toolbox as a dependency.
 pub fn dependency(krate: &CrateLink) -> Dependency {
     Dependency {
         key: krate.key.clone(),
@@ -27,7 +26,6 @@ pub fn dependency(krate: &CrateLink) -> Dependency {
     }
 }
 
-/// An origin with its path relative to a folder.
 fn origin_in(folder: &Path, origin: &afp_project::Origin) -> Origin {
     match origin {
         afp_project::Origin::Path(path) => {
@@ -60,7 +58,7 @@ fn checkout() -> Result<Origin, RunError> {
                 "/../..'"
             )
             .to_owned(),
-            help: "say where the afp crates are: '[afp] path = \"...\"' in afp.toml".to_owned(),
+            help: "set the path of the afp crates: '[afp] path = \"...\"' in afp.toml".to_owned(),
         }),
     }
 }

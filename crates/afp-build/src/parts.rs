@@ -143,7 +143,7 @@ pub fn no_hardware(project: &ProjectFile) -> RunError {
             "describe the robot's parts in afp.toml: '[robot]' with 'profile = \"carbot\"'",
         ),
         Some(robot) if robot.profile.is_some() => RunError::usage(
-            "built programs do not drive a robot with a profile",
+            "built programs cannot drive a robot with a profile",
             "use 'afpc run --robot hardware' instead",
         ),
         Some(_) => RunError::usage(

@@ -26,7 +26,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_row_is_a_fault_of_its_own() {
+    fn every_row_is_a_different_fault() {
         let all: Vec<_> = faults(TABLE).map(|(id, ..)| Carbot::fault(id, None).unwrap()).collect();
         for (n, fault) in all.iter().enumerate() {
             assert!(!all[..n].contains(fault), "{fault:?} twice");
@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn every_row_is_a_control_of_its_own() {
+    fn every_row_is_a_different_control() {
         let all: Vec<_> = controls(TABLE).map(|(id, ..)| Carbot::control(id)).collect();
         assert_eq!(all, [Some(Control::Touch), Some(Control::ButtonsEscape)]);
         assert_eq!(find_control(TABLE, "escape"), find_control(TABLE, "buttons.escape"));
@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn signals_are_numbered_as_the_toolbox_declares_them() {
+    fn signals_have_the_order_of_the_toolbox() {
         let names = signals(TABLE).map(|(_, device, row)| (device.name, row.name));
         let expected = [
             ("ultrasonic", "echo"),

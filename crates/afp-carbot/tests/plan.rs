@@ -16,7 +16,7 @@ pub fn runs_on_every_carbot<E: Carbot>() -> impl Plan<E> {
 }
 
 #[test]
-fn names_are_those_of_the_text() {
+fn names_equal_the_names_in_the_file() {
     let mut plan = WallFollowing::new();
     let names = plan.names();
     assert_eq!(names.components(), 11);

@@ -42,7 +42,7 @@ pub struct Formulas<'a> {
     pub entries: &'a [Ident],
     /// The holder of their values.
     pub reads: Reads,
-    /// The names of the scratch texts, for values outside of entries, in the order of their use.
+    /// The names of the scratch strings, for values outside of entries, in the order of their use.
     pub scratch: Vec<Ident>,
 }
 
@@ -60,7 +60,7 @@ impl<'a> Formulas<'a> {
         Formulas { type_paths, entries, reads: Reads::Config, scratch: Vec::new() }
     }
 
-    /// The value for an input port of the formula's type: texts and objects are borrowed.
+    /// The value for an input port of the formula's type: strings and objects are borrowed.
     pub fn input(&mut self, formula: &Formula) -> TokenStream {
         match &formula.ty {
             Type::Text => match borrowed_text(self, formula.part()) {
@@ -165,7 +165,7 @@ impl<'a> Formulas<'a> {
         quote!(#name(#(#operands),*) #question)
     }
 
-    /// A text for use within the expression: an `&str`.
+    /// A string for use within the expression: an `&str`.
     pub fn text(&self, formula: Part<'_>) -> TokenStream {
         borrowed_text(self, formula).unwrap_or_else(|| {
             let text = self.expr(formula).at(Bond::Atom);
@@ -294,7 +294,7 @@ fn signed(tokens: TokenStream, negative: bool) -> Expr {
     Expr(tokens, if negative { Bond::Sign } else { Bond::Atom })
 }
 
-/// A text from an entry or from the program itself: an `&str`.
+/// A string from an entry or from the program itself: an `&str`.
 fn borrowed_text(formulas: &Formulas<'_>, formula: Part<'_>) -> Option<TokenStream> {
     match formula.op() {
         Op::Text(text) => Some(text.as_str().to_token_stream()),

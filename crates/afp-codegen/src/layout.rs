@@ -26,7 +26,6 @@ pub fn at(span: Span) -> TokenStream {
     quote!(#[comment = #text])
 }
 
-/// The place of a printed line.
 fn place(line: &str) -> Option<Span> {
     let mut numbers = line.trim_start().strip_prefix("//")?.strip_prefix(PLACE)?.split(' ');
     let file = numbers.next()?.parse().ok()?;
@@ -166,7 +165,7 @@ mod tests {
     use quote::quote;
 
     #[test]
-    fn comments_reach_the_text_and_not_the_compiler() {
+    fn comments_are_written_but_not_compiled() {
         let note = comment("why");
         let tokens = quote!(#note fn f() -> [u8; 1] { [#note 1] });
         assert!(file(tokens.clone()).starts_with("// why\nfn f()"));
@@ -182,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_have_the_place_of_the_innermost_item_around_them() {
+    fn lines_have_the_place_of_the_innermost_enclosing_item() {
         let span = |start| Span { file: 3, start, end: 90 };
         let [a, b, c, d] = [1, 2, 3, 4].map(|start| at(span(start)));
         let tokens = quote! {

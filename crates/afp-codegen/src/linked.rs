@@ -267,7 +267,7 @@ mod tests {
     use crate::manifest::{Dependency, Features};
 
     #[test]
-    fn packages_are_optimised_as_in_the_workspace() {
+    fn packages_have_the_workspaces_optimisation() {
         let workspace = include_str!("../../../Cargo.toml");
         for (package, level) in LEVELS.iter().chain(&LEVELS_OF_PNG) {
             let said = format!("[profile.release.package.{package}]\nopt-level = {level}\n");

@@ -13,9 +13,7 @@ pub struct TypePaths<'a> {
     pub core: TokenStream,
     /// The prefix of the names in `afp_core::quantity`.
     pub quantity: TokenStream,
-    /// The path of an enum.
     pub choice: &'a dyn Fn(&Enum) -> TokenStream,
-    /// The path of the Rust type of an object.
     pub object: &'a dyn Fn(&Object) -> TokenStream,
 }
 
@@ -152,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn degrees_are_found_only_where_they_are_exact() {
+    fn degrees_are_used_only_if_they_are_exact() {
         assert_eq!(round_degrees(-60.0 * RADIANS_PER_DEGREE), Some(-60.0));
         assert_eq!(round_degrees(22.5 * RADIANS_PER_DEGREE), Some(22.5));
         assert_eq!(round_degrees(1.0), None);

@@ -136,7 +136,6 @@ impl<'a> ScenarioTests<'a> {
     }
 }
 
-/// A test with its own name.
 fn test(names: &mut UniqueNames, title: &str, body: &TokenStream) -> TokenStream {
     let name = ident(&names.unique(slug(title)));
     quote! {

@@ -183,9 +183,9 @@ fn live(template: &Template) -> impl Iterator<Item = (u16, &InPort)> {
 /// The generic parameters of a struct or enum of ports.
 #[derive(Clone, Copy)]
 struct Parameters {
-    /// It borrows texts or objects.
+    /// It borrows strings or objects.
     borrows: bool,
-    /// It owns texts or objects, and cannot be copied.
+    /// It owns strings or objects, and cannot be copied.
     owns: bool,
     /// It has objects, which only implement `Clone`.
     opaque: bool,

@@ -162,7 +162,7 @@ pub trait ComputationTemplate {
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not implement the actor `{T}` on the platform `{E}`",
-    note = "either the platform lacks what the implementation asks for, or there is no `impl Actor<{T}, _> for {Self}`"
+    note = "either the platform lacks a trait that the implementation needs, or there is no `impl Actor<{T}, _> for {Self}`"
 )]
 pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
     /// Starts the actor. The first poll follows one period later.
@@ -334,7 +334,7 @@ pub enum OnReturn {
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not implement the supervisor `{T}` on the platform `{E}`",
-    note = "either the platform lacks what the implementation asks for, or there is no `impl Supervisor<{T}, _> for {Self}`"
+    note = "either the platform lacks a trait that the implementation needs, or there is no `impl Supervisor<{T}, _> for {Self}`"
 )]
 pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
     /// Starts watching.

@@ -70,7 +70,7 @@ impl fmt::Display for StartError {
             StartError::InputMissing(entry) => {
                 write!(f, "input {} of the plan (by position, from 0) has no value", entry.0)
             }
-            StartError::AlreadyStarted => f.write_str("the plan has been started before"),
+            StartError::AlreadyStarted => f.write_str("the plan has already been started"),
         }
     }
 }

@@ -15,7 +15,7 @@ const LENGTHS: [Unit<'static>; 3] = [
 ];
 
 #[test]
-fn integers_fault_where_they_would_overflow() {
+fn integers_fault_on_overflow() {
     assert_eq!(int_add(i64::MAX, 1), Err(Error::Overflow));
     assert_eq!(int_sub(i64::MIN, 1), Err(Error::Overflow));
     assert_eq!(int_mul(i64::MAX, 2), Err(Error::Overflow));
@@ -54,7 +54,7 @@ fn a_centimetre_literal_is_the_double_nearest_to_its_decimal_value() {
 }
 
 #[test]
-fn text_becomes_a_number_by_the_grammar_of_literals() {
+fn strings_convert_to_numbers_by_the_grammar_of_literals() {
     assert_eq!(parse_quantity(" -1.5e2 cm ", LENGTHS), Ok(-1.5));
     assert_eq!(parse_quantity("2km", LENGTHS), Ok(2000.0));
     for text in
@@ -81,7 +81,7 @@ fn a_quantity_prints_its_si_value_and_unit() {
 }
 
 #[test]
-fn a_text_holds_64_bytes_and_is_never_cut() {
+fn a_string_holds_64_bytes_and_is_never_cut() {
     let half = "ä".repeat(16);
     assert_eq!(join(&half, &half).unwrap().as_str().len(), 64);
     assert_eq!(join(&half, &format!("{half}x")).err(), Some(Error::TooLong));
@@ -114,7 +114,7 @@ fn times_print_as_seconds_with_the_digits_that_matter() {
 }
 
 #[test]
-fn milliseconds_survive_as_seconds() {
+fn milliseconds_convert_to_seconds_without_loss() {
     for millis in 0..20_000 {
         let span = Duration::from_millis(millis);
         assert_eq!(Duration::from_secs_f64(span.as_secs_f64()), span);

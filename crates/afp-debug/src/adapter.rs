@@ -53,7 +53,7 @@ pub trait Host<'h> {
     /// # Errors
     /// The reason and an action.
     fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
-        Err(format!("nothing is known of the world of '{}'", launch.program))
+        Err(format!("'{}' has no known world", launch.program))
     }
 
     /// Normalizes a path for [`Program::files`](crate::Program::files).
@@ -263,7 +263,7 @@ impl<'h> Adapter<'h> {
             "afp/seek" => said(self.seek(parse(arguments)?)),
             "afp/world" => said(self.world(parse(arguments)?)),
             "afp/subscribe" => said(self.subscribe(parse(arguments)?)),
-            other => Err(Refusal(format!("this release does not know the request '{other}'"))),
+            other => Err(Refusal(format!("unknown request '{other}'"))),
         }
     }
 
@@ -273,9 +273,9 @@ impl<'h> Adapter<'h> {
         let is_first = ["initialize", "launch", "attach", "disconnect"].contains(&command);
         match &self.guard {
             _ if takes_part || is_first => Ok(()),
-            Some(_) => Err("'launch' or 'attach' comes first, with the token".into()),
+            Some(_) => Err("send 'launch' or 'attach' first, with the token".into()),
             None if self.run.is_some() && command != "afp/world" => {
-                Err("'attach' comes first: it joins those who watch the run".into())
+                Err("send 'attach' first to join the run".into())
             }
             None => Ok(()),
         }
@@ -286,9 +286,7 @@ impl<'h> Adapter<'h> {
     }
 
     fn run(&mut self) -> Answer<&mut Run<'h>> {
-        self.run
-            .as_mut()
-            .ok_or_else(|| Refusal("nothing runs yet: 'launch' comes first".to_owned()))
+        self.run.as_mut().ok_or_else(|| Refusal("nothing runs yet: send 'launch' first".to_owned()))
     }
 
     /// Shows a text in the client's console.

@@ -66,9 +66,8 @@ pub(crate) enum Kind {
 /// The consequences of an event.
 #[derive(Debug, Default)]
 pub(crate) struct Hits {
-    /// The breakpoints that stop the run.
     pub stop: Vec<(u64, Kind)>,
-    /// Log texts with values in place of formulas.
+    /// Log messages with values instead of formulas.
     pub logs: Vec<String>,
     /// A fault that a filter asks for.
     pub exception: Option<&'static str>,

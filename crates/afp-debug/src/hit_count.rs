@@ -9,7 +9,6 @@ pub(crate) struct HitCount {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Compare {
-    /// That hit and later hits.
     From,
     /// Later hits.
     After,
@@ -18,7 +17,7 @@ enum Compare {
     /// Up to that hit.
     To,
     Only,
-    /// Every so many hits.
+    /// Every n-th hit.
     Every,
 }
 
@@ -87,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hit_count_means_what_it_says() {
+    fn hit_counts_have_their_meaning() {
         for (text, wanted) in [
             ("", vec![1, 2, 3, 4, 5, 6]),
             (" 3 ", vec![3, 4, 5, 6]),

@@ -16,7 +16,7 @@ use crate::target::{Advance, Happened, Position, Target};
 const KEYFRAMES: usize = 1024;
 
 /// The error for a change of a recorded run.
-pub(crate) const READ_ONLY: &str = "a log shows what was: launch its plan to change something";
+pub(crate) const READ_ONLY: &str = "a log cannot be changed: launch its plan instead";
 
 /// The last camera picture at a time: width, height, and a byte for each of red, green and blue.
 type Pictures = Box<dyn Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send>;
@@ -58,7 +58,7 @@ impl LogTarget {
         if let Some(stranger) = events.iter().find(|event| !known(event)) {
             let name = &stranger.component.path;
             return Err(format!(
-                "the log tells of '{name}', which its plan no longer has: the toolboxes have changed since"
+                "the log has '{name}', but its plan no longer does: the toolboxes have changed since"
             ));
         }
         events.sort_by_key(|event| event.at);
@@ -144,7 +144,7 @@ impl LogTarget {
         }
     }
 
-    /// The instant of the last of so many moments.
+    /// The instant of the last of this number of moments.
     fn at(&self, passed: usize) -> Instant {
         let last = passed.checked_sub(1).and_then(|last| self.moments.get(last));
         last.and_then(|end| self.events.get(end - 1)).map_or(Instant::ZERO, |event| event.at)

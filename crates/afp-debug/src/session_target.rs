@@ -358,7 +358,7 @@ fn cannot_start(why: StartError, program: &Program) -> String {
                 "the 'in' entry '{name}' has neither a value nor a default: give it one with 'set'"
             )
         }
-        _ => "the plan runs already".to_owned(),
+        _ => "the plan already runs".to_owned(),
     }
 }
 

@@ -87,7 +87,7 @@ pub trait Target {
         None
     }
 
-    /// The figures of the run so far; empty if unknown.
+    /// The results of the run so far; empty if unknown.
     fn figures(&self) -> Figures {
         Figures::default()
     }
@@ -166,7 +166,7 @@ pub enum Advance {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Position {
-    /// After so many scheduler steps.
+    /// After this number of scheduler steps.
     Step(u64),
     /// After all activity up to an instant.
     At(Instant),

@@ -58,7 +58,7 @@ impl Watched {
             let declared = program.graph_entry(number)?;
             constant(state.entry(number)?, &declared.ty)
         };
-        self.watch.value(&entry).map_err(|why| format!("'{}' cannot be computed: {why}", self.text))
+        self.watch.value(&entry).map_err(|why| format!("cannot compute '{}': {why}", self.text))
     }
 
     /// Whether it is true; an unset value counts as false.

@@ -95,7 +95,7 @@ fn plans() -> [(String, &'static str, u64); 4] {
 }
 
 #[test]
-fn a_log_shows_what_its_run_showed() {
+fn a_log_shows_the_same_as_its_run() {
     for (text, name, seconds) in plans() {
         let log = recorded(&text, name, seconds, None);
         let mut run = Clients::new(Box::new(Texted(text.clone())));
@@ -137,7 +137,7 @@ fn a_log_can_be_searched_but_not_changed() {
     past.say(r#"initialize {"adapterID":"afp"}"#);
     past.say(r#"launch {"log":"plan.afp","until":3}"#);
     assert!(
-        past.told.contains("leave 'world', 'start', 'seed', 'set' and 'until' out"),
+        past.told.contains("leave out 'world', 'start', 'seed', 'set' and 'until'"),
         "{}",
         past.told
     );
@@ -263,7 +263,7 @@ fn a_log_of_another_plan_is_refused() {
     let other = plans()[1].0.clone();
     let mut past = Clients::new(Box::new(Recorded(other, log)));
     past.say(r#"launch {"log":"plan.afp:Outer"}"#);
-    assert!(past.told.contains("which its plan no longer has"), "{}", past.told);
+    assert!(past.told.contains("but its plan no longer does"), "{}", past.told);
 }
 
 #[test]
@@ -273,7 +273,7 @@ fn a_log_cannot_be_changed() {
     for fresh in [r#""seed":3"#, r#""until":3"#, r#""set":{"walldist":"3 cm"}"#] {
         past.told.clear();
         past.say(&format!(r#"launch {{"log":"plan.afp",{fresh}}}"#));
-        assert!(past.told.contains("a log shows what was: leave"), "{}", past.told);
+        assert!(past.told.contains("a log cannot be changed: leave"), "{}", past.told);
     }
     past.say(r#"launch {"log":"plan.afp","stopOnEntry":true}"#);
     past.say("configurationDone");
@@ -287,7 +287,7 @@ fn a_log_cannot_be_changed() {
     ] {
         past.told.clear();
         past.say(change);
-        let why = "a log shows what was: launch its plan to change something";
+        let why = "a log cannot be changed: launch its plan instead";
         assert!(past.told.contains(why), "{change}: {}", past.told);
     }
 }

@@ -81,7 +81,7 @@ fn refusal(message: impl Into<String>, help: impl Into<String>) -> Refusal {
 
 impl From<StoreError> for Refusal {
     fn from(why: StoreError) -> Self {
-        let help = "see the disk of the robot: 'df' shows its space, 'dmesg' its errors";
+        let help = "check the robot's disk: 'df' shows its space, 'dmesg' its errors";
         refusal(format!("the robot cannot store the release: {why}"), help)
     }
 }
@@ -228,7 +228,7 @@ impl<'a> Agent<'a> {
         match file.try_lock() {
             Ok(()) => Ok(file),
             Err(TryLockError::WouldBlock) => {
-                let message = "another deploy to this robot is going on";
+                let message = "another deploy to this robot is running";
                 Err(refusal(message, "try again when it has finished"))
             }
             Err(TryLockError::Error(why)) => Err(failed(why.to_string())),

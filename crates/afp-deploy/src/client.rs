@@ -28,7 +28,7 @@ pub enum ClientError {
     /// The connection ended, or the agent does not follow the protocol.
     #[error("the connection to the robot failed: {0}")]
     Wire(#[from] WireError),
-    #[error("the agent gave an answer to another request")]
+    #[error("the agent answered a different request")]
     Unexpected,
     #[error("{message}")]
     Refused { message: String, help: String },
@@ -43,7 +43,7 @@ impl From<io::Error> for ClientError {
 /// An event of a deploy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// So many files, with so many bytes, differ.
+    /// The number of changed files, and of their bytes.
     Differs { files: usize, bytes: u64 },
     /// A step on the robot begins.
     Step(Step),

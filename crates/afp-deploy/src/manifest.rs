@@ -70,7 +70,7 @@ pub enum Invalid {
     Twice(String),
     #[error("'{0}' is not a SHA-256")]
     Hash(String),
-    #[error("a text is empty, longer than {LONGEST_TEXT} bytes, or has control characters")]
+    #[error("a string is empty, longer than {LONGEST_TEXT} bytes, or has control characters")]
     Text,
     #[error("more than {MOST_FILES} files or values")]
     Files,

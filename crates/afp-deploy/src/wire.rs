@@ -1,6 +1,6 @@
 //! The messages between the machine that deploys and the robot.
 //!
-//! Both directions are packets: a letter, a length of four bytes (little-endian), and so many bytes.
+//! Both directions are packets: a letter, a length of four bytes (little-endian), and the content.
 //! `m` is a message in JSON and `c` is a part of a file's content. The agent begins with a
 //! [`GREETING`], so that other output, such as that of a login shell, is noticed.
 
@@ -60,7 +60,7 @@ pub enum Answer {
     Status(Status),
     /// The names and lengths of logs.
     Logs(Vec<(String, u64)>),
-    /// So many bytes of content follow.
+    /// The number of bytes of the content that follows.
     Content {
         size: u64,
     },

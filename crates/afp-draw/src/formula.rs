@@ -60,7 +60,6 @@ fn ports<'t>(template: &'t Template) -> impl Fn(EntryId) -> &'t str {
     move |port| template.inputs.get(port.index()).map_or("", |port| &port.name)
 }
 
-/// The names of the entries that a formula reads.
 type Names<'f, 'n> = &'f dyn Fn(EntryId) -> &'n str;
 
 /// A value as text, with a readable unit.

@@ -6,7 +6,7 @@
 //! ordinates ([`rows`]).
 //!
 //! Edges leave boxes below (states) or on the right (events) and arrive from above; edges back up
-//! run beside the boxes. The [`router`](super::router) finds the routes of edges, and boxes give
+//! run next to the boxes. The [`router`](super::router) finds the routes of edges, and boxes give
 //! way if a route has too little space. The layout is deterministic. If some boxes have given
 //! places ([`placed`]), the others go around them.
 
@@ -76,7 +76,6 @@ pub(super) struct LaidOut {
     pub(super) corners: Vec<Point>,
     /// The corners of each link's polyline, start and tip included.
     pub(super) routes: Vec<Vec<Point>>,
-    /// The bounds of the whole.
     pub(super) bounds: Rect,
 }
 
@@ -208,7 +207,7 @@ mod tests {
 
     /// Each layer once took as long as all items, and each line as long as all boxes.
     #[test]
-    fn the_time_of_layers_is_linear() {
+    fn layers_take_linear_time() {
         // 32 times as many layers once took over 200 times as long. The machine may be busy during
         // one of the two layouts.
         let times = || (chain(150, 149), chain(4800, 4799));

@@ -12,8 +12,8 @@ const SAMPLE: (f64, f64) = (44.0, 20.0);
 const GAP: (f64, f64) = (8.0, 28.0);
 
 const LINES: [(Use, &str, &str); 3] = [
-    (Use::Whole, "×3", "used, and so was every way out"),
-    (Use::Partly, "×3", "used, but some way out never was"),
+    (Use::Whole, "×3", "used, with all of its exits"),
+    (Use::Partly, "×3", "used, but not all of its exits"),
     (Use::Never, "never", "never used"),
 ];
 

@@ -15,7 +15,6 @@ pub(crate) fn direction(from: Point, to: Point) -> Point {
     if dx.abs() > dy.abs() { (dx.signum(), 0.0) } else { (0.0, dy.signum()) }
 }
 
-/// A polyline, shortened at its end.
 pub(crate) fn shortened(points: &[Point], mut length: f64) -> Vec<Point> {
     let mut points = points.to_vec();
     while let [.., before, end] = points[..] {

@@ -58,13 +58,11 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 pub struct PlanScene {
     pub plan: Item,
-    /// The file of the plan.
     pub file: u16,
     pub name: String,
     pub doc: String,
     /// The place of its origin in the picture with all plans.
     pub offset: Point,
-    /// The bounds of the plan.
     pub bounds: Rect,
     /// The start tag, then the elements in source order.
     pub elements: Vec<ElementScene>,
@@ -305,7 +303,6 @@ fn nodes(cards: &[Card]) -> Vec<Node> {
     cards.iter().map(node).collect()
 }
 
-/// The exits to elements, each with its card.
 fn exits<'c>(cards: &'c [Card]) -> Vec<(usize, &'c Leaving)> {
     let of = |(from, card): (usize, &'c Card)| card.exits.iter().map(move |exit| (from, exit));
     cards.iter().enumerate().flat_map(of).collect()

@@ -16,9 +16,7 @@ pub struct Rect {
     pub x: f64,
     /// Upper border.
     pub y: f64,
-    /// The width.
     pub width: f64,
-    /// The height.
     pub height: f64,
 }
 

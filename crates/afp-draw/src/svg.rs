@@ -23,7 +23,6 @@ pub fn svg(outline: &Outline, options: &Options) -> String {
     picture(&Scene::new(outline, options, None), options.theme)
 }
 
-/// A scene as a picture.
 pub fn picture(scene: &Scene, theme: Theme) -> String {
     let (width, height) = (scene.size.0.ceil(), scene.size.1.ceil());
     let main = scene.plans.first();

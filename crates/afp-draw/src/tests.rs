@@ -142,13 +142,12 @@ fn usage_is_shown_by_classes_and_numbers() {
     for class in ["actor unused", "partly", "flow state unused", "error unused", "missed unused"] {
         assert!(picture.contains(class), "no {class}");
     }
-    for text in ["· never", "×1", "used, but some way out never was", "prefers-color-scheme:dark"]
-    {
+    for text in ["· never", "×1", "used, but not all of its exits", "prefers-color-scheme:dark"] {
         assert!(picture.contains(text), "no {text}");
     }
     for plan in Drawn::new(&compiled.outline, &options, None).plans {
         let edges = plan.edges.iter().map(|edge| edge.class.usage != Some(Use::Never));
-        assert!(edges.is_sorted(), "what was used lies on top");
+        assert!(edges.is_sorted(), "used parts are on top");
     }
     let plain = svg(&compiled.outline, &Options::default());
     assert!(!plain.contains("unused") && !plain.contains('×'), "a plain drawing counts nothing");
@@ -200,7 +199,7 @@ fn boxes_are_apart(sketch: &Sketch, (width, height): (f64, f64)) {
             // The spine of supervisors is inside their element.
             let hangs = one.class.name == "spine" || two.class.name == "spine";
             let apart = nested || hangs || attached || !overlap(&one.rect, &two.rect);
-            assert!(apart, "{one:?} lies on {two:?}");
+            assert!(apart, "{one:?} covers {two:?}");
         }
     }
 }
@@ -208,7 +207,7 @@ fn boxes_are_apart(sketch: &Sketch, (width, height): (f64, f64)) {
 fn labels_are_apart(sketch: &Sketch) {
     for (place, one) in sketch.labels.iter().enumerate() {
         for two in &sketch.labels[..place] {
-            assert!(!overlap(&one.rect(), &two.rect()), "{one:?} lies on {two:?}");
+            assert!(!overlap(&one.rect(), &two.rect()), "{one:?} covers {two:?}");
         }
         // A label that touches a box is completely inside it.
         let rect = one.rect();

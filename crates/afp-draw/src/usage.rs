@@ -64,7 +64,6 @@ pub(super) struct Class {
 }
 
 impl Use {
-    /// The use of a part with this count.
     pub(super) fn of(count: u64) -> Use {
         if count > 0 { Use::Whole } else { Use::Never }
     }

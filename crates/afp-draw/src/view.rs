@@ -47,7 +47,6 @@ pub(super) struct Input<'a> {
 pub(super) struct Output<'a> {
     pub(super) port: &'a str,
     pub(super) nth: u16,
-    /// The entry for its value.
     pub(super) entry: &'a str,
     pub(super) severity: Option<Severity>,
 }
@@ -284,7 +283,6 @@ impl<'a> View<'a> {
         usage.elements.get(self.plan.elements.iter().position(is_it)?)
     }
 
-    /// The number of writes of an entry.
     pub(super) fn writes(&self, entry: usize) -> Option<u64> {
         self.usage?.entries.get(entry).copied()
     }

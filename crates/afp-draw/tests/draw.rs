@@ -87,7 +87,7 @@ fn json_has_entries_timing_ports_and_sub_plans() {
 }
 
 #[test]
-fn dot_names_every_element_and_every_edge_except_ignored_events() {
+fn dot_has_every_element_and_every_edge_except_ignored_events() {
     let text = dot(&compiled(EVERY_PART).outline, &Options::default());
     for expected in [
         "\"Square!start\" -> \"Square:drive\" [penwidth=2];",

@@ -40,7 +40,7 @@ fn is_valid(text: &str) {
     for element in elements {
         fits_the_grammar(&element);
         for reference in ["target", "initial"].iter().filter_map(|name| element.attribute(*name)) {
-            assert!(known.contains(reference), "nothing is called '{reference}'");
+            assert!(known.contains(reference), "unknown reference '{reference}'");
         }
         match element.tag_name().name() {
             "transition" => is_valid_transition(&element, &known),
@@ -147,7 +147,7 @@ fn states_of_declared_computations_have_their_conditions_in_comments() {
 fn the_head_lists_the_omitted_parts() {
     let text = chart(WALL_FOLLOWING, true);
     for words in [
-        "order in which supervisors are asked",
+        "polling order of supervisors",
         "periods, deadlines",
         "entries and values",
         "declared computation",

@@ -38,7 +38,7 @@ pub enum Command {
 pub struct Setup {
     /// The distance between the two wheels, in metres.
     pub track: f32,
-    /// The ways of the left and the right rim for one count of their encoders, in metres.
+    /// The distances of the left and the right rim for one count of their encoders, in metres.
     pub metres_per_tick: [f32; 2],
     /// The top speed of a rim: nine tenths of its speed at full power, in m/s.
     pub fastest: f32,

@@ -9,13 +9,13 @@ const WINDOW: usize = 8;
 pub(crate) struct Odometry {
     /// Position in metres and heading in radians.
     pose: [f64; 3],
-    /// The ways of the last steps, left and right, in metres.
+    /// The distances of the last steps, left and right, in metres.
     ways: [[f32; 2]; WINDOW],
     next: usize,
 }
 
 impl Odometry {
-    /// Adds the ways of the left and the right rim in one step.
+    /// Adds the distances of the left and the right rim in one step.
     pub(crate) fn add(&mut self, ways: [f32; 2], setup: &Setup) {
         let [left, right] = ways.map(f64::from);
         let (driven, turned) = ((left + right) / 2.0, (right - left) / f64::from(setup.track));

@@ -22,7 +22,7 @@ pub(crate) struct Wheel {
 impl Wheel {
     /// Takes the encoder's count; returns the rim's way since the last one, in metres.
     pub(crate) fn count(&mut self, count: i32, metres_per_tick: f32) -> f32 {
-        // A counter that overflows goes on.
+        // A counter that overflows continues.
         let ticks = self.count.map_or(0, |before| count.wrapping_sub(before));
         self.count = Some(count);
         let way = ticks as f32 * metres_per_tick;

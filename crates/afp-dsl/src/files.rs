@@ -1,7 +1,7 @@
-//! The plan files that plan files use: the source of their texts, and the meaning of their paths.
+//! The plan files that plan files use: their sources, and the meaning of their paths.
 //!
-//! The compiler does no I/O. Its caller provides [`Files`]: the [`Disk`], unsaved texts of an
-//! editor, or texts embedded in a program.
+//! The compiler does no I/O. Its caller provides [`Files`]: the [`Disk`], unsaved files of an
+//! editor, or files embedded in a program.
 
 mod uri;
 
@@ -65,18 +65,17 @@ impl Files for Disk {
     }
 }
 
-/// Texts by path; empty if a plan file uses no others.
+/// File contents by path; empty if a plan file uses no others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Texts(BTreeMap<String, String>);
 
 impl Texts {
-    /// Adds or replaces a text.
     pub fn add(&mut self, path: &str, text: impl Into<String>) {
         self.0.insert(normalised(path), text.into());
     }
 
-    /// Splits a text with further files, each after a line `// file: PATH`, into the first file and
-    /// the others.
+    /// Splits a string with several files, each after a line `// file: PATH`, into the first file
+    /// and the others.
     #[doc(hidden)]
     pub fn in_one(text: &str) -> (String, Texts) {
         const HEAD: &str = "// file: ";
@@ -188,13 +187,10 @@ mod tests {
         std::fs::write(folder.join("text.afp"), "plan \u{e4}").unwrap();
         let disk = Disk(folder.clone());
         assert_eq!(disk.read("text.afp").unwrap(), "plan \u{e4}");
-        assert_eq!(disk.read("bytes.afp").unwrap_err(), "it is no text in UTF-8");
+        assert_eq!(disk.read("bytes.afp").unwrap_err(), "it is not UTF-8 text");
         assert_eq!(disk.read("none.afp").unwrap_err(), "there is no such file");
         if cfg!(target_os = "linux") {
-            assert_eq!(
-                disk.read("/dev/zero").unwrap_err(),
-                "it is a pipe or a device, and no file"
-            );
+            assert_eq!(disk.read("/dev/zero").unwrap_err(), "it is a pipe or a device, not a file");
         }
         std::fs::remove_dir_all(folder).unwrap();
     }
@@ -215,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_begins_in_the_folder_of_the_file_that_names_it() {
+    fn a_path_is_relative_to_the_folder_of_its_file() {
         assert_eq!(joined("plans/main.afp", "lib/a.afp"), "plans/lib/a.afp");
         assert_eq!(joined("plans/main.afp", "../a.afp"), "a.afp");
         assert_eq!(joined("main.afp", "../a.afp"), "../a.afp");
@@ -257,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn files_in_one_text_come_apart() {
+    fn files_in_one_string_are_separated() {
         let (first, texts) = Texts::in_one("one\n// file: x/b.afp\ntwo\nthree\n// file: c.afp\n");
         assert_eq!(first, "one\n");
         assert_eq!(texts.read("x/b.afp").unwrap(), "two\nthree\n");

@@ -249,7 +249,7 @@ impl<'a> Gathering<'a> {
                 span,
                 message!("cannot read '{}': {}", path, Words(reason)),
             )
-            .help("write the path of a plan file, seen from the folder of this file"),
+            .help("write the path of a plan file, relative to this file's folder"),
             Unusable::Toolbox(name) => {
                 let message =
                     message!("'{}' is the toolbox '{}', which is used by its name", path, name);
@@ -272,13 +272,12 @@ fn path_error(path: &str, span: Span) -> Option<Diagnostic> {
         return Some(error.help("write the path of a plan file, such as \"avoid.afp\""));
     }
     if path.starts_with(['/', '\\']) || path.get(1..2) == Some(":") {
-        let help =
-            "write the path from the folder of this file, so that it holds on other computers too";
+        let help = "write the path relative to this file's folder";
         return Some(refused(message!("'{}' is an absolute path", path)).help(help));
     }
     if path.contains('\\') {
         let right = quoted(&path.replace('\\', "/"));
-        let error = refused("the parts of a path are separated by '/'".into());
+        let error = refused("separate the parts of a path by '/'".into());
         return Some(error.help(message!("write {}", Words(&right))).replace(right));
     }
     let name = path.rsplit('/').next().unwrap_or(path);

@@ -60,7 +60,7 @@ pub struct Plan {
     /// Number of global supervisors in [`Plan::supervisors`].
     pub globals: u16,
     pub start: ElementId,
-    /// Texts of `fail`, each once.
+    /// Reasons of `fail`, each once.
     pub reasons: Vec<String>,
     /// Whether an event or `DeadlineMissed` edge leads to `terminate`, so that the plan can end as
     /// `Interrupted`.
@@ -154,7 +154,6 @@ pub struct Supervisor {
     /// A formula for each input port of the template.
     pub inputs: Vec<Formula>,
     pub outputs: Vec<Output>,
-    /// A target for each event of the template.
     pub events: Vec<Target>,
     /// Target of `DeadlineMissed`.
     pub on_miss: Option<Target>,

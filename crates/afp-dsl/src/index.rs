@@ -2,7 +2,7 @@
 //! likely meanings.
 //!
 //! The check records the meaning of a name when it resolves the name; this module resolves nothing.
-//! So the index covers broken texts as far as the check does. A name without a meaning is
+//! So the index covers invalid files as far as the check does. A name without a meaning is
 //! [`Meaning::Unknown`]; a name in unreadable text is [`Meaning::Unread`].
 //!
 //! The index covers plan files and the toolboxes that the compilation could use. Places are spans
@@ -43,7 +43,7 @@ pub struct Index {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DefinitionId(pub u32);
 
-/// A name in a text.
+/// A name in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
     /// Its place. The path of a used file includes the quotes.
@@ -85,7 +85,6 @@ pub struct Candidates(u32);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
     pub kind: DefinitionKind,
-    /// Its own name.
     pub name: Span,
     /// Its span, without surrounding comments.
     pub span: Span,
@@ -128,7 +127,6 @@ pub enum DefinitionKind {
     /// A signal of a device.
     Signal,
     Enum,
-    /// A value of an enum.
     Value,
     Table,
     /// A column of a table, an output of the computations that read it.
@@ -179,7 +177,7 @@ pub enum Word {
     Amount,
     /// A part of a signal, such as `x` of a pose.
     Field,
-    /// Every actor, behind `idle`.
+    /// Every actor, after `idle`.
     All,
     /// The supervisor that reports the second of two exclusive events.
     Other,
@@ -227,7 +225,6 @@ impl Index {
         (name.span.file == file && offset <= name.span.end).then_some(name)
     }
 
-    /// The name with exactly this span.
     pub fn name(&self, span: Span) -> Option<Name> {
         let index = self.names.binary_search_by_key(&span, |name| name.span).ok()?;
         Some(self.names[index])

@@ -113,7 +113,6 @@ pub struct Enum {
     pub note: String,
     /// Its span, without surrounding comments.
     pub span: Span,
-    /// The names of its values.
     pub variants: Vec<Name>,
     /// Its diagnostics.
     pub findings: Findings,
@@ -141,7 +140,6 @@ pub struct Column {
     pub name: Name,
     /// Its `///` lines.
     pub doc: String,
-    /// Its span.
     pub span: Span,
     /// Its type, if known.
     pub ty: Option<Type>,
@@ -190,7 +188,6 @@ pub struct Plan {
 #[derive(Clone, Debug)]
 pub struct Start {
     pub span: Span,
-    /// Its target.
     pub target: Option<Target>,
     /// Its diagnostics.
     pub findings: Findings,

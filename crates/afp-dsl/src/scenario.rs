@@ -26,7 +26,6 @@ pub struct Scenario {
     pub span: Span,
     /// Its plan as the main plan.
     pub graph: Arc<Graph>,
-    /// The file of the plan.
     pub plan_file: String,
     /// The file of the world, as written; `None` for the plan's world.
     pub world: Option<String>,
@@ -106,7 +105,6 @@ pub struct Moment {
     pub span: Span,
 }
 
-/// A moment by its position in its scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MomentId(pub u16);
 

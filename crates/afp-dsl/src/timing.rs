@@ -73,10 +73,8 @@ pub struct StepParts {
     pub entered: u64,
 }
 
-/// Timing of one supervisor.
 #[derive(Clone, Debug)]
 pub struct SupervisorTiming {
-    /// Its plan.
     pub plan: String,
     /// Its path in that plan, such as `searchFirstWall.touch`.
     pub path: String,

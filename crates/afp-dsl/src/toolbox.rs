@@ -47,7 +47,6 @@ impl Toolbox {
         !self.name.is_empty()
     }
 
-    /// Whether it is built in.
     pub(crate) fn is_built_in(&self) -> bool {
         matches!(&*self.rust_path, "afp_std" | "afp_carbot")
     }
@@ -125,7 +124,6 @@ pub struct StatesOf {
     pub home: Option<Arc<Enum>>,
 }
 
-/// The table of a template that reads one.
 #[derive(Clone, Debug)]
 pub struct ReadsTable {
     /// The index of the input port.

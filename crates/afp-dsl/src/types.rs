@@ -157,7 +157,6 @@ pub(crate) const PLAIN: &[&str] = &["bool", "int", "float", "string"];
 /// Names of types that only ports of toolboxes have.
 pub(crate) const GENERIC: &[&str] = &["any", "number", "discrete"];
 
-/// Whether a built-in type has that name.
 pub fn is_built_in(name: &str) -> bool {
     PLAIN.contains(&name) || GENERIC.contains(&name) || Dimension::named(name).is_some()
 }

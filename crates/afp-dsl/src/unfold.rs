@@ -19,13 +19,11 @@ pub use afp_types::ComponentKind;
 use ports::Ports;
 pub use texts::{PlanTexts, TextPlace};
 
-/// Names of a component for a trace.
 #[derive(Clone, Debug)]
 pub struct ComponentNames {
     /// Dotted path from the outermost plan; the plan's own name for the outermost.
     pub path: String,
     pub kind: ComponentKind,
-    /// Name of its template or plan.
     pub template: String,
     /// States or events with their targets (empty if unconnected), by position.
     pub outcomes: Vec<(String, String)>,
@@ -40,7 +38,6 @@ pub struct ComponentNames {
     pub states: Vec<Span>,
 }
 
-/// Names of a port for a trace.
 #[derive(Clone, Debug)]
 pub struct PortNames {
     pub name: String,
@@ -63,7 +60,6 @@ pub struct Reaction {
     pub event: Option<u16>,
 }
 
-/// Names of an entry for a trace.
 #[derive(Clone, Debug)]
 pub struct EntryNames {
     /// Dotted path from the outermost plan.
@@ -108,7 +104,6 @@ pub struct Place {
     pub special: Option<Goal>,
     pub span: Span,
     pub edges: EdgeSpans,
-    /// The types of its inputs, by port.
     pub inputs: Vec<Type>,
     /// Its edges that override global ones, with their source places.
     pub reactions: Vec<(Reaction, Goal, Span)>,

@@ -1,4 +1,4 @@
-//! Errors in texts, shown as compilers show them: the message, the place, the line and a mark.
+//! Errors in files, shown like compiler errors: the message, the place, the line and a mark.
 //!
 //! Plans, worlds and project files have different parsers. This crate draws all their errors, and
 //! writes them for tools in one form. It is independent of the texts' meaning.
@@ -48,7 +48,6 @@ pub struct Report<'a> {
     pub severity: Severity,
     /// The code for `afpc explain`; may be empty.
     pub code: &'a str,
-    /// The message.
     pub message: &'a str,
     /// The help; may be empty. It is shown at the first mark instead of its label.
     pub help: &'a str,
@@ -203,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_place_the_file_is_named() {
+    fn an_error_without_a_place_names_its_file() {
         let shown = report(vec![mark("x", None)]);
         assert_eq!(shown.render(false), "error: it is wrong\n--> a.toml");
         let shown = Report { help: "write 'b'", ..shown };

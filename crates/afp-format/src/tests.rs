@@ -74,7 +74,7 @@ fn bodies_of_states_stay_on_their_line_or_are_broken() {
 }
 
 #[test]
-fn an_edge_in_place_of_braces_stays_on_the_line_of_its_element() {
+fn an_edge_instead_of_braces_stays_on_the_line_of_its_element() {
     becomes(
         "plan P{start a actor a:Wait(duration=1 s)->b// soon
   subplan b:Q(x=1,
@@ -127,7 +127,7 @@ plan P {
 }
 
 #[test]
-fn devices_keep_the_form_of_their_author() {
+fn devices_keep_their_written_form() {
     becomes(
         "toolbox t /// Help.\ndevice wheels{fault blocked fault slip( share:float=0.5 from 0 to 1 )}\
          robot { }sensor bumper{press left,right\nsignal l:bool signal right:bool\n// why\nstop a}\
@@ -153,7 +153,7 @@ device x {}
 }
 
 #[test]
-fn reactions_keep_the_form_of_their_author() {
+fn reactions_keep_their_written_form() {
     becomes(
         "plan P { start a supervise k:K{E->b} actor a:A{on k{E->terminate}F->b}\
          actor b:B{on k{E,G->ignore\nH->a}}}",

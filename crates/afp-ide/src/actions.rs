@@ -114,7 +114,7 @@ fn extract(view: &View, plan: &Plan, place: Span) -> Option<Action> {
     let edits = made(view, &[change])?;
     let names = elements.iter().map(|element| element.item.name());
     let names = afp_syntax::diagnostics::words::list(names, "and");
-    let title = format!("make a plan of {names}");
+    let title = format!("extract {names} into a plan");
     Some(Action { title, kind: ActionKind::Extract, mends: None, edits })
 }
 
@@ -122,7 +122,7 @@ fn inline(view: &View, component: &Component) -> Option<Action> {
     let name = component.item.name();
     let plan = component.item.plan_name().to_owned();
     let edits = made(view, &[Change::Inline { plan, element: name.to_owned() }])?;
-    let title = format!("put the elements of its plan in place of '{name}'");
+    let title = format!("replace '{name}' by the elements of its plan");
     Some(Action { title, kind: ActionKind::Inline, mends: None, edits })
 }
 

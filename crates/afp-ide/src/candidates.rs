@@ -96,9 +96,7 @@ pub fn of_port(view: &View, item: &Item, port: &str) -> Option<PortCandidates> {
     let entries = plan.entries.iter().filter_map(|entry| {
         let text = entry.name.as_ref()?.text.clone();
         let refused = match entry.kind {
-            EntryKind::In | EntryKind::Const => {
-                Some(format!("'{text}' cannot be changed by the plan"))
-            }
+            EntryKind::In | EntryKind::Const => Some(format!("the plan cannot change '{text}'")),
             EntryKind::Out | EntryKind::Var => differs(entry.ty.as_ref(), output.ty.as_ref()),
         };
         Some(Candidate { text, refused })

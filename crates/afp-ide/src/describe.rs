@@ -125,10 +125,10 @@ pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
         Word::Error => "A fault: the element cannot continue.",
         Word::DeadlineMissed => "The supervisor was not polled in time.",
         Word::Terminate => "The plan ends.",
-        Word::Fail => "The plan ends in 'Error', for the reason behind it.",
+        Word::Fail => "The plan ends in 'Error', for the reason after it.",
         Word::Ignore => "The event is not taken.",
         Word::Resume => "The active element continues and reads new values with its 'live' inputs.",
-        Word::Suspend => "The active element is set aside, and the handler starts.",
+        Word::Suspend => "The active element is suspended, and the handler starts.",
         Word::Return => "The element that was suspended continues.",
         Word::Type => "A type of the language.",
         Word::Truth => "A truth value.",
@@ -136,11 +136,11 @@ pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
             "A part of the robot that the template controls; only one element at a time may."
         }
         Word::Fault => "A fault that every sensor has.",
-        Word::Amount => "How much there is of the fault.",
+        Word::Amount => "The amount of the fault.",
         Word::Field => "A part of the signal.",
         Word::All => "Every actor.",
         Word::Other => "The supervisor that reports the second event.",
-        #[allow(unreachable_patterns, reason = "the language grows")]
+        #[allow(unreachable_patterns, reason = "reserved for later versions of the language")]
         _ => return None,
     })
 }

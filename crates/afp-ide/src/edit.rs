@@ -298,7 +298,7 @@ fn begin(files: &[Source], toolboxes: Rc<Toolboxes>, home: usize) -> Result<Work
 
 fn end(workspace: Workspace, files: &[Source], errors: usize) -> Result<Vec<TextEdit>, Refused> {
     if workspace.syntax_errors() > errors {
-        return Err(Refused::new("the edit would make the text unreadable"));
+        return Err(Refused::new("the edit would break the syntax of the file"));
     }
     let buffers = (0..=u16::MAX).zip(files).zip(workspace.buffers);
     Ok(buffers.flat_map(|((file, source), buffer)| buffer.edits(source.text.len(), file)).collect())

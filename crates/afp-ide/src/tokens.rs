@@ -39,7 +39,6 @@ macro_rules! kinds {
 
 kinds! {
     Keyword "keyword"
-    /// A comment or a help text.
     Comment "comment"
     Text "string"
     Number "number"

@@ -36,11 +36,11 @@ pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
         rest if rest.starts_with(mcap::MAGIC) => {
             doctor
                 .found
-                .push("another log follows its end; readers see only one of both".to_owned());
+                .push("another log follows its end; readers see only one of them".to_owned());
         }
         rest => {
             let count = rest.len();
-            doctor.found.push(format!("{count} bytes that are not part of it follow its end"));
+            doctor.found.push(format!("{count} extra bytes follow its end"));
         }
     }
     if lost > 0 {
@@ -76,7 +76,7 @@ impl Doctor {
     fn look(&mut self, record: Record<'_>) {
         match record {
             Record::Header(header) if header.library.is_empty() => {
-                self.found.push("its header names no library".to_owned());
+                self.found.push("its header does not name a library".to_owned());
             }
             Record::Schema { header, .. } => {
                 if header.id == 0 {

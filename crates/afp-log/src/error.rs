@@ -34,7 +34,7 @@ pub enum LogError {
         path: PathBuf,
     },
     /// The file is an MCAP file, but not the log of a run.
-    #[error("'{}' is not the log of a run of AFP", .path.display())]
+    #[error("'{}' is not the log of an AFP run", .path.display())]
     NoRun {
         /// The path.
         path: PathBuf,
@@ -46,7 +46,7 @@ pub enum LogError {
     #[error("the log failed: {}", reason(.0))]
     Mcap(#[source] mcap::McapError),
     /// The writing thread died.
-    #[error("the thread that writes the log died")]
+    #[error("the thread that writes the log has ended")]
     Writer,
 }
 
@@ -79,7 +79,7 @@ impl LogError {
                 "name a file that a run wrote: 'afpc run PLAN --log FILE.mcap'"
             }
             LogError::Compressed(_) => {
-                "'mcap decompress FILE -o OTHER.mcap', a tool of https://mcap.dev, makes one that can be read"
+                "'mcap decompress FILE -o OTHER.mcap', a tool of https://mcap.dev, makes a readable log"
             }
             LogError::Mcap(mcap::McapError::Io(_)) => "",
             LogError::Mcap(_) => "'afpc log FILE recover' saves what is intact into a new file",
@@ -87,7 +87,7 @@ impl LogError {
                 afp_output::ELSEWHERE
             }
             LogError::Create { error, .. } if is_forbidden(error) => {
-                "name another place with '--log' and '--svg', or write none: '--log none --svg none'"
+                "name other files with '--log' and '--svg', or write no files: '--log none --svg none'"
             }
             LogError::Create { .. } | LogError::Open { .. } | LogError::Writer => "",
         };

@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_larger_than_any_cameras_is_none() {
+    fn a_picture_larger_than_any_camera_is_rejected() {
         // Few kilobytes as a file.
         let black = |height: u32| {
             let rgb = vec![0; 4000 * height as usize * 3].into();

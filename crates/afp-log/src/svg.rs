@@ -143,7 +143,7 @@ pub fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     canvas.scale_bar();
     let mut legend = Legend::new(view);
     legend.head(&picture.title, &picture.subtitle);
-    // A world without a run has no figures.
+    // A world without a run has no results.
     if !picture.figures.is_empty() {
         legend.actors(actors.iter().map(|id| (names.component(*id).path, color(Some(*id)))));
         legend.events(marks::counted(marks, &kinds, names));

@@ -317,7 +317,7 @@ fn clients_without_a_token_are_rejected() {
 }
 
 #[test]
-fn clients_without_a_token_take_no_place() {
+fn clients_without_a_token_do_not_count() {
     let session = session();
     let live = live(&*session);
     let [operator, watcher] = live.addresses();
@@ -395,7 +395,7 @@ fn clients_get_the_parameters_of_their_subscriptions() {
 }
 
 #[test]
-fn a_client_that_does_not_read_loses_messages_then_the_connection_and_costs_no_time() {
+fn a_client_that_does_not_read_loses_messages_then_the_connection_without_delay() {
     let session = session();
     let live = live(&*session);
     let mut to = live.messages();

@@ -44,7 +44,7 @@ pub fn read_message(text: &str) -> Result<Message, String> {
     let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned();
     match serde_json::from_value(value) {
         Ok(Message::Notification(_)) if id.is_some() => {
-            Err(refusal(id.into(), -32600, "an id is a whole number of 32 bit, or a text"))
+            Err(refusal(id.into(), -32600, "an id must be a 32-bit integer or a string"))
         }
         Ok(message) => Ok(message),
         Err(_) => Err(refusal(
@@ -60,12 +60,14 @@ pub(crate) fn response(id: RequestId, answer: Answer) -> Response {
     let (code, message) = match answer {
         Ok(value) => return Response::new_ok(id, value),
         Err(Failure::Nothing) => return Response::new_ok(id, Value::Null),
-        Err(Failure::Unknown(method)) => (-32601, format!("there is no request '{method}'")),
+        Err(Failure::Unknown(method)) => (-32601, format!("unknown request '{method}'")),
         Err(Failure::Malformed(reason)) => {
             (-32602, format!("the parameters cannot be read: {reason}"))
         }
         Err(Failure::OutOfTurn(reason)) => (-32600, reason.to_owned()),
-        Err(Failure::NotInitialized) => (-32002, "the first request is 'initialize'".to_owned()),
+        Err(Failure::NotInitialized) => {
+            (-32002, "the first request must be 'initialize'".to_owned())
+        }
         Err(Failure::Refused(reason)) => (-32803, reason),
     };
     Response::new_err(id, code, message)

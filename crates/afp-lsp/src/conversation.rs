@@ -51,7 +51,9 @@ impl Server {
                 self.phase = Phase::ShutDown;
                 Ok(Value::Null)
             }
-            (Phase::Running, "initialize") => Err(Failure::OutOfTurn("the server runs already")),
+            (Phase::Running, "initialize") => {
+                Err(Failure::OutOfTurn("the server is already running"))
+            }
             (Phase::Running, _) => dispatch::request(self, request),
             _ => Err(Failure::OutOfTurn("the server has been shut down")),
         }
@@ -150,7 +152,6 @@ impl Server {
     }
 }
 
-/// Makes the message with a document's diagnostics.
 fn published(uri: lsp::Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) -> Message {
     let params = lsp::PublishDiagnosticsParams { uri, version, diagnostics };
     Notification::new("textDocument/publishDiagnostics".to_owned(), params).into()

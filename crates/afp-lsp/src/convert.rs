@@ -47,7 +47,6 @@ impl Workspace {
     }
 }
 
-/// Converts a text edit to the protocol's type.
 pub(crate) fn text_edit(places: &Places<'_>, edit: &TextEdit) -> gen_lsp_types::TextEdit {
     gen_lsp_types::TextEdit { range: places.range(edit.span), new_text: edit.text.clone() }
 }

@@ -21,7 +21,7 @@ pub trait Host: Send {
     /// The reason and an action.
     fn png(&self, svg: &str) -> Result<Vec<u8>, String> {
         let _ = svg;
-        Err("this server makes no pixels: take 'svg'".to_owned())
+        Err("this server cannot draw pixels: use 'svg'".to_owned())
     }
 }
 

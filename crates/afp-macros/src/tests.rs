@@ -29,7 +29,7 @@ fn every_error_of_a_toolbox_is_a_compile_error_with_its_place() {
 }
 
 #[test]
-fn the_templates_of_a_broken_toolbox_are_generated_all_the_same() {
+fn the_templates_of_a_broken_toolbox_are_still_generated() {
     let text = expand(quote!("tests/wrong/toolbox.afp"), toolbox_code).to_string();
     assert!(text.contains("pub struct Drive") && text.contains("pub mod drive"), "{text}");
 }

@@ -264,7 +264,7 @@ fn texts_are_joined_from_values_of_every_kind() {
 }
 
 #[test]
-fn a_text_that_is_not_a_quantity_is_a_fault_of_its_reader() {
+fn a_string_that_is_not_a_quantity_is_a_fault_of_its_reader() {
     let found = State::Found { place: Place(7), said: Default::default() };
     let lines = same_story(&[Some(found), None, Some(kit::lost("far", 0.5))]);
     assert_eq!(lines.last().unwrap(), "0.030000 Everything ended Error(conversion)");
@@ -278,7 +278,7 @@ fn a_number_that_is_not_finite_is_a_fault_of_its_writer() {
 }
 
 #[test]
-fn an_input_without_a_default_must_be_given() {
+fn an_input_without_a_default_needs_a_value() {
     let mut scheduler = Scheduler::new(Everything::new());
     let started =
         scheduler.start((&mut Script::default(), &mut NoTrace, &StillClock), Instant::ZERO);

@@ -1,6 +1,6 @@
 //! The flow against the true flow of rendered pictures, which is known at every place.
 //!
-//! `cargo test --release -p afp-navigation --test flow -- --nocapture` prints the figures of
+//! `cargo test --release -p afp-navigation --test flow -- --nocapture` prints the numbers of
 //! `docs/optical-flow.md`; with `--features opencv`, they include OpenCV.
 
 use afp_carbot::devices::{Camera, Navigator, Shift};
@@ -148,7 +148,7 @@ fn each_pair(
 }
 
 #[test]
-fn the_flow_is_that_of_the_rendered_pictures() {
+fn the_flow_matches_the_rendered_pictures() {
     for figures in measure().expect("every method computes") {
         let Figures { method, motion, errors, places, ways, nanos } = figures;
         let (median, p90) = (share(&errors, 0.5), share(&errors, 0.9));

@@ -96,7 +96,7 @@ impl Part {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
                 Err(error) => {
                     let message = format!(
-                        "its folder takes no new files, and neither does '{}': {error}",
+                        "its folder and '{}' take no new files: {error}",
                         std::env::temp_dir().display()
                     );
                     return Err(io::Error::new(error.kind(), message));

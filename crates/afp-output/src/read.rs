@@ -27,7 +27,7 @@ pub fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
         return Err(ErrorKind::IsADirectory.into());
     }
     if !about.is_file() {
-        return Err(Error::new(ErrorKind::InvalidInput, "it is a pipe or a device, and no file"));
+        return Err(Error::new(ErrorKind::InvalidInput, "it is a pipe or a device, not a file"));
     }
     bounded(File::open(path)?, most)
 }
@@ -59,6 +59,5 @@ fn bounded(file: File, most: u64) -> Result<Vec<u8>, Error> {
 }
 
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
-    String::from_utf8(bytes)
-        .map_err(|_| Error::new(ErrorKind::InvalidData, "it is no text in UTF-8"))
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }

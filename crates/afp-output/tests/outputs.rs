@@ -334,12 +334,12 @@ fn a_check_changes_nothing() {
     assert_eq!(kind(folder.path().join("no/folder/a.svg")), ErrorKind::NotFound);
 }
 
-/// The folder of [`a_folder_that_takes_no_files`], for its second half.
+/// The folder of [`a_folder_without_write_permission_is_reported`], for its second half.
 const FOLDER: &str = "AFP_OUTPUT_TEST_FOLDER";
 
 /// Permissions do not restrict root, so the second half runs as another user.
 #[test]
-fn a_folder_that_takes_no_files() {
+fn a_folder_without_write_permission_is_reported() {
     if let Some(folder) = std::env::var_os(FOLDER) {
         return written_by_who_may_not(Path::new(&folder));
     }
@@ -351,7 +351,9 @@ fn a_folder_that_takes_no_files() {
     }
     fs::set_permissions(folder.path(), Permissions::from_mode(0o555)).unwrap();
     let mut again = Command::new(std::env::current_exe().unwrap());
-    again.args(["--exact", "a_folder_that_takes_no_files"]).env(FOLDER, folder.path());
+    again
+        .args(["--exact", "a_folder_without_write_permission_is_reported"])
+        .env(FOLDER, folder.path());
     if fs::metadata(folder.path()).unwrap().uid() == 0 {
         let nobody = 65534;
         for path in [folder.path(), &path("old"), &path("fixed")] {

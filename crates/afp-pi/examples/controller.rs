@@ -19,7 +19,7 @@ pub struct Fake {
     time: RealTime,
     pub controller: Controller,
     pub inputs: Inputs,
-    /// The ways of the rims in metres.
+    /// The distances of the rims in metres.
     pub ways: [f32; 2],
     /// The driven way over the counted way of each wheel.
     pub factors: [f32; 2],

@@ -21,7 +21,7 @@ pub struct Fake {
     line: Vec<u8>,
     /// The speeds of the left and the right wheel, in m/s.
     pub speeds: [f64; 2],
-    /// The ways of the wheels, in metres.
+    /// The distances of the wheels, in metres.
     pub ways: [f64; 2],
     /// It stops after this time without a command.
     pub dead_man: Duration,

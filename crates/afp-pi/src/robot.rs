@@ -219,8 +219,7 @@ impl<L: Line> SerialRobot<L> {
                 Some(Heard::Message(Report { stopped: false, .. }, _)) => return Ok(()),
                 Some(Heard::Version(theirs)) => {
                     return Err(format!(
-                        "the controller speaks version {theirs} of the protocol, this program \
-                         version {VERSION}"
+                        "the controller has version {theirs} of the protocol, this program has version {VERSION}"
                     ));
                 }
                 _ if self.time.now() <= patience => {}

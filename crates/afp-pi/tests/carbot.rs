@@ -86,7 +86,7 @@ fn until(robot: &mut SerialCarbot, speed: f64, holds: impl Fn(&SerialCarbot) -> 
 }
 
 #[test]
-fn it_drives_and_feels() {
+fn it_drives_and_reads_the_bumper() {
     let controller = Running::start();
     let mut robot = controller.open().unwrap();
     until(&mut robot, 0.2, |it| it.motion().value.is_ok_and(|motion| motion.x.si() > 0.1));
@@ -107,7 +107,7 @@ fn it_drives_and_feels() {
 }
 
 #[test]
-fn a_restart_is_named_and_the_robot_is_not_driven_on() {
+fn a_restart_is_reported_and_the_robot_stays_stopped() {
     let controller = Running::start();
     let mut robot = controller.open().unwrap();
     until(&mut robot, 0.2, |it| it.motion().value.is_ok_and(|motion| motion.x.si() > 0.02));
@@ -121,7 +121,7 @@ fn a_restart_is_named_and_the_robot_is_not_driven_on() {
 }
 
 #[test]
-fn a_silent_or_mad_controller_is_stopped() {
+fn a_silent_or_faulty_controller_is_stopped() {
     for noise in [&[][..], &[0x5a; 300], &[0; 40], &[1, 2, 3, 0, 255, 255, 0]] {
         let controller = Running::start();
         let mut robot = controller.open().unwrap();
@@ -140,7 +140,7 @@ fn a_silent_or_mad_controller_is_stopped() {
 }
 
 #[test]
-fn a_controller_that_cannot_be_used_is_named() {
+fn an_unusable_controller_is_reported() {
     let controller = Running::start();
     controller.with(|fake| fake.mute = true);
     let port = controller.port.clone();
@@ -156,7 +156,7 @@ fn a_controller_that_cannot_be_used_is_named() {
         }
         opening.join().unwrap()
     });
-    assert!(opened.unwrap_err().contains("speaks version 3 of the protocol"));
+    assert!(opened.unwrap_err().contains("has version 3 of the protocol"));
     controller.with(|fake| fake.mute = false);
     let _robot = controller.open().unwrap();
     assert!(controller.open().unwrap_err().contains("has it open"));

@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_device_has_one_program_which_is_named_until_it_is_closed() {
+    fn a_device_has_one_program_until_it_is_closed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("lock");
         let open = || open_device(File::options().write(true).create(true), &path);

@@ -255,8 +255,7 @@ fn columns(rows: &[(usize, &str)]) -> Result<usize, WorldError> {
         true => Ok(columns),
         false => {
             let rows = rows.len();
-            let why =
-                format!("a floor of {columns} by {rows} cells: there may be {MOST} of them in all");
+            let why = format!("a floor has at most {MOST} cells, not {columns} by {rows}");
             Err(wrong(at, length, &why))
         }
     }

@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nobody_wakes_early() {
+    fn no_sleep_ends_early() {
         let time = RealTime::start();
         for millis in [1, 3, 2] {
             let to = Instant::ZERO + Duration::from_millis(millis);

@@ -156,7 +156,7 @@ fn run(bench: &mut Bench, limit: i64) -> (Instant, Ending, Option<i64>, Vec<Stri
 }
 
 #[test]
-fn a_run_is_the_same_however_slow_the_machine_is() {
+fn a_run_does_not_depend_on_the_speed_of_the_machine() {
     let mut quick = Bench::new(Span::ZERO, Instant::MAX);
     let mut slow = Bench::new(Span::from_millis(60), Instant::MAX);
     let (end, ending, sum, trace) = run(&mut quick, 4);

@@ -45,7 +45,7 @@ fn keep_busy(worker: &mut dyn Worker<Reverse>, jobs: u32) {
 }
 
 #[test]
-fn workers_allocate_nothing_once_they_are_made() {
+fn workers_do_not_allocate_after_their_creation() {
     let mut there = VirtualWorker::new([Reverse([0; 256]), Reverse([0; 256])]);
     let mut thread = ThreadWorker::new("reverse", [Reverse([0; 256])]).unwrap();
     let before = allocations();

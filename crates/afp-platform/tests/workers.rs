@@ -125,7 +125,7 @@ fn a_cancelled_job_is_lost_and_gives_its_slot_back() {
 }
 
 #[test]
-fn a_finished_job_that_nobody_fetches_for_a_second_gives_way() {
+fn a_finished_job_without_a_reader_is_dropped_after_a_second() {
     with_each(1, |worker| {
         let forgotten = begin(worker, 0, 1, Task::Compute).unwrap();
         let since = (100..10_000).find(|now| {
@@ -138,7 +138,7 @@ fn a_finished_job_that_nobody_fetches_for_a_second_gives_way() {
 }
 
 #[test]
-fn in_virtual_time_jobs_are_ready_when_their_times_have_passed_one_after_the_other() {
+fn in_virtual_time_jobs_are_ready_one_after_the_other() {
     let mut worker = VirtualWorker::new(squares(3));
     let a = begin(&mut worker, 10, 2, Task::Compute).unwrap();
     let b = begin(&mut worker, 20, 3, Task::Compute).unwrap();
@@ -152,7 +152,7 @@ fn in_virtual_time_jobs_are_ready_when_their_times_have_passed_one_after_the_oth
 }
 
 #[test]
-fn a_thread_is_asked_without_waiting_for_it() {
+fn polling_a_thread_does_not_wait() {
     let mut worker = ThreadWorker::new("squares", squares(1)).unwrap();
     let (open, gate) = channel();
     let mut gate = Some(gate);

@@ -19,7 +19,6 @@ pub const CALIBRATION: &str = "calibration.toml";
 pub struct ProjectFile {
     /// Its folder, to which its paths are relative.
     pub folder: PathBuf,
-    /// Whether the file exists.
     pub exists: bool,
     pub text: String,
     pub project: Project,
@@ -48,7 +47,6 @@ pub enum ProjectError {
         /// The reason.
         error: io::Error,
     },
-    /// The project file has errors.
     Wrong {
         path: PathBuf,
         text: String,

@@ -6,7 +6,6 @@ pub struct Key {
     pub name: &'static str,
     /// A description in one sentence.
     pub help: &'static str,
-    /// An example value.
     pub example: &'static str,
 }
 

@@ -5,16 +5,16 @@ use crate::profile::PROFILES;
 
 pub(crate) const PROJECT: &[Key] = &[
     key("run", "How the plans of the project run.", "[run]"),
-    key("robot", "The robot of the project, where that is not the Carbot.", "[robot]"),
-    key("toolboxes", "Toolboxes of the project, each by its name.", "[toolboxes]"),
-    key("target", "A machine that programs run on: what time means there.", "[target.NAME]"),
-    key("afp", "Where the crates of AFP are, where 'afpc' does not know.", "[afp]"),
+    key("robot", "The robot of the project, if it is not the Carbot.", "[robot]"),
+    key("toolboxes", "Toolboxes of the project, by name.", "[toolboxes]"),
+    key("target", "The timing of a machine that runs programs.", "[target.NAME]"),
+    key("afp", "The path of AFP's crates, if 'afpc' does not know it.", "[afp]"),
 ];
 
 /// `[run]`
 pub(crate) const RUN: &[Key] = &[
-    key("world", "The world file in which plans run.", "world = \"worlds/room.toml\""),
-    key("measures", "By what every run is judged, too.", "measures = [\"wall\"]"),
+    key("world", "The world file for runs.", "world = \"worlds/room.toml\""),
+    key("measures", "The measures of every run.", "measures = [\"wall\"]"),
 ];
 
 /// `[afp]`, and the origin of a crate.
@@ -29,7 +29,7 @@ pub(crate) const TOOLBOX: &[Key] = &[
     key("path", "The toolbox file, relative to this file.", "path = \"gripper.afp\""),
     key(
         "crate",
-        "The crate that implements it, where it is not the one around its file.",
+        "The crate that implements it, if the toolbox file is not inside of that crate.",
         "crate = \"my-gripper\"",
     ),
 ];
@@ -39,47 +39,43 @@ pub(crate) const ROBOT: &[Key] = &[
     key("profile", "A robot made of parts from a shop, without Rust.", "profile = \"carbot\""),
     key(
         "toolbox",
-        "The one of '[toolboxes]' that declares the robot's devices.",
+        "The toolbox of '[toolboxes]' that declares the robot's devices.",
         "toolbox = \"vacuum\"",
     ),
     key(
         "sim",
-        "The Rust type of the simulated robot, seen from the root of its crate.",
+        "The Rust type of the simulated robot, from the root of its crate.",
         "sim = \"Vacuum\"",
     ),
-    key("crate", "The crate of that type, where it is not the toolbox's.", "crate = \"vacuum\""),
+    key("crate", "The crate of that type, if it is not the toolbox's crate.", "crate = \"vacuum\""),
     key(
         "hardware",
-        "The robot itself, for '--robot hardware'.",
+        "The real robot, for '--robot hardware'.",
         "hardware = { type = \"Board\", crate = { path = \"board\" } }",
     ),
-    key(
-        "realtime",
-        "How the control loop of the robot itself runs.",
-        "realtime.stall = \"100 ms\"",
-    ),
+    key("realtime", "Settings of the real robot's control loop.", "realtime.stall = \"100 ms\""),
     key("autostart", "Whether the robot is armed when it boots.", "autostart = true"),
     key("logs", "The size of all logs on the robot together.", "logs = \"1 GB\""),
 ];
 
 /// `hardware` of `[robot]`
 pub(crate) const HARDWARE: &[Key] = &[
-    key("type", "The Rust type that drives the robot itself.", "type = \"Board\""),
+    key("type", "The Rust type that drives the real robot.", "type = \"Board\""),
     key(
         "crate",
-        "The crate of that type, where it is not the robot's.",
+        "The crate of that type, if it is not the robot's crate.",
         "crate = { path = \"board\" }",
     ),
-    key(
-        "settings",
-        "What that type is given, by names of its own.",
-        "settings = { port = \"/dev/ttyUSB0\" }",
-    ),
+    key("settings", "Settings for that type, by name.", "settings = { port = \"/dev/ttyUSB0\" }"),
 ];
 
 /// `realtime` of `[robot]`
 pub(crate) const REALTIME: &[Key] = &[
-    key("stall", "The run ends if the control loop is later than this.", "stall = \"100 ms\""),
+    key(
+        "stall",
+        "The largest permitted delay of the control loop; a longer delay ends the run.",
+        "stall = \"100 ms\"",
+    ),
     key("priority", "The FIFO priority of the control thread, from 1 to 98.", "priority = 50"),
     key("cpu", "The processor on which the control thread runs.", "cpu = 3"),
 ];
@@ -89,19 +85,19 @@ pub(crate) const CRATE: &[Key] = &[
     key("package", "The name of the package.", "package = \"my-gripper\""),
     key(
         "module",
-        "The module with 'templates', where that is not the crate's root.",
+        "The module with 'templates', if it is not the crate's root.",
         "module = \"gripper::fast\"",
     ),
 ];
 
 /// `[target.NAME]`
 pub(crate) const TARGET: &[Key] = &[
-    key("tick", "How late the target may notice that something is due.", "tick = \"1 ms\""),
-    key("capacity", "The share of the processor that plans get, at most 1.", "capacity = 0.5"),
-    key("slowdown", "How many times longer than declared everything takes.", "slowdown = 4"),
+    key("tick", "The longest delay until the target notices due work.", "tick = \"1 ms\""),
+    key("capacity", "The processor share for plans, at most 1.", "capacity = 0.5"),
+    key("slowdown", "A factor for all declared times.", "slowdown = 4"),
     key(
         "budgets",
-        "How long a poll of a template takes there.",
+        "The time of a template's poll on this machine.",
         "budgets.carbot.Forward = \"30 us\"",
     ),
 ];
@@ -161,7 +157,7 @@ mod tests {
     use crate::read;
 
     #[test]
-    fn every_key_is_read_as_its_example_has_it() {
+    fn every_key_accepts_its_example() {
         for (head, table) in [
             ("run", &["run"][..]),
             ("afp", &["afp"]),

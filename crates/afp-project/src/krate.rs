@@ -103,7 +103,7 @@ pub(crate) fn link_robot(
     let wrong = |(message, help)| Mistake { span: Some(robot.span.clone()), message, help };
     let sim = robot.sim.clone().ok_or_else(|| {
         wrong((
-            "'[robot]' has no 'sim', so that plans run only on the robot itself".to_owned(),
+            "'[robot]' has no 'sim', so plans run only on the real robot".to_owned(),
             "add '--robot hardware', or name the simulated robot: 'sim = \"Vacuum\"'".to_owned(),
         ))
     })?;
@@ -164,7 +164,7 @@ fn find(
     if let Some(package) = package.as_ref().filter(|package| **package != names.package) {
         return Err((
             format!(
-                "'{}' is that of '{}', not of '{package}'",
+                "'{}' belongs to '{}', not to '{package}'",
                 shown(&manifest).display(),
                 names.package
             ),
@@ -212,7 +212,7 @@ impl Names {
         let name = |table: &str| Some(document.get(table)?.get("name")?.as_str()?.to_owned());
         match name("package") {
             Some(package) => Ok(Names { package, library: name("lib") }),
-            None => Err((format!("'{shown}' holds no package"), help)),
+            None => Err((format!("'{shown}' has no package"), help)),
         }
     }
 

@@ -57,10 +57,8 @@ pub enum Of {
     Choice(&'static [&'static str]),
 }
 
-/// The profile of a project's robot, with its values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProfileRobot {
-    /// The name of the profile.
     pub name: &'static str,
     /// The tables in the file.
     pub sections: Vec<&'static str>,
@@ -93,7 +91,6 @@ const fn simulated(setting: Setting, in_world: &'static str) -> Setting {
     Setting { in_world: Some(in_world), ..setting }
 }
 
-/// All profiles.
 pub const PROFILES: &[Profile] = &[CARBOT, UGV];
 
 const CARBOT: Profile = Profile {
@@ -110,7 +107,7 @@ const CARBOT: Profile = Profile {
                 "/dev/ttyACM0",
             )],
         ),
-        section(key("body", "The outline, seen from above.", "[robot.body]"), true, &[], BODY),
+        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
         section(key("drive", "The wheels and their motors.", "[robot.drive]"), true, &[], DRIVE),
         section(
             key("ultrasonic", "The range sensor on its servo.", "[robot.ultrasonic]"),
@@ -156,7 +153,7 @@ const UGV: Profile = Profile {
                 "/dev/serial0",
             )],
         ),
-        section(key("body", "The outline, seen from above.", "[robot.body]"), true, &[], BODY),
+        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
         section(
             key("drive", "The wheels and their motors.", "[robot.drive]"),
             true,
@@ -263,12 +260,10 @@ const SWITCH: &[Setting] = &[usual(
 )];
 
 impl Profile {
-    /// The profile of that name.
     pub fn named(name: &str) -> Option<&'static Profile> {
         PROFILES.iter().find(|profile| profile.name == name)
     }
 
-    /// The section of that name.
     pub fn section(&self, name: &str) -> Option<&'static Section> {
         self.sections.iter().find(|section| section.key.name == name)
     }
@@ -314,7 +309,7 @@ impl Of {
     fn words(self) -> String {
         let cm = |metres: f64| metres * 100.0;
         match self {
-            Of::Text => "a text in quotes".to_owned(),
+            Of::Text => "a string in quotes".to_owned(),
             Of::Length([least, most]) => {
                 format!("a length in quotes, from {} cm to {} cm", cm(least), cm(most))
             }

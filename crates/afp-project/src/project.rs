@@ -41,7 +41,6 @@ pub enum Origin {
     Version(String),
 }
 
-/// A toolbox of the project.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Toolbox {
     /// The name after `use`.
@@ -54,7 +53,6 @@ pub struct Toolbox {
     pub span: Range<usize>,
 }
 
-/// The robot of the project.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Robot {
     /// The profile of a robot made of parts; it then has neither crate nor toolbox of its own.
@@ -66,7 +64,6 @@ pub struct Robot {
     pub sim: Option<String>,
     /// Its crate; defaults to the toolbox's, then to the crate around the project file.
     pub krate: Option<Crate>,
-    /// The hardware robot.
     pub hardware: Option<Hardware>,
     /// Settings of the control loop: names of [`Realtime`](crate::Realtime) and values, in the
     /// order of the file.

@@ -69,7 +69,7 @@ impl Reader {
                         self.unknown(&pair, "a project", keys::PROJECT);
                     }
                     Some(table) => {
-                        let message = format!("'{key}' stands above the tables");
+                        let message = format!("'{key}' is above the tables");
                         self.wrong(pair.span, message, &format!("write it below '[{table}]'"));
                     }
                 },
@@ -107,7 +107,7 @@ impl Reader {
     /// The only origin, or an error for several; none is valid if there is a default.
     fn single(&mut self, of: &Pair<'_>, mut all: Vec<Origin>, help: &str) -> Option<Origin> {
         if all.len() > 1 {
-            let message = format!("'{}' wants exactly one of 'path', 'git' and 'version'", of.key);
+            let message = format!("'{}' needs exactly one of 'path', 'git' and 'version'", of.key);
             self.wrong(of.span.clone(), message, help);
         }
         all.pop()
@@ -218,7 +218,7 @@ impl Reader {
         for pair in self.table(settings, "settings = { port = \"/dev/ttyUSB0\" }") {
             match simple(&pair) {
                 Some(value) => all.push((pair.key.to_owned(), value)),
-                None => self.value(&pair, "a text in quotes, a number, true or false"),
+                None => self.value(&pair, "a string in quotes, a number, true or false"),
             }
         }
         all
@@ -255,7 +255,7 @@ impl Reader {
 
     /// The path of a type in Rust, such as `Vacuum` or `sim::Vacuum`.
     fn type_path(&mut self, pair: &Pair<'_>) -> Option<String> {
-        let what = "the Rust type seen from the root of its crate, such as \"Vacuum\"";
+        let what = "the Rust type from the root of its crate, such as \"Vacuum\"";
         let path = self.text(pair, what)?;
         let is_word = |word: &str| {
             let mut letters = word.chars();
@@ -340,7 +340,6 @@ impl Reader {
         value
     }
 
-    /// Reads each pair of a table.
     fn each<T>(&mut self, pair: &Pair<'_>, one: fn(&mut Reader, &Pair<'_>) -> Option<T>) -> Vec<T> {
         let pairs = self.table(pair, &format!("a heading '[{}]'", pair.key));
         pairs.iter().filter_map(|pair| one(self, pair)).collect()

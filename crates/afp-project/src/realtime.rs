@@ -8,7 +8,7 @@ use crate::time::duration;
 /// Settings of a real robot's control loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Realtime {
-    /// The run ends if the control loop is later than this.
+    /// The largest permitted delay of the control loop; a longer delay ends the run.
     pub stall: Option<Duration>,
     /// The FIFO priority of the control thread, 1 to 98; the watchdog has the next higher one.
     pub priority: Option<u8>,

@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_is_known_while_it_is_typed() {
+    fn an_incomplete_line_has_a_place() {
         for (text, wanted) in [
             ("|", " Key ''"),
             ("[ru|n]", " Heading 'run'"),
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn any_place_of_any_text_is_somewhere() {
+    fn every_position_of_any_text_has_an_answer() {
         let text = "[run\n}}=,é.{[\"'\n..a.=\n[[a.]]é\n\u{1F916}=";
         for offset in 0..text.len() + 3 {
             let Spot { word, .. } = spot(text, offset);

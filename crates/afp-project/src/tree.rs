@@ -198,7 +198,7 @@ mod tests {
         assert!(has("plans/linked/a.afp") && has("plans/lost.afp"), "{found:?}");
         assert!(found.len() < 10, "{found:?}");
         assert_eq!(files(place.path()), [path("common/a.afp")]);
-        // A file in place of a folder is always unreadable as one.
+        // A file instead of a folder is always unreadable as one.
         fs::write(path("tests"), "").unwrap();
         assert_eq!(scenario_files(place.path()).unwrap_err().0, path("tests"));
     }

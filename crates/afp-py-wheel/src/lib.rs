@@ -26,7 +26,7 @@ fn extension(py: Python<'_>, folder: PathBuf) -> PyResult<Option<PathBuf>> {
         NotBuilt::Why(why) => afp_py::run_error(&why),
         NotBuilt::Told { first } => {
             let first = first.map(|first| format!(": {first}")).unwrap_or_default();
-            let more = "standard error has all that the compiler says";
+            let more = "standard error has the compiler's messages";
             afp_py::error(format!("the project's Rust does not compile{first}; {more}"))
         }
     })

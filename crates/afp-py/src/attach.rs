@@ -44,7 +44,7 @@ pub fn in_background<T: Send + 'static>(
                 Ok(computed) => return Ok(computed),
                 Err(RecvTimeoutError::Timeout) => attached(|py| py.check_signals())?,
                 Err(RecvTimeoutError::Disconnected) => {
-                    return Err(PyRuntimeError::new_err("the computation broke"));
+                    return Err(PyRuntimeError::new_err("the computation failed"));
                 }
             }
         }

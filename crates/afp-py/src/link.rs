@@ -55,7 +55,7 @@ pub trait AnyLink: Send + Sync {
 static LINK: OnceLock<Box<dyn AnyLink>> = OnceLock::new();
 
 pub fn link() -> &'static dyn AnyLink {
-    &**LINK.get().expect("the module says what it links before it has anything that can be called")
+    &**LINK.get().expect("the module names its linked crates before its functions")
 }
 
 /// The devices of the robot.
@@ -187,7 +187,7 @@ impl<R: Simulated> AnyLink for Link<R> {
                 Ok(sensed)
             }
             Some(_) => Err(PyValueError::new_err(format!(
-                "'{name}' is the truth, which only a judge may know: ask the simulation for it"
+                "'{name}' is a true value, which components cannot read: read it from the simulation"
             ))),
             None => {
                 let own = self.named.map_or(&[][..], |(names, _)| names);

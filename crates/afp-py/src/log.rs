@@ -109,7 +109,7 @@ pub fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<Made> {
     let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
     let recipe = log.recipe();
     if recipe.texts.is_empty() || !log.has_world() {
-        return Err(error(format!("'{}' does not say which plan ran where", path.display())));
+        return Err(error(format!("'{}' has no description of its run", path.display())));
     }
     let texts = recipe.texts.into_iter().map(|file| (file.name, file.text)).collect();
     let mut world = World::parse(recipe.world.text)?;

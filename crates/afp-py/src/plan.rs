@@ -176,8 +176,9 @@ impl Plan {
         // The numbers of a different plan may match by chance.
         let same = log.recipe().texts.iter().all(|text| known(&text.text));
         let used = Some(graph).filter(|_| same).and_then(|graph| Coverage::of_log(graph, &log));
-        let used =
-            used.ok_or_else(|| error("the log is not of this plan as it is now; run it again"))?;
+        let used = used.ok_or_else(|| {
+            error("the log is from another version of this plan; run the plan again")
+        })?;
         let plans = (0..).map(PlanId).zip(&compiled.outline.plans);
         let main = graph.main().span;
         let own = plans.into_iter().find(|(_, plan)| plan.span.contains(main)).map(|(id, _)| id);
@@ -299,13 +300,13 @@ impl Plan {
     /// The reason why 'afpc run' with the plan's file behaves differently; `None` if it does not.
     pub fn caveat(&self) -> Option<&'static str> {
         if !self.toolboxes.is_empty() {
-            return Some("components are in Python: run it there");
+            return Some("the plan has components in Python: run it in Python");
         }
         let workspace = self.lock();
         let Some(path) = workspace.path() else { return Some("the plan has no file") };
         let same = std::fs::read_to_string(path).is_ok_and(|text| text == workspace.text());
         let others = workspace.others();
-        (!same || !others.is_empty()).then_some("the plan has been changed and not saved")
+        (!same || !others.is_empty()).then_some("the plan has unsaved changes")
     }
 
     /// The plan's file, for logs and for the world next to it.

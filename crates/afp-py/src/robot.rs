@@ -150,6 +150,6 @@ impl Robot {
     }
 
     fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("Robot", "it lives as long as its simulation"))
+        Err(no_pickle("Robot", "use it with its simulation"))
     }
 }

@@ -110,7 +110,7 @@ impl Scenario {
             return Err(why);
         }
         let came = came.map_err(|why| run_error(&why))?;
-        let came = came.ok_or_else(|| error("the scenario was called off"))?;
+        let came = came.ok_or_else(|| error("the scenario was cancelled"))?;
         Ok(verdict(&self.compiled, came, self.command()?))
     }
 

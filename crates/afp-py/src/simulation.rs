@@ -66,7 +66,7 @@ pub struct Runner {
 #[pymethods]
 impl Runner {
     #[new]
-    #[expect(clippy::too_many_arguments, reason = "what a run begins with")]
+    #[expect(clippy::too_many_arguments, reason = "a start condition of the run")]
     #[pyo3(signature = (plan, world, seed, set, settings, log, camera=false))]
     fn of_plan(
         py: Python<'_>,
@@ -319,7 +319,7 @@ impl Runner {
         let value = given.for_entry(&*session.session, number)?;
         session.is_open()?;
         if session.session.ending().is_some() {
-            let text = "the plan has ended; its entries cannot be set any more";
+            let text = "the plan has ended; its entries can no longer be set";
             return Err(PyRuntimeError::new_err(text));
         }
         let set = match at {

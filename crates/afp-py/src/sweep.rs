@@ -70,7 +70,7 @@ struct Done {
 #[pymethods]
 impl Sweeper {
     #[new]
-    #[expect(clippy::too_many_arguments, reason = "what a sweep has")]
+    #[expect(clippy::too_many_arguments, reason = "a part of a sweep")]
     #[pyo3(signature = (plan, worlds, seeds, vary, until, stimuli, metrics, parts))]
     fn new(
         py: Python<'_>,
@@ -294,7 +294,7 @@ impl Sweeper {
     }
 
     fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("Sweeper", "make it again from what it was made of"))
+        Err(no_pickle("Sweeper", "create it again from its plan, seeds and worlds"))
     }
 }
 

@@ -203,14 +203,12 @@ fn integer(value: &Bound<'_, PyAny>) -> PyResult<i64> {
 /// Converts a Python string to Rust.
 fn text(value: &Bound<'_, PyString>) -> PyResult<String> {
     let text = value.to_cow().map(Cow::into_owned);
-    text.map_err(|_| {
-        PyValueError::new_err("a text with half of a surrogate pair, which is not a character")
-    })
+    text.map_err(|_| PyValueError::new_err("a string with half of a surrogate pair"))
 }
 
 /// The error for a string that is too long for an entry.
 fn too_long(text: &str) -> String {
-    format!("a text has at most {MAX_TEXT} bytes of UTF-8, not {}", text.len())
+    format!("a string has at most {MAX_TEXT} bytes of UTF-8, not {}", text.len())
 }
 
 /// The beginning of a long text.

@@ -43,7 +43,7 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
     let world = world_of(log, robot)?;
     svg::draw_sonar(log, &*world).ok_or_else(|| {
         let help = "log a longer run, with something in reach of the range sensor";
-        RunError::usage("the log holds no echoes", help)
+        RunError::usage("the log has no echoes", help)
     })
 }
 
@@ -54,7 +54,7 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
 pub fn draw_film(log: &LogData) -> Result<String, RunError> {
     svg::draw_film(log).ok_or_else(|| {
         let help = "log a run with them: 'afpc run plan.afp --camera --log run.mcap'";
-        RunError::usage("the log holds no pictures of the camera", help)
+        RunError::usage("the log has no camera pictures", help)
     })
 }
 
@@ -80,8 +80,8 @@ fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, Ru
         return Ok(Arc::new(NoWorld));
     }
     let Some(text) = log.attachments.get(WORLD) else {
-        let help = "name the log of a run, which begins with its world";
-        return Err(RunError::usage("the log does not say in which world the plan ran", help));
+        let help = "name the log of a run";
+        return Err(RunError::usage("the log does not name the world of its run", help));
     };
     // The hint is for files, not for logs.
     let wrong = |why| RunError::content(WORLD, text)(WorldError { help: String::new(), ..why });

@@ -140,8 +140,8 @@ impl RunError {
                 vec![mistake.report(&shown(path).display().to_string(), text, make)]
             }
             RunError::Panicked { said } => {
-                let message = format!("the run panicked, and no component of the plan did: {said}");
-                report(&message, "mend the Rust at that place")
+                let message = format!("the run panicked outside of the plan's components: {said}");
+                report(&message, "fix the Rust code at that place")
             }
             RunError::Project(error) => error.reports(make),
             RunError::Log(error) => report(&error.to_string(), &error.help()),

@@ -55,6 +55,6 @@ pub fn missing(error: StartError, names: &dyn Names) -> RunError {
                 format!("give it one with '--set {path}=VALUE', {}", a(&what_it_takes(about))),
             )
         }
-        _ => RunError::usage("the plan runs already", "start a new one"),
+        _ => RunError::usage("the plan already runs", "start a new one"),
     }
 }

@@ -185,7 +185,7 @@ mod terminal {
         use super::has_escape;
 
         #[test]
-        fn escape_counts_beside_other_keys_and_arrows_do_not() {
+        fn escape_counts_among_other_keys_but_arrows_do_not() {
             for typed in [&b"\x1b"[..], b"\x1b\x1b", b"x\x1b", b"\x1b\x1b\x1b"] {
                 assert!(has_escape(typed, false), "{typed:?}");
             }

@@ -145,7 +145,6 @@ fn options_of(
     RunOptions::from_arg_matches(&command.get_matches())
 }
 
-/// Reports an error and returns the exit code.
 pub fn finish(result: Result<u8, RunError>) -> ExitCode {
     match result {
         Ok(code) => ExitCode::from(code),
@@ -156,10 +155,10 @@ pub fn finish(result: Result<u8, RunError>) -> ExitCode {
 /// The end of the help.
 pub const EXAMPLES: &str = "\
 Examples:
-  --seed 7                        another robot, another noise
+  --seed 7                        different noise
   --set distance=35cm             another value for an 'in' entry
   --until 2min --json             two minutes; lines for machines
-  --speed 1x                      in real time; the Escape key presses what stops the robot
+  --speed 1x                      in real time; the Escape key stops the robot
   --again run.mcap                the run of a log once more, with the same trace
 
 Exit codes: 0 done, 1 a file cannot be read or written or a run does not repeat, 2 wrong options, 3 the plan ended in

@@ -24,7 +24,7 @@ pub(crate) trait Live {
 #[cfg(not(feature = "live"))]
 pub(crate) fn begin(_: SocketAddr, _: &str, _: &dyn AnySession) -> Result<Box<dyn Live>, RunError> {
     Err(RunError::usage(
-        "'--live' is not in this program: it was built without the feature 'live'",
+        "this program has no '--live': it was built without the feature 'live'",
         "'afpc build --live' builds a plan with it, 'cargo install --path crates/afpc --features live' an afpc",
     ))
 }
@@ -42,7 +42,7 @@ pub(crate) fn begin(
     crate::stderr::say(format!("live: {operator}\nwatching only: {watcher}\n"));
     if live.is_open() {
         crate::stderr::warn(
-            "nothing on its way is encrypted: serve on 127.0.0.1 and go there with 'ssh -L'",
+            "the connection is not encrypted: serve on 127.0.0.1 and connect with 'ssh -L'",
         );
     }
     Ok(Box::new(live))

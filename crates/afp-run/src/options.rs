@@ -35,7 +35,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "FILE")]
     pub world: Option<PathBuf>,
 
-    /// Repeats the run of a log: its plan, world, seed, values and requests
+    /// Repeat the run of a log: its plan, world, seed, values and requests
     #[arg(
         long,
         value_name = "LOG",
@@ -52,7 +52,8 @@ pub struct RunOptions {
     )]
     pub start: Option<Pose2>,
 
-    /// Sets an 'in' entry, with its unit, or a value of the world: --set distance=35cm, --set world.KEY=VALUE
+    /// Set an 'in' entry, with its unit, or a value of the world: --set distance=35cm, --set
+    /// world.KEY=VALUE
     #[arg(long, value_name = "ENTRY=VALUE", value_parser = parse::assignment)]
     pub set: Vec<(String, String)>,
 
@@ -66,7 +67,7 @@ pub struct RunOptions {
     )]
     pub seed: u64,
 
-    /// Stops the plan at this time [default: 60s at speed max, else never]
+    /// Stop the plan at this time [default: 60s at speed max, else never]
     #[arg(
         long,
         value_name = "TIME",
@@ -79,15 +80,16 @@ pub struct RunOptions {
     #[arg(long, value_name = "SPEED", value_parser = parse::speed, allow_hyphen_values = true)]
     pub speed: Option<Speed>,
 
-    /// Presses a control of the robot: --press NAME@3s, --press DEVICE.NAME@3s
+    /// Press a control of the robot: --press NAME@3s, --press DEVICE.NAME@3s
     #[arg(long, value_name = "CONTROL@TIME", value_parser = parse::press)]
     pub press: Vec<Press>,
 
-    /// Breaks a device, temporarily or permanently: --fail DEVICE.FAULT@5s..7s, --fail DEVICE.FAULT=0.2@3s
+    /// Inject a temporary or permanent fault: --fail DEVICE.FAULT@5s..7s, --fail
+    /// DEVICE.FAULT=0.2@3s
     #[arg(long, value_name = "DEVICE.FAULT[=AMOUNT]@TIME[..TIME]", value_parser = parse::failure)]
     pub fail: Vec<Failure>,
 
-    /// Also reports this measure of the robot
+    /// Also report this measure of the robot
     #[arg(long, value_name = "NAME")]
     pub measure: Vec<String>,
 
@@ -95,7 +97,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]
     pub log: Option<Destination>,
 
-    /// Also logs the camera's pictures, twice a second
+    /// Also log the camera's pictures, twice a second
     #[arg(long)]
     pub camera: bool,
 
@@ -103,11 +105,11 @@ pub struct RunOptions {
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]
     pub svg: Option<Destination>,
 
-    /// Prints one JSON object per line, the summary last; equal for equal plan, world and seed
+    /// Print one JSON object per line, the summary last
     #[arg(long)]
     pub json: bool,
 
-    /// Serves Foxglove and other viewers during the run, on a port or an address with a port
+    /// Serve Foxglove and other viewers during the run, on a port or address
     /// [default: 127.0.0.1:8765]
     #[arg(
         long,
@@ -120,23 +122,23 @@ pub struct RunOptions {
     )]
     pub live: Option<SocketAddr>,
 
-    /// Simulates the first second in the built-in room and prints the hash of its trace
+    /// Simulate the first second in the built-in room and print the trace's hash
     #[arg(long, conflicts_with_all = ["robot", "world", "again", "start", "press", "fail", "live"])]
     pub self_check: bool,
 
-    /// Stops the robot and runs nothing; needs '--robot hardware'
+    /// Only stop the robot; needs '--robot hardware'
     #[arg(long, conflicts_with = "self_check")]
     pub stop_only: bool,
 
-    /// Waits for the line 'arm' on standard input before the run, as the service of a robot asks
+    /// Wait for the line 'arm' on standard input before the run
     #[arg(long, hide = true, conflicts_with_all = ["self_check", "stop_only"])]
     pub disarmed: bool,
 
-    /// Prints how late the control loop of the robot itself woke up and how long its steps took
+    /// Print the delays and step times of the real robot's control loop
     #[arg(long)]
     pub rt_report: bool,
 
-    /// Lets a debugger in at the robot itself (comes with its real-time driver)
+    /// Accept a debugger on the real robot (not available yet)
     #[arg(
         long,
         hide = true,
@@ -185,20 +187,20 @@ impl RunOptions {
     pub fn check(&self) -> Result<(), RunError> {
         if self.rt_report && self.robot == OnRobot::Sim {
             return Err(RunError::usage(
-                "'--rt-report' measures the control loop of the robot itself, and this run is simulated",
+                "'--rt-report' measures the real robot's control loop, and this run is simulated",
                 "add '--robot hardware', or leave it out",
             ));
         }
         if self.debug.is_some() {
             return Err(RunError::usage(
-                "'--debug' waits for the real-time driver of afp: it is for the robot itself",
-                "'afpc dap PLAN.afp', as editors start it, debugs the plan in the simulator, with the same trace, and logs of the robot",
+                "'--debug' is only for the real robot",
+                "'afpc dap PLAN.afp', as editors start it, debugs the plan in the simulator, with the same trace, and also logs",
             ));
         }
         if self.camera && matches!(self.log, Some(Destination::None)) {
             return Err(RunError::usage(
-                "'--camera' logs what the camera sees, and there is no log",
-                "leave '--log none' out, or '--camera'",
+                "'--camera' logs the camera's pictures, and there is no log",
+                "leave out '--log none' or '--camera'",
             ));
         }
         match self.robot {
@@ -211,7 +213,7 @@ impl RunOptions {
     fn check_sim(&self) -> Result<(), RunError> {
         if self.stop_only {
             return Err(RunError::usage(
-                "'--stop-only' stops the robot itself, and this run is simulated",
+                "'--stop-only' stops the real robot, and this run is simulated",
                 "add '--robot hardware'",
             ));
         }
@@ -219,7 +221,7 @@ impl RunOptions {
             return Ok(());
         };
         Err(RunError::usage(
-            format!("'{name}' is a setting of the robot itself, and this run is simulated"),
+            format!("'{name}' is a setting of the real robot, and this run is simulated"),
             "add '--robot hardware', or leave it out",
         ))
     }
@@ -242,8 +244,8 @@ impl RunOptions {
         match option.or(of_world.map(|(name, _)| format!("--set {name}"))) {
             None => Ok(()),
             Some(option) => Err(RunError::usage(
-                format!("'{option}' is of the simulation: the robot itself cannot do that"),
-                format!("leave '{option}' out, or '--robot hardware'"),
+                format!("'{option}' is only for the simulated robot"),
+                format!("leave out '{option}' or '--robot hardware'"),
             )),
         }
     }

@@ -38,11 +38,11 @@ pub fn check_apart<'a>(
     for output in outputs {
         let (Some(place), shown) = (place(output), output.display()) else { continue };
         if inputs.contains(&place) {
-            let message = format!("'{shown}' is read, so nothing can be written there");
+            let message = format!("'{shown}' is an input, so it cannot be an output");
             return Err(RunError::usage(message, help));
         }
         if known.contains(&place) {
-            return Err(RunError::usage(format!("'{shown}' is named for two outputs"), help));
+            return Err(RunError::usage(format!("'{shown}' is given for two outputs"), help));
         }
         known.push(place);
     }
@@ -69,7 +69,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn outputs_are_apart_from_inputs_and_from_one_another() {
+    fn outputs_differ_from_inputs_and_from_each_other() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         fs::create_dir(path("d")).unwrap();

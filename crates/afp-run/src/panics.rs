@@ -50,7 +50,7 @@ fn hook() {
 }
 
 fn message(info: &PanicHookInfo<'_>) -> String {
-    let text = info.payload_as_str().unwrap_or("it did not say why");
+    let text = info.payload_as_str().unwrap_or("without a message");
     match info.location() {
         Some(place) => format!("{text} ({}:{})", place.file(), place.line()),
         None => text.to_owned(),
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_kept_with_its_place_and_the_work_within_keeps_its_own() {
+    fn a_panic_is_stored_with_its_place_for_each_nested_task() {
         let outer = caught(|| {
             let inner = caught(|| -> u8 { panic!("no {}", "seven") });
             assert!(inner.done.is_none());

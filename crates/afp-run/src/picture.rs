@@ -4,7 +4,6 @@ use std::path::Path;
 
 use crate::error::RunError;
 
-/// The format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureFormat {
     /// For browsers and papers.

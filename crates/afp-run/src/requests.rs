@@ -56,7 +56,7 @@ pub fn make(
 /// The plan or robot is another one.
 pub(crate) fn repeat(session: &mut dyn AnySession, recipe: &Recipe) -> Result<(), RunError> {
     recipe.ask(session).map_err(|error| {
-        RunError::usage(error.to_string(), "the plan or the robot are not those of the log")
+        RunError::usage(error.to_string(), "the plan or the robot differs from the log")
     })
 }
 
@@ -78,7 +78,7 @@ fn such_control(table: &[DeviceRow], press: &Press) -> String {
     let names = || known.iter().map(|(word, _)| word.as_str());
     match nearest(&press.control, names()).or(names().next()) {
         Some(word) => format!("such as '{}'", Press { control: word.to_owned(), at: press.at }),
-        None => "nothing of this robot can be pressed".to_owned(),
+        None => "this robot has no controls".to_owned(),
     }
 }
 
@@ -86,7 +86,7 @@ fn such_control(table: &[DeviceRow], press: &Press) -> String {
 pub fn no_control(table: &[DeviceRow], name: &str) -> String {
     let known: Vec<_> = words(table).into_iter().map(|(word, _)| format!("'{word}'")).collect();
     match known.is_empty() {
-        true => format!("the robot has no control '{name}', nor any other"),
+        true => format!("the robot has no control '{name}', and no other controls"),
         false => format!("the robot has no control '{name}'; it has {}", known.join(", ")),
     }
 }
@@ -121,16 +121,16 @@ fn such(table: &[DeviceRow], failure: &Failure) -> String {
     }
     match faults(table).next() {
         Some((_, at, row)) => format!("such as '{}.{}@5s..7s'", at.name, row.name),
-        None => "nothing of this robot can fail".to_owned(),
+        None => "this robot has no faults".to_owned(),
     }
 }
 
 /// The amount of a fault, in SI units.
 fn amount(text: &str, of: Option<AmountRow>) -> Result<f64, String> {
-    let of = of.ok_or_else(|| format!("there is no more or less of it: leave '={text}' out"))?;
+    let of = of.ok_or_else(|| format!("this fault has no amount: leave out '={text}'"))?;
     let AmountRow { name, unit, from, to, .. } = of;
     let wrong =
-        || format!("'{text}' is no {name} from {from} to {to} {unit}").trim_end().to_owned();
+        || format!("'{text}' is not a {name} from {from} to {to} {unit}").trim_end().to_owned();
     let amount = match of.unit {
         "s" => duration(text)?.as_secs_f64(),
         unit => text.strip_suffix(unit).unwrap_or(text).parse().map_err(|_| wrong())?,
@@ -144,7 +144,7 @@ pub fn no_fault(table: &[DeviceRow], device: &str, kind: &str) -> String {
     let kinds: Vec<_> = of_device.map(|(_, _, row)| row.name).collect();
     if !kinds.is_empty() {
         let what = match kind {
-            "" => format!("how '{device}' fails is missing"),
+            "" => format!("the fault of '{device}' is missing"),
             kind => format!("'{device}' cannot be '{kind}'"),
         };
         return format!("{what}; it can be {}", kinds.join(", "));
@@ -167,7 +167,7 @@ mod tests {
     use crate::options::failure;
 
     #[test]
-    fn amounts_are_those_of_the_table() {
+    fn amounts_match_the_table() {
         for (text, device, kind, amount) in [
             ("ultrasonic.frozen@5s..7s", "ultrasonic", "frozen", None),
             ("odometry.delayed=300ms@1s", "odometry", "delayed", Some(0.3)),
@@ -183,13 +183,13 @@ mod tests {
         for (text, says) in [
             ("battery.stuck@1s", "'battery' cannot be 'stuck'; it can be frozen, lost"),
             ("battery.losst@1s", "such as 'battery.lost@1s'"),
-            ("wheels@1s", "how 'wheels' fails is missing; it can be "),
+            ("wheels@1s", "the fault of 'wheels' is missing; it can be "),
             ("wheels@1s..2s", "such as 'wheels.slip@1s..2s'"),
             ("wheels.=0.2@1s", "such as 'wheels.slip=0.2@1s'"),
             ("sonar.lost@1s", "unknown device 'sonar'; there are battery, buttons"),
             ("wheel.slip@1s", "unknown device 'wheel'; did you mean 'wheels'?"),
-            ("wheels.slip=3@1s", "no share from 0 to 1"),
-            ("touch.lost=3@1s", "no more or less of it"),
+            ("wheels.slip=3@1s", "not a share from 0 to 1"),
+            ("touch.lost=3@1s", "has no amount"),
             ("touch.slow=3@1s", "20s or 500ms"),
         ] {
             let error = find_fault(TABLE, &failure(text).unwrap()).unwrap_err().to_string();

@@ -67,7 +67,7 @@ pub fn run(
     options.check()?;
     if options.robot == OnRobot::Hardware {
         let message = "this program was built without the robot's hardware";
-        let help = "'afpc build --hardware' links it, of a robot whose project brings it";
+        let help = "'afpc build --hardware' links it, if the robot's project has it";
         return Err(RunError::usage(message, help));
     }
     if options.disarmed && !armed::wait(None)? {
@@ -155,7 +155,6 @@ fn recipe(
     })
 }
 
-/// The measures of the project and of the options.
 fn measures(program: &Program<'_>, options: &RunOptions) -> Result<Vec<String>, RunError> {
     let mut all = ProjectFile::of_plan(Path::new(program.file))?.project.measures;
     all.extend(options.measure.iter().cloned());
@@ -178,7 +177,6 @@ struct Setting<'a> {
     rasterizer: Option<Rasterizer<'a>>,
 }
 
-/// Begins the log of a run.
 fn log_of(
     path: &Path,
     session: &dyn AnySession,
@@ -191,7 +189,7 @@ fn log_of(
     if let Some(kept) = recorder.kept() {
         let kept = kept.display();
         warn(&format!(
-            "an earlier run of this log was killed: 'afpc log {kept} recover' saves what there is of it"
+            "an earlier run of this log was killed: 'afpc log {kept} recover' saves its intact data"
         ));
     }
     let log = SessionLog::new(recorder, devices, scene, options.camera);
@@ -349,7 +347,6 @@ impl Came<'_> {
     }
 }
 
-/// Draws the picture of a run.
 fn draw(
     path: &Path,
     figures: &RunFigures,

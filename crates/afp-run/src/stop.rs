@@ -185,7 +185,7 @@ mod signals {
                 if signal == SIGQUIT {
                     flag.resort();
                 }
-                // There is no other way to end or to suspend, so a failure has no remedy.
+                // The process cannot end or suspend in another way, so a failure is ignored.
                 keys::without_terminal(|| drop(low_level::emulate_default_handler(signal)));
                 continue;
             }
@@ -237,7 +237,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_last_resort_is_done_once_and_not_when_it_was_taken_back() {
+    fn the_last_resort_runs_once_unless_it_was_cancelled() {
         let (stop, done) = (StopFlag::default(), Arc::new(AtomicU8::new(0)));
         let count = || -> LastResort {
             let done = done.clone();
@@ -258,7 +258,7 @@ mod tests {
     /// The process has one flag: no other test here may use signals.
     #[cfg(unix)]
     #[test]
-    fn a_signal_that_suspends_a_process_asks_it_to_stop() {
+    fn a_suspend_signal_requests_a_stop() {
         let stop = StopFlag::on_signals().unwrap();
         stop.stay_awake().unwrap();
         signal_hook::low_level::raise(signal_hook::consts::SIGTSTP).unwrap();

@@ -57,8 +57,8 @@ fn act(watch: &Watch, late: Duration, stop: &StopFlag, names: &dyn Names) {
     watch.cut();
     let component = names.component(watch.called());
     let by = match is_stopped {
-        true => "the robot was stopped without it",
-        false => "nothing can stop the robot without it",
+        true => "the robot was stopped from another thread",
+        false => "the robot cannot be stopped from another thread",
     };
     let (path, template) = (component.path, component.template);
     say(format_args!(

@@ -64,7 +64,7 @@ impl LoadedWorld {
     pub fn warning(&self, usual: Pose2) -> Option<&'static str> {
         let drawing = self.world.drawing();
         let strange = is_outside(&drawing, drawing.start) && !is_outside(&drawing, usual);
-        strange.then_some("the robot starts outside of all that stands in its world")
+        strange.then_some("the robot starts outside of its world")
     }
 }
 
@@ -81,7 +81,7 @@ fn is_outside(world: &Drawing, at: Pose2) -> bool {
 pub const RANDOM: &str = "random:";
 
 /// Finds the world of a plan: the requested file (a world, a map `.yaml` or `random:SEED`), else
-/// `[run] world` of `afp.toml`, else `worlds/<plan file>.toml` beside the plan's folder, else the
+/// `[run] world` of `afp.toml`, else `worlds/<plan file>.toml` next to the plan's folder, else the
 /// built-in room. A robot with a profile has the measures of the project in it.
 ///
 /// # Errors
@@ -146,7 +146,7 @@ pub fn all(plan: &Path, robot: &dyn AnyRobot) -> Result<Vec<(String, &'static st
         add(path, "afp.toml");
     }
     if beside.is_file() {
-        add(&beside, "beside the plan");
+        add(&beside, "next to the plan");
     }
     let inside = plan.with_file_name("worlds").join("world.toml");
     for like in named.iter().chain([&beside, &tidy(&inside)]) {
@@ -156,7 +156,7 @@ pub fn all(plan: &Path, robot: &dyn AnyRobot) -> Result<Vec<(String, &'static st
         all.insert(0, (String::new(), "built in"));
     }
     if robot.made_up_world(1).is_some() {
-        all.push((format!("{RANDOM}1"), "made up"));
+        all.push((format!("{RANDOM}1"), "generated"));
     }
     Ok(all)
 }
@@ -203,7 +203,7 @@ fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
             wrong("the seed of a world is a whole number from 0 on", "such as 'random:7'")
         })?;
         let text = robot.made_up_world(number);
-        let none = || wrong("there are no made-up worlds for this robot", "name a file");
+        let none = || wrong("this robot has no random worlds", "name a file");
         return parse(text.ok_or_else(none)?, Some(path.to_owned()), &stem(path), robot);
     }
     let text = read_text(path).map_err(RunError::file(NO_WORLD, path))?;
@@ -230,8 +230,10 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
 /// The error for a picture that cannot be read, at the map that names it.
 fn no_picture(picture: &Path, map: &Path, error: std::io::Error) -> RunError {
     let message = format!("cannot read the map's picture '{}': {error}", picture.display());
-    let help =
-        format!("check 'image' in '{}'; its path begins in the folder of that file", map.display());
+    let help = format!(
+        "check 'image' in '{}'; its path is relative to the folder of that file",
+        map.display()
+    );
     RunError::Missing { message, help }
 }
 
@@ -263,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn a_seed_that_is_none_is_no_file() {
+    fn an_invalid_seed_is_not_a_file() {
         let plan = Path::new("plan.afp");
         for wrong in ["random:-1", "random:", "random:1.5"] {
             let error = find(Some(Path::new(wrong)), plan, &kind::<Simulation>()).unwrap_err();
@@ -272,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn worlds_to_choose_from_are_those_of_the_project_and_the_plan() {
+    fn the_list_of_worlds_has_the_projects_and_the_plans_worlds() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         for name in ["plans", "worlds", "rooms"] {
@@ -294,23 +296,23 @@ mod tests {
         let files = "worlds/other.toml (a file)";
         assert_eq!(
             told("plans/p.afp"),
-            format!("worlds/p.toml (beside the plan), {files}, random:1 (made up)")
+            format!("worlds/p.toml (next to the plan), {files}, random:1 (generated)")
         );
         assert_eq!(
             told("plans/q.afp"),
-            format!(" (built in), {files}, worlds/p.toml (a file), random:1 (made up)")
+            format!(" (built in), {files}, worlds/p.toml (a file), random:1 (generated)")
         );
         fs::write(path("afp.toml"), "[run]\nworld = \"rooms/b.txt\"\n").unwrap();
         assert_eq!(
             told("plans/p.afp"),
             format!(
-                "rooms/b.txt (afp.toml), worlds/p.toml (beside the plan), rooms/a.txt (a file), {files}, random:1 (made up)"
+                "rooms/b.txt (afp.toml), worlds/p.toml (next to the plan), rooms/a.txt (a file), {files}, random:1 (generated)"
             )
         );
     }
 
     #[test]
-    fn a_world_may_be_made_up_or_a_map_with_a_picture_beside_it() {
+    fn a_world_may_be_random_or_a_map_with_a_picture() {
         let room = find(Some(Path::new("random:7")), Path::new("plan.afp"), &kind::<Simulation>())
             .unwrap();
         assert_eq!(typed(&room), World::random(7));

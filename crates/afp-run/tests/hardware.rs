@@ -207,7 +207,7 @@ fn message(ran: Result<u8, RunError>) -> String {
 }
 
 #[test]
-fn a_plan_ends_by_its_own_clock_and_the_robot_stands() {
+fn a_plan_ends_by_its_clock_and_the_robot_stops() {
     let (ran, took, seen) = on_board(WAITS, &["--set", "time=120ms"]);
     assert_eq!(ran.unwrap(), EXIT_OK);
     assert!(took >= Span::from_millis(120), "{took:?}");
@@ -215,7 +215,7 @@ fn a_plan_ends_by_its_own_clock_and_the_robot_stands() {
 }
 
 #[test]
-fn until_ends_a_run_however_late_its_steps_are() {
+fn until_ends_a_run_with_late_steps() {
     // Polls every 10 ms take 15 ms each.
     let text = "use board\nplan Late {\n    start go\n    \
         actor go: Work(cost = 15 ms) { Never -> terminate }\n}";
@@ -226,7 +226,7 @@ fn until_ends_a_run_however_late_its_steps_are() {
 }
 
 #[test]
-fn a_poll_that_holds_the_control_loop_up_ends_the_run_in_an_error_and_stops_the_robot() {
+fn a_poll_that_delays_the_control_loop_ends_the_run_in_an_error_and_stops_the_robot() {
     let text = "use board\nplan Late {\n    start go\n    \
         actor go: Work(cost = 150 ms) { Never -> terminate }\n}";
     let stall = ["--set", "robot.realtime.stall=100ms", "--until", "5s"];
@@ -262,7 +262,7 @@ fn an_output_that_cannot_be_written_stops_the_robot_before_it_moves() {
 }
 
 #[test]
-fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
+fn a_log_names_the_real_robot_and_is_not_repeated() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("a.mcap");
     let name = log.to_str().unwrap();
@@ -281,7 +281,7 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
     let drawn = afp_run::draw_log(&read, robot.kind()).unwrap_err().to_string();
     assert!(drawn.contains("nothing to draw") && drawn.contains("'pose'"), "{drawn}");
     let none = afp_run::draw_sonar(&read, robot.kind()).unwrap_err().to_string();
-    assert!(none.contains("the log holds no echoes"), "{none}");
+    assert!(none.contains("the log has no echoes"), "{none}");
     let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
     let again = command.get_matches_from(["--again", name, "--log", "none"]);
     let again = RunOptions::from_arg_matches(&again).unwrap();
@@ -301,7 +301,7 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
 }
 
 #[test]
-fn a_real_robot_is_sampled_although_its_time_is_on_no_grid() {
+fn a_real_robot_is_sampled_at_irregular_times() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("a.mcap");
     let (ran, _, seen) = on_board(WAITS, &["--until", "200ms", "--log", log.to_str().unwrap()]);
@@ -312,7 +312,7 @@ fn a_real_robot_is_sampled_although_its_time_is_on_no_grid() {
 }
 
 #[test]
-fn a_stop_is_taken_however_late_it_comes_and_nobody_presses_what_is_there() {
+fn a_late_stop_request_is_taken_without_a_press() {
     let graph = plan(WAITS);
     let board = hardware::<Simulation, Board, _>(standard);
     let settings = Settings::new([("port", "ttyUSB0")]);
@@ -330,7 +330,7 @@ fn a_stop_is_taken_however_late_it_comes_and_nobody_presses_what_is_there() {
 }
 
 #[test]
-fn settings_go_to_the_robot_and_those_of_the_simulation_are_refused() {
+fn settings_reach_the_robot_and_simulation_options_are_refused() {
     let (ran, _, seen) = on_board(WAITS, &["--set", "robot.port=none"]);
     let why = message(ran);
     assert!(why.contains("the robot cannot be reached: there is no board at 'none'"), "{why}");

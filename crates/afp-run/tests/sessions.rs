@@ -74,7 +74,7 @@ fn a_distance_needs_no_path() {
 }
 
 #[test]
-fn a_log_tells_of_the_way_as_the_run_does() {
+fn a_log_has_the_distance_of_its_run() {
     let folder = tempfile::tempdir().unwrap();
     for (plan, seed, broken) in
         [(PLAN, 3, None), (MOTION, 5, Some("touch")), (PLAN, 7, Some("ultrasonic"))]
@@ -167,7 +167,7 @@ fn a_keyframe_continues_like_its_run() {
 }
 
 #[test]
-fn every_sample_is_of_the_type_that_its_row_says() {
+fn every_sample_has_the_type_of_its_row() {
     let mut session = session();
     session.run(at(1), &mut Open, &mut []).unwrap();
     for (id, device, row) in afp_core::devices::signals(TABLE) {

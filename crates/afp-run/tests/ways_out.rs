@@ -190,7 +190,7 @@ fn a_program_that_is_killed_leaves_the_robot_to_its_own_dead_man() {
 }
 
 #[test]
-fn a_run_that_was_suspended_does_not_drive_on() {
+fn a_suspended_run_does_not_continue_driving() {
     let mut robot = Robot::new();
     let stall = ["--set", "robot.realtime.stall=500ms"];
     let child = start(&robot, "drives", &stall).spawn().unwrap();
@@ -210,7 +210,7 @@ fn a_run_that_was_suspended_does_not_drive_on() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn the_control_loop_makes_no_system_call_but_clock_sleep_device_and_wake() {
+fn the_control_loop_makes_only_four_kinds_of_system_calls() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("a.mcap");
     let mut robot = Robot::new();
@@ -247,7 +247,7 @@ fn priorities(child: &Child) -> Vec<(String, u32)> {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn the_control_loop_has_the_priority_of_its_setting_or_a_warning_says_why_not() {
+fn the_control_loop_has_its_priority_or_a_warning_names_the_reason() {
     let set = ["--set", "robot.realtime.priority=20", "--set", "robot.realtime.cpu=1023"];
     let mut robot = Robot::new();
     let child = start(&robot, "drives", &set).spawn().unwrap();
@@ -269,7 +269,7 @@ fn the_control_loop_has_the_priority_of_its_setting_or_a_warning_says_why_not() 
 }
 
 #[test]
-fn a_component_that_hangs_loses_the_robot_and_is_named() {
+fn a_component_that_hangs_is_named_and_the_robot_is_stopped() {
     let mut robot = Robot::new();
     let stall = ["--set", "robot.realtime.stall=500ms"];
     let child = start(&robot, "hangs", &stall).spawn().unwrap();
@@ -280,14 +280,14 @@ fn a_component_that_hangs_loses_the_robot_and_is_named() {
     let (status, said) = ended(child);
     assert_eq!(status.code(), Some(130), "{said}");
     assert!(
-        said.contains("since the call of 'go' (Go): the robot was stopped without it"),
+        said.contains("since the call of 'go' (Go): the robot was stopped from another thread"),
         "{said}"
     );
     assert_eq!(robot.rest(), [""; 0]);
 }
 
 #[test]
-fn an_output_that_takes_no_more_stops_the_robot() {
+fn a_full_output_stops_the_robot() {
     // A device that is always full, and a file size limit.
     let mut robot = Robot::new();
     let child = start(&robot, "drives", &[]).env(OUT, "/dev/full").spawn().unwrap();
@@ -312,7 +312,7 @@ fn an_output_that_takes_no_more_stops_the_robot() {
 }
 
 #[test]
-fn a_reader_that_is_slow_does_not_hold_up_a_stop() {
+fn a_slow_reader_does_not_delay_a_stop() {
     let (_reader, path) = terminal();
     let out = File::options().write(true).open(&path).unwrap();
     let mut robot = Robot::new();
@@ -321,7 +321,7 @@ fn a_reader_that_is_slow_does_not_hold_up_a_stop() {
     (0..200).for_each(|_| drop(robot.waits_for("drive", PATIENCE)));
     send(&child, Signal::TERM);
     robot.waits_for("stop", LIMIT);
-    // The robot stands still, so the rest of the report may wait for its reader.
+    // The robot has stopped, so the rest of the report may wait for its reader.
     send(&child, Signal::TERM);
     let (status, said) = ended(child);
     assert!(matches!(status.code(), Some(130 | 143)), "{status} {said}");
@@ -329,7 +329,7 @@ fn a_reader_that_is_slow_does_not_hold_up_a_stop() {
 }
 
 #[test]
-fn two_programs_do_not_drive_one_robot_and_the_second_names_the_first() {
+fn a_second_program_cannot_drive_the_robot_and_names_the_first() {
     let mut robot = Robot::new();
     let first = start(&robot, "drives", &[]).spawn().unwrap();
     robot.waits_for("drive", PATIENCE);

@@ -1,4 +1,4 @@
-//! Values that hold names in place of ids and so need no plan.
+//! Values that hold names instead of ids and so need no plan.
 
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
 use afp_core::{Value, ValueRef};

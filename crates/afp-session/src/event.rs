@@ -1,4 +1,4 @@
-//! The events of a run as plain data, with names in place of ids, so that they need no plan.
+//! The events of a run as plain data, with names instead of ids, so that they need no plan.
 //!
 //! Timelines, lines of JSON, Python and logs read them; the file of a log has another format.
 
@@ -46,7 +46,7 @@ pub enum EventKind {
     StopRequested,
     /// A request from outside: a press, a fault, a write.
     Requested(Requested),
-    /// A component was made to report an outcome.
+    /// A component is made to report an outcome.
     Injected(NamedOutcome),
     /// A supervisor was polled, with its event or its fault.
     Polled(Result<Option<NamedOutcome>, FaultText>),

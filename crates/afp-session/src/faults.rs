@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_begun_comes_first_until_it_ends() {
+    fn the_latest_fault_wins_until_it_ends() {
         let mut faults = Faults::default();
         faults.add('b', at(2), at(4));
         faults.add('a', at(1), Instant::MAX);

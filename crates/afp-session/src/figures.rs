@@ -15,7 +15,7 @@ pub struct Figure {
     pub text: String,
 }
 
-/// The value of a figure.
+/// The value of a result.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FigureValue {
     /// A count.
@@ -47,12 +47,12 @@ pub struct Span {
 pub struct Figures(pub Vec<Figure>);
 
 impl Figures {
-    /// The figure of that name.
+    /// The result of that name.
     pub fn get(&self, name: &str) -> Option<&Figure> {
         self.0.iter().find(|figure| figure.name == name)
     }
 
-    /// The periods of a figure; empty without such a figure.
+    /// The periods of a result; empty without such a result.
     pub fn spans(&self, name: &str) -> &[Span] {
         match self.get(name).map(|figure| &figure.value) {
             Some(FigureValue::Spans { spans, .. }) => spans,
@@ -60,7 +60,7 @@ impl Figures {
         }
     }
 
-    /// A number of a figure: `wall_error`, `mean_m`.
+    /// A number of a result: `wall_error`, `mean_m`.
     pub fn number(&self, name: &str, part: &str) -> Option<f64> {
         match &self.get(name)?.value {
             FigureValue::Numbers(all) => {
@@ -85,7 +85,7 @@ impl Serialize for FigureValue {
 }
 
 impl Serialize for Figures {
-    /// An object with the figures by name.
+    /// An object with the results by name.
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_map(self.0.iter().map(|figure| (figure.name, &figure.value)))
     }

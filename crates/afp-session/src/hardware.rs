@@ -71,7 +71,7 @@ pub trait Hardware:
     /// Sync>` takes all of them with `?`.
     type Error: Into<Box<dyn Error + Send + Sync>>;
 
-    /// Opens the robot, which stands still; its time begins at zero.
+    /// Opens the robot without a motion; its time begins at zero.
     ///
     /// # Errors
     /// The robot cannot be reached. The error names what was tried and the result.
@@ -149,7 +149,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_two_settings_of_one_name_the_later_counts() {
+    fn the_later_of_two_settings_with_one_name_counts() {
         let settings = Settings::new([("port", "a"), ("baud", "9600"), ("port", "b")]);
         assert_eq!((settings.get("port"), settings.get("Port")), (Some("b"), None));
         assert_eq!(

@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_control_is_let_go_when_the_last_who_holds_it_does() {
+    fn a_control_is_released_when_its_last_holder_releases_it() {
         let mut holds = Holds::default();
         let hold =
             |control, by, until| Hold { control: ControlId(control), by: RequestId(by), until };

@@ -46,9 +46,7 @@ impl NotSet {
                 format!("the entry '{name}' of a sub-plan cannot be set from outside")
             }
             _ if is_object => {
-                format!(
-                    "the entry '{name}' holds an object: templates make it, and no text says one"
-                )
+                format!("the entry '{name}' has an object, which only templates can make")
             }
             SetError::Refused(WriteError::NotStarted) => format!(
                 "the entry '{name}' cannot be set before the start: its initial value would replace it"

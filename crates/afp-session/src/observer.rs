@@ -174,7 +174,7 @@ pub trait Observer {
         false
     }
 
-    /// Whether it makes the lines and the hash of the trace in place of the session; then lines are
+    /// Whether it makes the lines and the hash of the trace instead of the session; then lines are
     /// empty.
     fn makes_trace(&self) -> bool {
         false

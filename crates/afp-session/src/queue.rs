@@ -22,7 +22,7 @@ use crate::stimulus::Stimulus;
 
 /// The smallest capacity: a second of a busy plan.
 const CAPACITY: usize = 8192;
-/// The free items required before a loss is reported, beside the values of all entries.
+/// The free items required before a loss is reported, next to the values of all entries.
 const ROOM: usize = 256;
 /// The shortest time between two wake-ups of the reader.
 const PAUSE: Duration = Duration::from_millis(50);

@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_survive() {
+    fn values_are_read_back_unchanged() {
         let record = Record::Committed {
             author: Author::Outside,
             entry: TraceEntryId(3),

@@ -93,7 +93,7 @@ pub struct RequestId(pub u64);
 #[non_exhaustive]
 pub enum RequestError {
     /// Its time has passed.
-    #[error("{} s is over: it is {} s", .at.as_secs_f64(), .now.as_secs_f64())]
+    #[error("{} s is in the past: the time is {} s", .at.as_secs_f64(), .now.as_secs_f64())]
     Over {
         /// The time of the request.
         at: Instant,
@@ -116,7 +116,7 @@ pub enum RequestError {
     #[error("this robot has no '{0}'")]
     Lacks(&'static str),
     /// The robot does not support it.
-    #[error("the robot does not do that")]
+    #[error("the robot does not support that")]
     Refused,
     /// The world has no movable thing of that name.
     #[error("nothing called '{0}' can be moved")]
@@ -125,13 +125,13 @@ pub enum RequestError {
     #[error("nothing has the shape '{0}'")]
     NoShape(String),
     /// The number of new things has reached its limit.
-    #[error("{0} things were dropped, and no more can be; move one of them here")]
+    #[error("{0} objects were dropped, which is the limit; move one of them here")]
     Full(usize),
     /// The place is occupied, by the thing of that name.
-    #[error("'{0}' stands there")]
+    #[error("'{0}' is at that place")]
     Occupied(String),
     /// The pose is not finite or is outside the world.
-    #[error("that place is not in the world")]
+    #[error("that place is outside of the world")]
     Nowhere,
     /// The entry refuses the value.
     #[error("{0}")]
@@ -152,7 +152,9 @@ pub enum RequestError {
     #[error("there is no '{0}'")]
     NoOutcome(String),
     /// The plan was compiled into the program, so no outcome can be injected.
-    #[error("the plan was compiled in; only a loaded one can be made to report")]
+    #[error(
+        "only the components of a loaded plan can be made to report, and this plan is compiled"
+    )]
     Compiled,
 }
 

@@ -20,7 +20,7 @@ pub type FaultOf<R> = <<R as Robot>::Devices as Devices>::Fault;
 
 /// The robot does not support the request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the robot does not do that")]
+#[error("the robot does not support that")]
 pub struct Refused;
 
 /// A platform with devices. Hardware leaves `press` and `set_faults` out.

@@ -223,9 +223,7 @@ impl SessionError {
                 "implement the traits for the robot, or use templates that it supports".to_owned()
             }
             #[cfg(feature = "load")]
-            SessionError::Load(_) => {
-                "the toolbox file and the Rust crate behind it do not belong together".to_owned()
-            }
+            SessionError::Load(_) => "the toolbox file does not match its Rust crate".to_owned(),
             SessionError::World(_) | SessionError::OtherWorld => "check the world file".to_owned(),
             SessionError::Hardware(_) => {
                 "check the robot's power and cable, and its settings in '[robot]' of afp.toml"

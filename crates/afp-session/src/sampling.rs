@@ -124,7 +124,7 @@ fn wrong_type(table: &[DeviceRow], signal: SignalId, value: &SampleRef<'_>) -> O
     match value.is(row.ty) {
         true => None,
         false => Some(signal_type(format!(
-            "the robot gives its signal '{}.{}' as {}, but it is declared as {}",
+            "the robot returns its signal '{}.{}' as {}, but the toolbox declares {}",
             device.name,
             row.name,
             value.ty().word(),

@@ -1,4 +1,4 @@
-//! Requests with names in place of ids, so that they remain valid beyond the program and the plan.
+//! Requests with names instead of ids, so that they remain valid beyond the program and the plan.
 
 use std::fmt;
 

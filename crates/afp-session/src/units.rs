@@ -20,7 +20,7 @@ pub fn some_units<'a>(units: impl IntoIterator<Item = &'a str>) -> String {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn the_usual_ones_are_named() {
+    fn usual_units_have_names() {
         let units = ["um/s", "m/ns", "km/h", "m/h", "cm/s", "m/s", "mm/s", "m/us", "m/min", "um/h"];
         assert_eq!(super::some_units(units), "m/s, cm/s, mm/s, km/h, um/s, m/ns, m/h, m/us");
         assert_eq!(super::some_units(["V", "mV"]), "V, mV");

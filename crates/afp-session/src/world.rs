@@ -74,7 +74,7 @@ pub trait World: Clone + fmt::Debug + Send + Sync + 'static {
     /// The map is wrong, or worlds of this kind cannot be maps.
     fn picture_of_map(map: &str) -> Result<String, WorldError> {
         let _ = map;
-        Err(WorldError::new(None, "this robot's worlds are no maps"))
+        Err(WorldError::new(None, "this robot's worlds are not maps"))
     }
 
     /// The text of the world that a map and its picture show.

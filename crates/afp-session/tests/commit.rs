@@ -15,7 +15,7 @@ fn git(folder: &Path, arguments: &[&str]) {
 }
 
 #[test]
-fn a_checkout_has_its_commit_and_a_sign_where_it_has_changed() {
+fn a_checkout_has_its_commit_and_a_mark_if_it_has_changes() {
     let folder = tempfile::tempdir().unwrap();
     let krate = folder.path().join("crates/some");
     fs::create_dir_all(&krate).unwrap();
@@ -32,7 +32,7 @@ fn a_checkout_has_its_commit_and_a_sign_where_it_has_changed() {
 }
 
 #[test]
-fn a_package_has_the_commit_that_it_was_made_of() {
+fn a_package_has_the_commit_of_its_source() {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(script::of_package(folder.path()), None);
     let text = "{\n  \"git\": {\n    \"sha1\": \"0123456789abcdef0123\"\n  }\n}";

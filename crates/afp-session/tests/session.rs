@@ -116,7 +116,7 @@ fn a_press_at_the_start_is_seen_by_the_first_look() {
 }
 
 #[test]
-fn requests_come_in_order_before_the_step_of_their_instant() {
+fn requests_are_applied_in_order_before_the_step_of_their_instant() {
     let mut session = session();
     let mut notes = Notes::default();
     // Later times are done later; at one time, the order of creation counts.
@@ -132,7 +132,7 @@ fn requests_come_in_order_before_the_step_of_their_instant() {
 }
 
 #[test]
-fn faults_are_a_set_that_the_last_begun_rules() {
+fn the_latest_of_several_faults_wins() {
     let mut session = session();
     let second = Duration::from_secs(1);
     session.at(at(1000), Request::Break(SLIP, Some(0.0), second + second)).unwrap();
@@ -224,7 +224,7 @@ fn an_entry_is_set_before_the_start_and_written_later() {
 }
 
 #[test]
-fn samples_have_a_grid_of_their_own_that_the_plan_does_not_notice() {
+fn samples_have_their_own_grid_without_an_effect_on_the_plan() {
     let mut quiet = session();
     quiet.run(at(200), &mut Open, &mut []).unwrap();
     for sampling in
@@ -247,7 +247,7 @@ fn samples_have_a_grid_of_their_own_that_the_plan_does_not_notice() {
 }
 
 #[test]
-fn pieces_make_the_same_run_as_the_whole() {
+fn a_run_in_pieces_equals_the_whole_run() {
     let mut whole = session();
     whole.run(at(3000), &mut Open, &mut []).unwrap();
     let mut parts: Box<dyn AnySession> = Box::new(session());
@@ -268,7 +268,7 @@ fn pieces_make_the_same_run_as_the_whole() {
 }
 
 #[test]
-fn a_run_goes_on_for_its_rest_and_begins_where_the_platform_is() {
+fn a_run_continues_for_its_rest_from_the_platforms_time() {
     let begin = at(5003);
     let mut session = Session::loaded(plan(PLAN), Toy::at(begin));
     session.set_rest(Duration::from_millis(250));
@@ -282,7 +282,7 @@ fn a_run_goes_on_for_its_rest_and_begins_where_the_platform_is() {
 }
 
 #[test]
-fn a_stop_makes_a_step_of_its_own() {
+fn a_stop_makes_its_own_step() {
     let mut session = session();
     session.at(at(55), Request::Stop).unwrap();
     let mut notes = Notes::default();
@@ -291,7 +291,7 @@ fn a_stop_makes_a_step_of_its_own() {
 }
 
 #[test]
-fn every_way_out_stops_the_robot() {
+fn every_exit_stops_the_robot() {
     let broken = PLAN.replace("speed = speed", "speed = speed, fragile = true");
     let ways: [(&str, Way); 4] = [
         ("dropped before the start", |_| {}),
@@ -329,7 +329,7 @@ impl Observer for Clumsy {
 }
 
 #[test]
-fn a_panic_of_an_observer_is_none_of_the_plan() {
+fn a_panic_of_an_observer_is_not_a_fault_of_the_plan() {
     let mut session = session();
     let run = std::panic::AssertUnwindSafe(|| session.run(at(100), &mut Open, &mut [&mut Clumsy]));
     assert!(std::panic::catch_unwind(run).is_err());
@@ -368,7 +368,7 @@ impl Measure<Toy> for Tally {
 }
 
 #[test]
-fn measures_see_the_robot_and_come_out_as_figures() {
+fn measures_read_the_robot_and_return_results() {
     let mut session = session();
     session.add_measure(Box::new(Tally::default()));
     session.at(at(33), Request::Press(FRONT, true)).unwrap();
@@ -380,7 +380,7 @@ fn measures_see_the_robot_and_come_out_as_figures() {
 }
 
 #[test]
-fn step_by_step_it_is_the_same_run_and_each_call_says_whether_it_was_a_step() {
+fn a_run_step_by_step_equals_the_whole_run() {
     let begun = || {
         let mut session = session();
         session.at(at(305), Request::Press(FRONT, true)).unwrap();

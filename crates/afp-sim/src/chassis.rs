@@ -44,7 +44,7 @@ impl Measures {
 /// A robot's body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chassis {
-    /// The outline, seen from above.
+    /// The outline from above.
     pub shape: Footprint,
     /// Kilograms, spread evenly.
     pub mass: f64,

@@ -34,7 +34,7 @@ const STANDING: (f64, f64) = (0.005, 0.02);
 /// A slower motion into an obstacle counts as sliding along it, in metres a second.
 const INTO: f64 = 0.01;
 
-/// A wall is beside the robot if the distance square from its side is at most this multiple of the
+/// A wall is next to the robot if the distance square from its side is at most this multiple of the
 /// nearest distance.
 const BESIDE: f64 = 1.5;
 
@@ -102,9 +102,9 @@ impl<'a> Truth<'a> {
         gaps.map(|gap| f64::from(gap.distance)).reduce(f64::min)
     }
 
-    /// The same distance if a wall is beside the robot. A wall is beside it if the distance square
-    /// from its side, at either end or the middle, is not much larger. `None` at the end of a wall,
-    /// where the nearest place is the corner behind the robot.
+    /// The same distance if a wall is next to the robot. A wall is next to it if the distance
+    /// square from its side, at either end or the middle, is not much larger. `None` at the end of
+    /// a wall, where the nearest place is the corner behind the robot.
     pub fn right_side_wall(&self) -> Option<f64> {
         let gap = self.right_side_gap()?;
         let [length, width] = self.measures.half;

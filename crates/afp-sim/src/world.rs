@@ -142,7 +142,7 @@ impl World {
     fn parse_with<O: OwnTables>(robot: &Chassis, text: &str) -> Result<(World, O), WorldError> {
         let (world, own) = file::read(text)?;
         if world.measures != Measures::CARBOT {
-            let why = "this robot has measures of its own";
+            let why = "this robot has its own measures";
             return Err(at_key(text, &["robot"], why.to_owned())
                 .with_help("write only 'pose_m_deg' and 'charge' here"));
         }

@@ -37,7 +37,7 @@ struct Outcome {
     bumps: usize,
     others: usize,
     /// Mean and maximum absolute wall error, in metres, and the number of counted seconds. The
-    /// seconds of `followWall` with a wall beside it count, except for the first two of each
+    /// seconds of `followWall` with a wall next to it count, except for the first two of each
     /// activation.
     error: f64,
     worst: f64,

@@ -37,7 +37,7 @@ mod tests {
     use super::{Changed, Event, Events, Inputs, Instant, Live, Supervisor};
 
     #[test]
-    fn a_change_is_reported_once_and_the_first_value_is_none() {
+    fn a_change_is_reported_once_and_the_first_value_is_not_a_change() {
         let mut watch: Changed<i64> = Supervisor::start(Inputs {}, &mut (), Instant::ZERO).unwrap();
         let mut sees = |value| {
             let said = watch.poll(Live { value }, Events::from_bits(1), &mut (), Instant::ZERO);

@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn it_reports_when_the_time_is_over_and_not_before() {
+    fn it_reports_after_the_time_and_not_before() {
         let mut watch = started();
         let at = |ms| Instant::ZERO + Duration::from_millis(ms);
         assert_eq!(watch.poll(Live {}, Events::from_bits(1), &mut (), at(1999)), Ok(None));

@@ -48,7 +48,7 @@ mod tests {
     use afp_core::quantity::Time;
 
     #[test]
-    fn each_period_is_reported_once_and_those_that_were_missed_together() {
+    fn each_period_is_reported_once_and_missed_periods_together() {
         let inputs = Inputs { period: Time::from_si(2.0) };
         let mut watch: Every = Supervisor::start(inputs, &mut (), Instant::ZERO).unwrap();
         let mut at = |ms| {

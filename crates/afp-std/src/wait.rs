@@ -42,7 +42,7 @@ mod tests {
     use afp_core::quantity::Time;
 
     #[test]
-    fn it_ends_when_the_time_is_over_and_not_before() {
+    fn it_ends_after_the_time_and_not_before() {
         let start = Instant::from_nanos(5_000_000_000);
         let at = |ms| start + Duration::from_millis(ms);
         let inputs = Inputs { duration: Time::from_si(0.25) };

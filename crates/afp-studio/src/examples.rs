@@ -61,7 +61,7 @@ pub(crate) fn copy(
     check_place(folder, plan)?;
     if let Some((path, _)) = others.iter().find(|(path, _)| !leads_into(folder, path)) {
         return Err(format!(
-            "'{}' would be outside of '{}': put the plan into a folder of its own, such as 'plans'",
+            "'{}' would be outside of '{}': put the plan into a separate folder, such as 'plans'",
             path.display(),
             folder.root().display()
         ));
@@ -93,7 +93,7 @@ fn check_place(folder: &Folder, path: &Path) -> Result<(), String> {
     let above = parent.parent().and_then(|above| above.canonicalize().ok());
     match above.is_some_and(|above| above.starts_with(folder.root())) {
         true => Ok(()),
-        false => Err(format!("there is no folder '{}'", parent.display())),
+        false => Err(format!("the folder '{}' does not exist", parent.display())),
     }
 }
 
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn an_example_is_copied_with_its_files_and_overwrites_none() {
+    fn an_example_is_copied_with_its_files_without_overwriting() {
         let place = tempfile::tempdir().unwrap();
         let folder = Folder::new(place.path()).unwrap();
         let example = |name: &str, uses: &[&str]| Example {

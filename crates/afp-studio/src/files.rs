@@ -87,7 +87,7 @@ impl Folder {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         if !ENDINGS.contains(&ending) {
             return Err(format!(
-                "'{}' is not opened here: only plans, toolboxes and scenarios (.afp), their drawings (.layout) and afp.toml are",
+                "the studio cannot open '{}': it opens only plans, toolboxes and scenarios (.afp), their drawings (.layout) and afp.toml",
                 path.display()
             ));
         }
@@ -172,7 +172,7 @@ pub(crate) fn read(path: &Path) -> Result<Kept, String> {
         Err(error) => return Err(wrong(error.to_string())),
     };
     let etag = Some(etag(&bytes));
-    let text = String::from_utf8(bytes).map_err(|_| wrong("it is no UTF-8".to_owned()))?;
+    let text = String::from_utf8(bytes).map_err(|_| wrong("it is not UTF-8".to_owned()))?;
     let marked = text.starts_with('\u{feff}');
     let text = if marked { &text['\u{feff}'.len_utf8()..] } else { &text };
     let (text, ends) = (with_newlines(text).into_owned(), LineEnds::of(text));
@@ -203,7 +203,9 @@ impl Kept {
 pub(crate) fn check_length(bytes: usize) -> Result<(), String> {
     let most = LONGEST >> 20;
     match bytes > LONGEST {
-        true => Err(format!("it is longer than {most} MiB: make it shorter, or two files of it")),
+        true => {
+            Err(format!("it is longer than {most} MiB: shorten it, or split it into two files"))
+        }
         false => Ok(()),
     }
 }
@@ -279,7 +281,7 @@ mod tests {
             assert_eq!(read(&path).unwrap(), next);
         }
         fs::write(&path, [0xff, 0xfe]).unwrap();
-        assert!(read(&path).unwrap_err().contains("no UTF-8"));
+        assert!(read(&path).unwrap_err().contains("not UTF-8"));
         assert_eq!(read(&place.path().join("none.afp")).unwrap(), Kept::default());
     }
 

@@ -95,7 +95,7 @@ async fn guard(State(shared): State<Shared>, request: Request, next: Next) -> Re
     }
     let enters = request.uri().path() == "/" && request.uri().query().is_some();
     if !enters && !shared.secret.knows(headers) {
-        let words = "this address needs its code: open the one that 'afpc studio' prints\n";
+        let words = "this address needs a code: open the address that 'afpc studio' prints\n";
         return (StatusCode::FORBIDDEN, words).into_response();
     }
     let mut response = next.run(request).await;
@@ -121,7 +121,7 @@ async fn index(
         let known = shared.secret.knows(&headers);
         let away = away(query.get("file"));
         if !known && !peer::is_own(peer, shared.secret.port()) {
-            let words = "this code is that of another user of this machine\n";
+            let words = "this code belongs to another user of this machine\n";
             return (StatusCode::FORBIDDEN, words).into_response();
         }
         return match shared.secret.redeem(code) {
@@ -137,7 +137,7 @@ async fn index(
         return StatusCode::FORBIDDEN.into_response();
     }
     let Some((bytes, kind)) = page::file("index.html") else {
-        let words = "the page is not made yet: run 'cargo xtask studio'\n";
+        let words = "the page is not built yet: run 'cargo xtask studio'\n";
         return (StatusCode::SERVICE_UNAVAILABLE, words).into_response();
     };
     let Ok(nonce) = Token::new() else {

@@ -97,7 +97,7 @@ impl Trust {
 /// The crates of a folder's project; an unreadable project may contain any code.
 fn code_of(folder: &Path) -> Vec<String> {
     let Ok(file) = ProjectFile::find(folder) else {
-        return vec![format!("the code that the project file of '{}' names", folder.display())];
+        return vec![format!("the code in the project of '{}'", folder.display())];
     };
     let project = &file.project;
     let robot = project.robot.iter().map(|_| format!("the robot of '{}'", file.path().display()));
@@ -133,7 +133,7 @@ mod tests {
 
     /// Skipped folders may still contain projects.
     #[test]
-    fn the_code_of_a_file_is_that_of_its_project() {
+    fn the_code_of_a_file_is_its_projects_code() {
         let place = tempfile::tempdir().unwrap();
         let deep = "a/".repeat(20);
         for folder in [".parts", "target/x", "node_modules", deep.trim_end_matches('/')] {

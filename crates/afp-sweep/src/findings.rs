@@ -50,7 +50,7 @@ pub enum Measure {
     /// The number of interrupted actors.
     Interruptions,
     Misses,
-    /// A figure of the robot or of one of its measures, by its column name.
+    /// A result of the robot or of one of its measures, by its column name.
     Figure(String),
 }
 

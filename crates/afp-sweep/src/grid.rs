@@ -76,7 +76,6 @@ pub struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// The stimuli of its values.
     pub(crate) fn stimuli(&self) -> Stimuli {
         Stimuli::of(self.values.iter().map(|(name, point)| (*name, &*point.text)))
     }

@@ -40,7 +40,7 @@ impl fmt::Display for JournalError {
             JournalError::File(why) => write!(f, "{why}"),
             JournalError::InUse(path) => write!(f, "another sweep is writing '{}'", path.display()),
             JournalError::Other(path, how) => {
-                write!(f, "'{}' is of another sweep: {how}", path.display())
+                write!(f, "'{}' belongs to another sweep: {how}", path.display())
             }
             JournalError::Broken(path, line) => {
                 write!(f, "line {line} of '{}' is not a line of a journal", path.display())
@@ -56,7 +56,7 @@ impl From<JournalError> for RunError {
         match why {
             JournalError::File(why) => why,
             JournalError::InUse(_) => {
-                RunError::usage(message, "wait for it, or write elsewhere with '-o'")
+                RunError::usage(message, "wait for it, or give another file with '-o'")
             }
             JournalError::Other(..) | JournalError::Broken(..) => {
                 RunError::usage(message, "'--restart' starts again and deletes the old outcomes")
@@ -266,7 +266,7 @@ mod tests {
             assert_eq!(ours.differs(&of(theirs)).as_deref(), wanted);
         }
         let json = serde_json::to_string(&header()).unwrap();
-        assert!(!json.contains("parts"), "a journal without any is as it was: {json}");
+        assert!(!json.contains("parts"), "a journal without stimuli is unchanged: {json}");
     }
 
     #[test]

@@ -89,8 +89,8 @@ pub struct Outcome {
     /// The number of interrupted actors.
     pub interruptions: u64,
     pub deadline_misses: u64,
-    /// Other figures of the robot and its measures, by column name: `contacts_s`,
-    /// `wall_error_mean_m`. A figure without a value keeps its column.
+    /// Other results of the robot and its measures, by column name: `contacts_s`,
+    /// `wall_error_mean_m`. A result without a value keeps its column.
     #[serde(flatten)]
     pub figures: BTreeMap<String, Option<f64>>,
     /// The hash of the trace, 16 hexadecimal digits; empty without a trace.
@@ -101,7 +101,7 @@ pub struct Outcome {
 
 pub(crate) const CONTACTS: &str = "contacts";
 
-/// Figures as named numbers: a count under the figure's name, several numbers with that name as a
+/// Results as named numbers: a count under the result's name, several numbers with that name as a
 /// prefix, and time spans as their sum in seconds. If a fixed column has the name, the number
 /// counts as the robot's.
 pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
@@ -128,7 +128,7 @@ pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
     all.into_iter().map(|(name, number)| (own(name), number)).collect()
 }
 
-/// The column name of a figure whose own name is taken.
+/// The column name of a result whose own name is taken.
 pub(crate) fn of_robot(figure: &str) -> String {
     format!("robot.{figure}")
 }

@@ -99,7 +99,7 @@ fn named(path: &Path, header: &Header) -> Result<OutputFiles, RunError> {
         )),
         None => Err(RunError::usage(
             unsupported(path),
-            "use '.csv' or '.parquet'; a folder, with '/' behind its name, gets both",
+            "use '.csv' or '.parquet'; a folder, with '/' after its name, gets both",
         )),
     }
 }

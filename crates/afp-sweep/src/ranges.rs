@@ -8,7 +8,6 @@ use crate::seeds::Seeds;
 
 /// The number of values in a range without a step.
 const POINTS: u64 = 5;
-/// The most values of a range.
 const MOST: f64 = 1e6;
 
 /// Parses `0..1000` (the last is 999), `0..=999`, a single seed, or several of these with commas.
@@ -41,7 +40,7 @@ fn one_after_the_other(text: &str) -> Result<Seeds, String> {
         },
     };
     if range.is_empty() {
-        return Err(format!("there are no seeds in '{text}'"));
+        return Err(format!("'{text}' has no seeds"));
     }
     Ok(Seeds::new(range))
 }
@@ -73,7 +72,7 @@ pub fn worlds(text: &str) -> Result<Vec<String>, String> {
 pub fn axis(text: &str) -> Result<Axis, String> {
     let (name, values) = match text.split_once('=') {
         Some((name, values)) if !name.trim().is_empty() => (name.trim().to_owned(), values.trim()),
-        _ => return Err("expected what to vary, such as distance=20cm..60cm".to_owned()),
+        _ => return Err("expected a name and its values, such as distance=20cm..60cm".to_owned()),
     };
     let texts = match values.split_once("..").filter(|_| !values.contains('"')) {
         Some((from, to)) => range(from, to)?,
@@ -98,7 +97,7 @@ fn list(values: &str) -> Result<Vec<String>, String> {
         return Err(format!("a quote is missing in '{values}'"));
     }
     if all.iter().any(|value| value.is_empty()) {
-        return Err(format!("'{values}' has a place without a value"));
+        return Err(format!("a value is missing in '{values}'"));
     }
     Ok(all.into_iter().map(|value| unquoted(value).to_owned()).collect())
 }
@@ -134,7 +133,7 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
         return Err(too_many(from, to));
     }
     if !(step > 0.0 && steps >= 0.0) {
-        return Err(format!("no values lie in '{from}..{to}' in steps of {}", written(step, unit)));
+        return Err(format!("no values are in '{from}..{to}' in steps of {}", written(step, unit)));
     }
     // A step that ends at the last value includes it despite rounding.
     let count = (steps + 1e-9).floor() as u64 + 1;
@@ -213,12 +212,12 @@ mod tests {
             ("d", "such as distance=20cm..60cm"),
             ("d=20cm..1m", "same unit"),
             ("d=a..b", "not a number"),
-            ("d=60cm..20cm:5cm", "no values lie in"),
-            ("d=0..1:0", "no values lie in"),
+            ("d=60cm..20cm:5cm", "no values are in"),
+            ("d=0..1:0", "no values are in"),
             ("d=0cm..1cm:1m", "write the step '1m' in 'cm'"),
             ("d=0.1..0.5:20%", "write the step '20%' without a unit"),
             ("mode=\"x,y", "a quote is missing in '\"x,y'"),
-            ("d=1,,2", "without a value"),
+            ("d=1,,2", "a value is missing"),
             ("d=0..1e9", "more than 1000000 values"),
         ] {
             let error = axis(text).unwrap_err();

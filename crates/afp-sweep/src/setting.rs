@@ -41,11 +41,8 @@ impl<'a> Setting<'a> {
         robot: &'a dyn Loader,
     ) -> Result<Self, RunError> {
         if sweep.len() > MOST {
-            let message = format!("these are {} runs, and a sweep has at most {MOST}", sweep.len());
-            return Err(RunError::usage(
-                message,
-                "give a part of the seeds or of the values at a time",
-            ));
+            let message = format!("a sweep has at most {MOST} runs, not {}", sweep.len());
+            return Err(RunError::usage(message, "give fewer seeds or values"));
         }
         if !sweep.worlds_by_seed {
             different_worlds(&sweep.worlds)?;
@@ -72,7 +69,7 @@ impl<'a> Setting<'a> {
             let Some(axis) = rest.first_mut() else { continue };
             if before.iter().any(|other| other.name == axis.name) {
                 let message = format!("'{}' is varied twice", axis.name);
-                return Err(RunError::usage(message, "say it once, with all of its values"));
+                return Err(RunError::usage(message, "vary it once, with all of its values"));
             }
             let mut whole = Vec::new();
             match change::key(&axis.name) {

@@ -206,7 +206,6 @@ impl Enum {
         note(&self.node)
     }
 
-    /// The names of its values.
     pub fn variants(&self) -> Vec<Name> {
         children(&self.node, Kind::Variant)
             .filter_map(|node| token(&node, Kind::Name, self.file))
@@ -369,7 +368,6 @@ fn token(node: &Node, kind: Kind, file: u16) -> Option<Name> {
     })
 }
 
-/// All tokens of a kind.
 fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
     let green = node.green();
     let tokens = parts(&green, node.text_range().start().into())
@@ -404,7 +402,7 @@ impl Parse {
     }
 }
 
-/// Whether a text has a scenario, or may have one that an error hides.
+/// Whether a file has a scenario, or may have a scenario that an error hides.
 pub fn may_have_scenario(text: &str) -> bool {
     let mut diags = Diagnostics::default();
     let items = parse(text, 0, &mut diags).file().items();

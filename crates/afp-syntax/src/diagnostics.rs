@@ -45,7 +45,6 @@ pub enum Subject {
     /// A subject on which no code depends.
     #[default]
     Other,
-    /// A name that is missing in the text.
     MissingName,
     /// A name that does not exist.
     Unknown {
@@ -62,7 +61,7 @@ pub enum Subject {
     Value,
 }
 
-/// The kind of change that the help asks for.
+/// The kind of change in the help.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Aim {
     /// Another text at the place.
@@ -122,7 +121,6 @@ impl Diagnostic {
         }
     }
 
-    /// Sets the subject.
     pub fn about(mut self, subject: Subject) -> Diagnostic {
         self.subject = subject;
         self
@@ -234,7 +232,7 @@ pub struct Diagnostics {
     counted: Vec<(Span, Code)>,
 }
 
-/// A text with this many errors is invalid throughout: no meanings are searched for the rest.
+/// With this number of errors a file counts as invalid; the rest is not checked.
 const MOST_EXPLAINED: usize = 500;
 
 /// The maximum number of diagnostics. Further errors only have a number and spans.

@@ -42,7 +42,6 @@ const NAMED: &[(&str, Dimension, &str)] = &[
 ];
 
 impl Dimension {
-    /// The names of dimensions in types.
     pub fn names() -> impl Iterator<Item = &'static str> {
         NAMED.iter().map(|(name, ..)| *name)
     }
@@ -121,7 +120,7 @@ mod tests {
     use crate::units::Unit;
 
     #[test]
-    fn products_are_named_where_they_have_a_name() {
+    fn products_with_a_name_use_it() {
         let length = Dimension::named("length").unwrap();
         let time = Dimension::named("duration").unwrap();
         let speed = length.over(time).unwrap();

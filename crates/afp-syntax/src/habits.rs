@@ -4,9 +4,9 @@
 //! spaces between them. The parser searches it on one line if a token does not fit the grammar:
 //!
 //! - `NAME` is a name, `STATE` a name with a capital letter, `ENTRY` the name of an entry, and
-//!   `SAME` the first name again. `NUM` is a number with its unit, `TEXT` a text without its quotes.
-//!   `..` is everything up to the next token of the pattern, or to the end of the line, with
-//!   brackets and braces as a whole. Each of these is captured.
+//!   `SAME` the first name again. `NUM` is a number with its unit, `TEXT` a string without its
+//!   quotes. `..` is everything up to the next token of the pattern, or to the end of the line,
+//!   with brackets and braces as a whole. Each of these is captured.
 //! - `a|b` is an alternative, which is not captured. An empty alternative, as in `|:`, is optional.
 //! - Any other word or sign is itself; `PIPE` and `POWER` are '|' and '^'. A ';' is skipped unless the
 //!   pattern has one.
@@ -32,15 +32,15 @@ pub(crate) const PLAN: Places = 1 << 1;
 pub(crate) const BODY: Places = 1 << 2;
 /// Where an edge of a supervisor begins.
 pub(crate) const EVENTS: Places = 1 << 3;
-/// Behind the arrow of an edge.
+/// After the arrow of an edge.
 pub(crate) const TARGET: Places = 1 << 4;
-/// Behind the target of an edge.
+/// After the target of an edge.
 pub(crate) const BEHIND: Places = 1 << 5;
 /// Where an operand of a formula begins.
 pub(crate) const VALUE: Places = 1 << 6;
-/// Behind an operand.
+/// After an operand.
 pub(crate) const OPERATOR: Places = 1 << 7;
-/// Behind a template and its ports, before the braces.
+/// After a template and its ports, before the braces.
 pub(crate) const HEAD: Places = 1 << 8;
 const EDGES: Places = BODY | EVENTS;
 const ITEMS: Places = FILE | PLAN;
@@ -58,7 +58,6 @@ pub(crate) enum Write {
 }
 use Write::{Drop, Edit, Say};
 
-/// A habit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Habit {
     pub at: Places,
@@ -75,11 +74,11 @@ const fn habit(at: Places, pattern: &'static str, says: &'static str, write: Wri
 const TIME_LIMIT: &str = "a time limit is a supervisor of its element";
 const LIMIT: &str = "write in the element's braces: 'supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }'";
 const LATE: &str = "supervise late: CheckTimeout(duration = {ms:1}) { TimedOut -> {2} }";
-const NO_COMMA: &str = "between the names of states stands a ','";
+const NO_COMMA: &str = "the names of states are separated by ','";
 pub(crate) const GUARD: &str = "an edge has no condition: lead it to a computation that chooses";
 const CHOOSE: &str = "write '{1} -> choose', and in the plan: '{choose:2:3}'";
-const ACTION: &str = "an edge only leads on, it does nothing itself";
-const NO_IF: &str = "a plan has no '{word}': a computation chooses where to go on";
+const ACTION: &str = "an edge only selects the next element";
+const NO_IF: &str = "a plan has no '{word}': a computation chooses the next element";
 const NO_FORMULA_IF: &str = "formulas have no '{word}'";
 const CHOICE: &str = "write a computation, such as 'computation choose: Compare(left = {left}, right = {right}) \
                       { Less -> {here}, Equal, Greater -> terminate }'";
@@ -91,28 +90,30 @@ const BACK: &str = "remove it, and lead the last edge back to the first element:
 const FUNCTION: &str = "there is no '{word}': a program is a plan, and plans use plans";
 const PLAN_OF_ITS_OWN: &str = "write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file, outside of \
                                other plans; 'subplan' uses it";
-const PARALLEL: &str = "one element is active at a time; what runs beside it is a supervisor";
-const BESIDE: &str = "put what watches into the braces of an element: 'supervise late: CheckTimeout { TimedOut -> {here} }'";
+const PARALLEL: &str = "only one element is active at a time; supervisors watch while it runs";
+const BESIDE: &str = "add a supervisor to the braces of an element: 'supervise late: CheckTimeout { TimedOut -> {here} }'";
 const NO_HOOK: &str = "an element does one thing and has no '{word}' action";
-const NEXT_ELEMENT: &str = "remove it, write 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }' in the plan, and lead an edge to that";
-const SET_BEFORE: &str = "remove it, write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }' in the plan, and lead an edge to that";
-const NO_SENSOR: &str = "formulas read no sensor: a supervisor watches it";
+const NEXT_ELEMENT: &str = "remove it, write 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }' in the plan, and lead an edge to 'pause'";
+const SET_BEFORE: &str = "remove it, write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }' in the plan, and lead an edge to 'set'";
+const NO_SENSOR: &str = "formulas cannot read sensors: a supervisor watches them";
 const WATCH: &str = "watch it in an element's braces: 'supervise touch: CheckTouchSensor { TouchSensorPressed -> {here} }'";
 const NO_CLOCK: &str = "formulas have no clock: a supervisor measures time";
 const TIMED: &str = "write in an element's braces: 'supervise late: CheckTimeout(duration = 3 s) { TimedOut -> {here} }'";
 const SHOW: &str = "a plan has no '{word}': a computation shows a value in the log";
 const LOG: &str = "write 'computation show: Log(value = {1}) { Done -> {here} }'";
-const WAITS: &str = "a plan has no '{word}': waiting is an actor";
+const WAITS: &str = "a plan has no '{word}': an actor waits";
 const WRITES: &str = "a plan has no assignment: a computation writes to an entry";
-const NO_LIST: &str = "there are no lists: constants stand in a table";
+const NO_LIST: &str = "the language has no lists: a table has constants";
 const TABLE: &str =
     "write 'table values(value: int) { (1) (2) }' in the file, and read it with 'Row' of 'std'";
 const COUNTS_UP: &str = "write '{event} -> set', and in the plan: 'computation set: Assign(value = {1} + 1, result => {1}) { Done -> {here} }'";
-const NO_HISTORY: &str = "a plan has no history: 'return' continues what 'suspend' has set aside";
-const NO_MESSAGES: &str = "plans send nothing: an entry holds a value, and a supervisor watches it";
+const NO_HISTORY: &str =
+    "a plan has no history: 'return' continues the element that 'suspend' paused";
+const NO_MESSAGES: &str =
+    "plans do not send messages:  an entry holds a value, and a supervisor watches it";
 const CHANGED: &str = "write the entry with 'Assign', and watch it with 'supervise changed: Changed(value = {left}) { Changed -> {here} }'";
-const EDGE_OUTSIDE: &str = "an edge stands in the braces of the element that it leaves";
-const SEQUENCE: &str = "a plan has no '{word}': edges say what comes next";
+const EDGE_OUTSIDE: &str = "an edge belongs in the braces of the element that it leaves";
+const SEQUENCE: &str = "a plan has no '{word}': edges select the next element";
 
 /// Where a sign of a choice is written that no plan text can be given for.
 pub(crate) const BRANCH: &str =
@@ -132,8 +133,8 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(BODY, "after|timeout|delay |: ..", TIME_LIMIT, Say(TIMED)),
     habit(INSIDE, "timeout ( NUM ) ..", TIME_LIMIT, Say("write in the element's braces: 'supervise late: CheckTimeout(duration = {1}) { TimedOut -> {here} }'")),
     habit(PLAN, "timeout|after ..", TIME_LIMIT, Say(TIMED)),
-    habit(PLAN, "timer|every NAME : NUM ..", "a plan has no '{word}': a supervisor reports again and again", Say("write 'supervise {1}: Every(period = {2}) { Due -> {here} }'")),
-    habit(PLAN, "rate NUM ..", "a plan has no '{word}': a supervisor reports again and again", Say("write 'supervise tick: Every(period = 1 / {1}) { Due -> {here} }'")),
+    habit(PLAN, "timer|every NAME : NUM ..", "a plan has no '{word}': a supervisor reports repeatedly", Say("write 'supervise {1}: Every(period = {2}) { Due -> {here} }'")),
+    habit(PLAN, "rate NUM ..", "a plan has no '{word}': a supervisor reports repeatedly", Say("write 'supervise tick: Every(period = 1 / {1}) { Due -> {here} }'")),
 
     habit(HEAD, "timeout|within|for|max |:|=|( NUM |)", TIME_LIMIT, Drop("remove it, and write in the braces: 'supervise late: CheckTimeout(duration = {s:1}) { TimedOut -> terminate }'")),
     habit(PLAN, "timeout ( NUM ) ^ actor|subplan NAME", TIME_LIMIT, Drop("remove it, and write in the braces of '{2}': 'supervise late: CheckTimeout(duration = {s:1}) { TimedOut -> terminate }'")),
@@ -186,11 +187,11 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during |: { NAME = .. }", NO_HOOK, Say(SET_BEFORE)),
     habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during :|/ NAME = ..", NO_HOOK, Say(SET_BEFORE)),
     habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during :|/|(|{|->|=>|NAME ..", NO_HOOK, Say(NEXT_ELEMENT)),
-    habit(EDGES, "pass|nop|noop|skip", "nothing is written where nothing happens", Edit("")),
+    habit(EDGES, "pass|nop|noop|skip", "an edge needs no empty statement", Edit("")),
     habit(BODY, "tags|tag|meta|description|id|label|type : ..", "an element has no '{word}'", Edit("")),
-    habit(EDGES, "defer NAME", "events are not deferred: a supervisor reports what holds while it watches", Edit("")),
+    habit(EDGES, "defer NAME", "events are not deferred: a supervisor reports a condition for as long as it watches", Edit("")),
     habit(EDGES, "tick|Running|RUNNING|running ->|=>|: NAME", "an element that runs stays active without an edge", Edit("")),
-    habit(BODY, "cancel|cancelled|canceled|preempted|preempt|interrupted ->|=>|: NAME", "an interrupted element takes no edge: the event leads on", Edit("")),
+    habit(BODY, "cancel|cancelled|canceled|preempted|preempt|interrupted ->|=>|: NAME", "an interrupted element takes no edge: the event's edge is taken", Edit("")),
     habit(EDGES, "NAME < - NAME", "an edge leads from a state to its target", Edit("{2} -> {1}")),
 
     // Loops.
@@ -235,7 +236,7 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(VALUE, "NAME . time|now|ticks_ms|monotonic ( ..", NO_CLOCK, Say(TIMED)),
     habit(VALUE, "digitalRead|analogRead|pulseIn|readSensor|getDistance|read ( ..", NO_SENSOR, Say(WATCH)),
     habit(VALUE, "ultrasonic|sensor|bumper|lidar|sonar|encoder . NAME ..", NO_SENSOR, Say("write in an element's braces: 'supervise near: CheckDistance(distance = 30 cm) { Nearer -> {here}, Farther -> ignore }'")),
-    habit(VALUE, "len|size|length|count ( ..", "there are no lists, so nothing has a length", Say("read a 'table' with 'Row' of 'std': its state 'End' says that there are no more rows")),
+    habit(VALUE, "len|size|length|count ( ..", "there are no lists, so nothing has a length", Say("read a 'table' with 'Row' of 'std': its state 'End' follows the last row")),
 
     habit(VALUE, "Duration|duration|seconds|Seconds|secs|timedelta ( NUM )", "a time is a number with its unit", Edit("{s:1}")),
     habit(VALUE, "milliseconds|millis|ms|Millis ( NUM )", "a time is a number with its unit", Edit("{ms:1}")),
@@ -248,7 +249,7 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(INSIDE, "NAME [ .. ] = ..", NO_LIST, Say(TABLE)),
 
     // Signs in formulas.
-    habit(VALUE, "{ NAME }", "a name stands without braces", Edit("{1}")),
+    habit(VALUE, "{ NAME }", "a name has no braces", Edit("{1}")),
     habit(OPERATOR, "POWER 2", "formulas have no '^'", Say("write '{left} * {left}'")),
     habit(OPERATOR, ". *", "formulas have no '.*'", Edit(" *")),
     habit(OPERATOR, ". /", "formulas have no './'", Edit(" /")),
@@ -257,10 +258,10 @@ pub(crate) const HABITS: &[Habit] = &[
     // Actions.
     habit(TARGET, "{ NAME = .. ; NAME }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {3} }'")),
     habit(TARGET, "{ NAME = .. }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
-    habit(TARGET, "{ target : NAME }", "a target stands without braces", Edit("{1}")),
+    habit(TARGET, "{ target : NAME }", "a target has no braces", Edit("{1}")),
     habit(TARGET, "{ target : NAME ..", ACTION, Edit("{1}")),
     habit(TARGET, "send|raise|emit|broadcast|publish|dispatch|trigger|notify ( STATE )", NO_MESSAGES, Edit("terminate")),
-    habit(TARGET, "send|raise|emit|broadcast|publish|dispatch|trigger|notify |( NAME |)", "an arrow leads on, and sends nothing", Edit("{1}")),
+    habit(TARGET, "send|raise|emit|broadcast|publish|dispatch|trigger|notify |( NAME |)", "an edge cannot send an event", Edit("{1}")),
     habit(TARGET, "{ NAME + + }", ACTION, Say(COUNTS_UP)),
     habit(TARGET, "[ NAME , .. ]", "an edge leads to one element", Edit("{1}")),
     habit(TARGET, "# NAME", "a target is the name of an element", Edit("{1}")),
@@ -269,9 +270,9 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(BEHIND, "( .. ) -> NAME", ACTION, Say("write '{event} -> pause', and in the plan: 'actor pause: Wait(duration = 1 s) { Elapsed -> {2} }'")),
     habit(BEHIND, "( .. )", ACTION, Say("write '{event} -> pause', and in the plan: 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }'")),
     habit(BEHIND, "*", NO_HISTORY, Say(RETURN)),
-    habit(TARGET, "push|preempt|pushd NAME", "'suspend' sets the active element aside", Edit("suspend {1}")),
+    habit(TARGET, "push|preempt|pushd NAME", "'suspend' pauses the active element", Edit("suspend {1}")),
     habit(TARGET, "suspend ( NAME )", "'suspend' has no brackets", Edit("suspend {1}")),
-    habit(TARGET, "{ NAME }", "a target stands without braces", Edit("{1}")),
+    habit(TARGET, "{ NAME }", "a target has no braces", Edit("{1}")),
     habit(TARGET, "[ * ]", "a plan has no final state: an edge ends it", Edit("terminate")),
     habit(BEHIND, ". history|hist|last ..", NO_HISTORY, Say(RETURN)),
     habit(BEHIND, "/ NAME = ..", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {target} }'")),
@@ -284,12 +285,12 @@ pub(crate) const HABITS: &[Habit] = &[
 
     // States and events.
     habit(BODY, "< transition event = TEXT target = TEXT / >", "an edge is 'State -> target'", Edit("{1} -> {2}")),
-    habit(BODY, "< ..", "plans are not XML: an edge is 'State -> target'", Say("write '{state:here} -> terminate' in place of it")),
-    habit(BODY, "on |: { NAME : NAME }", "edges stand in the braces without 'on'", Say("write '{1} -> {2}'; an event stands in the braces of its supervisor")),
-    habit(BODY, "on : ..", "edges stand in the braces without 'on'", Say("write 'State -> {here}'; an event stands in the braces of its supervisor")),
+    habit(BODY, "< ..", "plans are not XML: an edge is 'State -> target'", Say("write '{state:here} -> terminate' instead")),
+    habit(BODY, "on |: { NAME : NAME }", "edges are written without 'on'", Say("write '{1} -> {2}'; an event belongs in the braces of its supervisor")),
+    habit(BODY, "on : ..", "edges are written without 'on'", Say("write 'State -> {here}'; an event belongs in the braces of its supervisor")),
     habit(PLAN, "on |: { ..", "a plan has no 'on': a supervisor watches", Say("write 'supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }'")),
     habit(EDGES, "target : NAME", "an edge begins with its state or event", Say("write 'State -> {1}'")),
-    habit(EDGES, "always ->|=>|: NAME", "edges have no 'always': an element that goes on at once is not needed", Say("remove it, and lead the edges that lead here to '{1}'")),
+    habit(EDGES, "always ->|=>|: NAME", "edges have no 'always': an element that takes no time is not needed", Say("remove it, and lead the edges that lead here to '{1}'")),
     habit(PLAN, "initial|init|begin|root|entry |:|=|-> NAME", "a plan begins with 'start'", Edit("start {1}")),
     habit(PLAN, "[ * ] |- -> NAME", "a plan begins with 'start'", Edit("start {1}")),
     habit(ITEMS, "states|nodes|steps|tasks :|=|{ ..", "elements are not listed: each is an item of the plan", Say("write each as 'actor idle: Wait(duration = 1 s) { Elapsed -> {here} }'")),
@@ -298,10 +299,10 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(ITEMS, "parallel ..", PARALLEL, Say(BESIDE)),
     habit(PLAN, "final state NAME", "a plan has no final state: an edge ends it", Say("write '-> terminate' where an edge leads to '{1}'")),
     habit(PLAN, "final|final_state NAME", "a plan has no final state: an edge ends it", Say("write '-> terminate' where an edge leads to '{1}'")),
-    habit(PLAN, "state|composite NAME { actor|state|initial|start ..", "elements with elements inside are a plan of their own", Say("write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file, and 'subplan {1}: {Large:1} { OK -> {here} }'")),
+    habit(PLAN, "state|composite NAME { actor|state|initial|start ..", "an element that contains elements is a plan", Say("write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file, and 'subplan {1}: {Large:1} { OK -> {here} }'")),
     habit(PLAN, "state|action|step|task|behavior|behaviour NAME { ..", "a state of a plan is an actor, made from a template", Say("write 'actor {1}: Wait(duration = 1 s) { Elapsed -> {here} }'")),
     habit(PLAN, "history ..", NO_HISTORY, Say(RETURN)),
-    habit(PLAN, "context|data|variables|vars|userdata|blackboard |:|= { NAME :|= .. }", "each entry is an item of its own", Say("write 'var {1}: int = {2}'")),
+    habit(PLAN, "context|data|variables|vars|userdata|blackboard |:|= { NAME :|= .. }", "each entry is a separate item", Say("write 'var {1}: int = {2}'")),
     habit(PLAN, "blackboard|userdata|context|data NAME : NAME", "a plan has no '{word}': an entry holds a value", Edit("var {1}: {2}")),
     habit(PLAN, "delay|timeout NAME |:|= NUM", "an entry that never changes begins with 'const'", Edit("const {1} = {2}")),
     habit(PLAN, "transition|edge| NAME to NAME on|when|if NAME", EDGE_OUTSIDE, Say("write '{3} -> {2}' in the braces of '{1}'")),
@@ -312,28 +313,28 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "transition|edge| NAME -> NAME", EDGE_OUTSIDE, Say("write '{state:1} -> {2}' in the braces of '{1}'")),
     habit(PLAN, "NAME - - -> NAME", EDGE_OUTSIDE, Say("write '{state:1} -> {2}' in the braces of '{1}'")),
     habit(INSIDE, "send|raise|emit|trigger|broadcast|notify|publish|dispatch ..", NO_MESSAGES, Say(CHANGED)),
-    habit(INSIDE, "goto|goTo|transition_to|next NAME", "a plan has no '{word}': an edge leads on", Say("write 'State -> {1}' in the braces of an element")),
-    habit(INSIDE, "break|continue|return|stop|exit|end |NAME ..", "a plan has no '{word}': an edge leads on or ends it", Say("write '{state:here} -> terminate' in the braces of '{here}', or give a value out with an 'out' entry")),
+    habit(INSIDE, "goto|goTo|transition_to|next NAME", "a plan has no '{word}': an edge selects the next element", Say("write 'State -> {1}' in the braces of an element")),
+    habit(INSIDE, "break|continue|return|stop|exit|end |NAME ..", "a plan has no '{word}': an edge selects the next element or ends the plan", Say("write '{state:here} -> terminate' in the braces of '{here}', or return a value in an 'out' entry")),
 
     // Behaviour trees.
     habit(ITEMS, "sequence|seq|chain |NAME { NAME |, NAME ..", SEQUENCE, Say("write '{state:1} -> {2}' in the braces of '{1}'")),
-    habit(ITEMS, "fallback|selector |NAME { NAME |, NAME ..", "a plan has no '{word}': an 'Error' edge leads to what comes instead", Say("write 'Error -> {2}' in the braces of '{1}'")),
-    habit(ITEMS, "reactive|memory|async|parallel sequence|fallback|selector ..", "a plan has no '{word}' nodes: a supervisor watches during an element", Say("write in the element's braces: 'supervise near: CheckDistance { Nearer -> {here}, Farther -> ignore }'")),
-    habit(ITEMS, "decorator ..", "a plan has no decorators: each state has an edge of its own", Say("lead the edge of each state where it should: 'Error -> {here}'")),
-    habit(ITEMS, "< ..", "plans are not XML: each leaf of a tree is an element", Say("write 'actor step: Forward { ForwardSuccessful -> {here} }' for a leaf, and '->' to what comes next")),
+    habit(ITEMS, "fallback|selector |NAME { NAME |, NAME ..", "a plan has no '{word}': an 'Error' edge leads to the alternative", Say("write 'Error -> {2}' in the braces of '{1}'")),
+    habit(ITEMS, "reactive|memory|async|parallel sequence|fallback|selector ..", "a plan has no '{word}' nodes: a supervisor watches while an element runs", Say("write in the element's braces: 'supervise near: CheckDistance { Nearer -> {here}, Farther -> ignore }'")),
+    habit(ITEMS, "decorator ..", "a plan has no decorators: each state has its own edge", Say("connect each state to its own target: 'Error -> {here}'")),
+    habit(ITEMS, "< ..", "plans are not XML: each leaf of a tree is an element", Say("write 'actor step: Forward { ForwardSuccessful -> {here} }' for a leaf, and '->' to the next element")),
     habit(ITEMS, "sequence|seq|chain|fallback|selector ..", SEQUENCE, Say("write 'State -> {here}' in the braces of the element before it")),
-    habit(PLAN, "inverter|invert|force_success|force_failure|succeeder ..", "a plan has no '{word}': each state has an edge of its own", Say("lead the edge of each state where it should: 'Error -> {here}'")),
+    habit(PLAN, "inverter|invert|force_success|force_failure|succeeder ..", "a plan has no '{word}': each state has its own edge", Say("connect each state to its own target: 'Error -> {here}'")),
     habit(PLAN, "subtree|submachine|sub NAME ..", "a plan in a plan is a 'subplan'", Say("write 'subplan {1}: {Large:1} { OK -> {here} }'")),
 
     // ROS.
-    habit(PLAN, "topic NAME : NAME", "a plan has no topics: an entry holds a value", Say("write 'in {1}: {2}', and a value behind it")),
+    habit(PLAN, "topic NAME : NAME", "a plan has no topics: an entry holds a value", Say("write 'in {1}: {2}', and a value after it")),
     habit(PLAN, "subscribe|subscriber|callback|listen ..", "a plan has no '{word}': a supervisor watches", Say("write in an element's braces or in the plan: 'supervise near: CheckDistance { Nearer -> {here}, Farther -> ignore }'")),
     habit(PLAN, "publisher|advertise|topic ..", NO_MESSAGES, Say(CHANGED)),
-    habit(PLAN, "service|rosservice|action_client|action_server ..", "a plan has no '{word}': a plan is used by a plan", Say("write a plan of its own, and use it with 'subplan'")),
-    habit(PLAN, "remap ..", "a plan has no '{word}': each element names what it reads and writes", Say("write it in the parentheses of the element: 'port = entry' or 'port => entry'")),
+    habit(PLAN, "service|rosservice|action_client|action_server ..", "a plan has no '{word}': plans use other plans", Say("write a separate plan, and use it with 'subplan'")),
+    habit(PLAN, "remap ..", "a plan has no '{word}': each element names the entries that it reads and writes", Say("write it in the parentheses of the element: 'port = entry' or 'port => entry'")),
     habit(ITEMS, "launch|roslaunch ..", "a plan starts nothing: 'afpc run' starts it", Edit("")),
     habit(PLAN, "spin|spinOnce|ros|rclpy |( ..", "a plan runs by itself", Say("remove it")),
-    habit(BODY, "feedback|result ..", "outputs go to entries, in the brackets of the template", Say("write 'driven => {left}' in the brackets behind '{template}'")),
+    habit(BODY, "feedback|result ..", "outputs go to entries, in the brackets of the template", Say("write 'driven => {left}' in the brackets after '{template}'")),
 
     // Declarations.
     habit(PLAN, "static|const|constexpr const|int|long|float|double|bool|byte |int|long|float NAME = NUM", "an entry that never changes begins with 'const'", Edit("const {1} = {2}")),
@@ -344,7 +345,7 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "bool|boolean NAME = true|false", "an entry begins with 'var', and its type follows the name", Edit("var {1}: bool = {last}")),
     habit(PLAN, "let|auto|local|global|val|def|my|private|public|static|readonly|persistent mut|const|static|var| NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
     habit(PLAN, "let|auto|local|global|val|def|my|private|public|static|readonly|persistent mut|const|static|var| NAME : ..", "an entry begins with 'var'", Edit("var {1}: {2}")),
-    habit(FILE, "const|let|var|static NAME = ..", "entries stand in the braces of a plan", Say("move it into the plan, as 'const {small:1}: int = {2}'")),
+    habit(FILE, "const|let|var|static NAME = ..", "entries belong in the braces of a plan", Say("move it into the plan, as 'const {small:1}: int = {2}'")),
     habit(PLAN, "ENTRY = ..", WRITES, Say("write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
     habit(INSIDE, "ENTRY + = ..", WRITES, Say("write 'computation set: Assign(value = {1} + {2}, result => {1}) { Done -> {here} }' in the plan")),
     habit(INSIDE, "ENTRY - = ..", WRITES, Say("write 'computation set: Assign(value = {1} - {2}, result => {1}) { Done -> {here} }' in the plan")),
@@ -358,7 +359,7 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(PLAN, "self|this . NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
     habit(PLAN, "NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
 
-    habit(PLAN, "param|parameter|input|argument NAME = NUM", "an entry that is given from outside begins with 'in', and has a type", Edit("in {1}: {type:2} = {2}")),
+    habit(PLAN, "param|parameter|input|argument NAME = NUM", "an entry that is set from outside begins with 'in', and has a type", Edit("in {1}: {type:2} = {2}")),
 
     // Functions, classes and files.
     habit(INSIDE, "\"\" TEXT \"\"", "help text begins with '///'", Edit("/// {1}")),

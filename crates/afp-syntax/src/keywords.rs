@@ -36,7 +36,7 @@ pub(crate) const NAMED: Roles = ENTRY | ELEMENT | SUPERVISE;
 /// Begins an item of a plan.
 pub(crate) const PLAN: Roles = NAMED | START;
 
-/// The words of the grammar with roles, in the order of help texts.
+/// The keywords with their roles, in the order of help messages.
 const WORDS: &[(&str, Roles)] = &[
     ("use", TOP | BEHIND_NUMBER),
     ("plan", TOP | HEAD | BEHIND_NUMBER | DECLARES),
@@ -99,7 +99,6 @@ const WORDS: &[(&str, Roles)] = &[
 /// The endings of a plan: the words after `end by`.
 pub const ENDS: [&str; 3] = ["OK", "Interrupted", "Error"];
 
-/// Whether a word has one of these roles.
 pub(crate) fn has(word: &str, roles: Roles) -> bool {
     WORDS.iter().any(|(known, own)| *known == word && own & roles != 0)
 }

@@ -16,7 +16,7 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Blanks and line breaks.
+    /// Spaces and line breaks.
     Whitespace
     /// `// ...` to the end of the line.
     Comment
@@ -24,17 +24,15 @@ kinds! {
     Doc
     /// `/* ... */`, an error.
     BlockComment
-    /// A name, or a word that could be one.
     Name
     /// A word of the grammar where the grammar expects it.
     Keyword
-    /// Digits.
     Int
     /// Digits with a point or an exponent.
     Float
     /// A unit on its number's line.
     Unit
-    /// A text in double quotes.
+    /// A string in double quotes.
     Text
     /// `(`
     OpenParen
@@ -88,14 +86,12 @@ kinds! {
     Greater
     /// `>=`
     GreaterEqual
-    /// Unknown characters, an error.
     Unknown
     /// The end of the file; never in a tree.
     End
 
     /// Text that fits nowhere, an error.
     Error
-    /// A whole file.
     File
     /// `afp 1`
     Version
@@ -137,7 +133,6 @@ kinds! {
     Variant
     /// A table of constants.
     Table
-    /// The columns of a table in their brackets.
     Columns
     /// `name: type`
     Column
@@ -253,7 +248,7 @@ impl Kind {
         match self {
             Kind::Name => "a name",
             Kind::Int => "a whole number",
-            Kind::Text => "a text in double quotes",
+            Kind::Text => "a string in double quotes",
             Kind::OpenParen => "'('",
             Kind::CloseParen => "')'",
             Kind::OpenBrace => "'{'",
@@ -267,7 +262,6 @@ impl Kind {
     }
 }
 
-/// The language of the tree, for rowan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Afp {}
 

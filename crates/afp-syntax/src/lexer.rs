@@ -1,4 +1,4 @@
-//! Splits a text into tokens.
+//! Splits source text into tokens.
 //!
 //! Every byte of any text belongs to exactly one token. A unit is a token only after a number on
 //! the same line, so that `20 cm/s` is a speed and `20 cm / s` divides.
@@ -44,7 +44,7 @@ impl Token<'_> {
 
 /// Splits `text` into tokens, trivia included.
 pub(super) fn lex<'t>(text: &'t str, file: u16, diags: &mut Diagnostics) -> Vec<Token<'t>> {
-    // Texts have about that many tokens; without it the vector would be copied repeatedly.
+    // Files have about this number of tokens; the capacity avoids repeated copies.
     let tokens = Vec::with_capacity(text.len() / 3);
     let mut lexer =
         Lexer { text, at: 0, file, tokens, diags, line: Line::default(), unclosed_comment: false };
@@ -62,7 +62,6 @@ struct Lexer<'t, 'd> {
     tokens: Vec<Token<'t>>,
     diags: &'d mut Diagnostics,
     line: Line,
-    /// Whether it is an unclosed comment.
     unclosed_comment: bool,
 }
 
@@ -73,7 +72,7 @@ struct Line {
     start: usize,
     /// Its end, without the line break; the first byte after `start` until it is known.
     end: usize,
-    /// No quote of another language ends a text before this byte.
+    /// No quote of another language ends a string before this byte.
     unquoted: usize,
     /// The next sign of a plan's text, or the end of the line; `None` until it is searched.
     sign: Option<usize>,
@@ -141,7 +140,6 @@ impl<'t> Lexer<'t, '_> {
         span
     }
 
-    /// The current line.
     fn line(&mut self) -> Line {
         if self.at >= self.line.end {
             let start = self.text[..self.at].rfind('\n').map_or(0, |end| end + 1);
@@ -188,7 +186,7 @@ impl<'t> Lexer<'t, '_> {
         );
     }
 
-    /// A text that ends on the next line, after words only: its length, and the text on one line.
+    /// A string that ends on the next line, after words only: its length, and its text on one line.
     fn text_of_lines(&self, line: &str) -> Option<(usize, String)> {
         let behind = self.text.get(self.at + line.len()..)?.trim_start_matches(['\r', '\n']);
         let end = behind[..line_length(behind)].find('"')?;
@@ -244,7 +242,7 @@ impl<'t> Lexer<'t, '_> {
         self.unit();
     }
 
-    /// A text up to the closing quote, at most to the end of the line.
+    /// A string up to the closing quote, at most to the end of the line.
     fn quoted(&mut self) {
         let line = self.rest_of_line();
         let mut escaped = false;
@@ -259,7 +257,7 @@ impl<'t> Lexer<'t, '_> {
                 _ => {}
             }
         }
-        // The opening brace of a body does not belong to the text.
+        // The opening brace of a body does not belong to the string.
         let before_brace = line.trim_end().strip_suffix('{').map(str::trim_end);
         let line = before_brace.map_or(line, |line| match line.rsplit_once(" for ") {
             Some((text, _)) => text,
@@ -269,19 +267,18 @@ impl<'t> Lexer<'t, '_> {
         let span = self.push(Kind::Text, line.trim_end().len());
         if let Some((length, text)) = joined {
             let place = Span { end: span.start + u32::try_from(length).unwrap_or(0), ..span };
-            let error = Diagnostic::new(Code::E0104, place, "a text stands on one line");
+            let error = Diagnostic::new(Code::E0104, place, "a string cannot span lines");
             self.diags.push(error.write(text));
             self.push(Kind::BlockComment, length - line.trim_end().len());
             return;
         }
         self.diags.push(
-            Diagnostic::new(Code::E0104, span, "the text is not closed on its line")
+            Diagnostic::new(Code::E0104, span, "unterminated string")
                 .help("end it with '\"'")
                 .fix(span.after(), "\""),
         );
     }
 
-    /// Reports the characters that make the text look different, wherever they are.
     fn report_hidden(&mut self) {
         for hidden in hidden(self.text) {
             let span = self.span(hidden.span.start, hidden.span.end);

@@ -1,6 +1,6 @@
 //! The lossless syntax tree of Action Flow Plans, and its diagnostics.
 //!
-//! This crate knows the grammar but not the meaning of a text. It does no I/O. In the workspace it
+//! This crate knows the grammar but not the meaning of a plan. It does no I/O. In the workspace it
 //! depends only on `afp-excerpt`, which shows the places of mistakes, and on `afp-types`, which
 //! reads numbers.
 

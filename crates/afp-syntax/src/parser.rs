@@ -37,7 +37,6 @@ use marks::Marks;
 /// Maximum depth of brackets and signs in formulas and skipped text.
 const MAX_DEPTH: usize = 64;
 
-/// Parses a whole file.
 pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> GreenNode {
     let foreign = diags.iter().filter(|it| it.span.file == file && it.code == Code::E0101);
     let foreign = foreign.map(|it| it.span.start).collect();
@@ -188,7 +187,6 @@ impl<'t, 'd> Parser<'t, 'd> {
         }
     }
 
-    /// The token before the next one.
     fn before(&self) -> Option<Token<'t>> {
         let before = self.solid.get(self.at.checked_sub(1)?)?;
         self.tokens.get(*before as usize).copied()

@@ -1,4 +1,4 @@
-//! The value of a text in double quotes.
+//! The value of a string in double quotes.
 
 use crate::ast::Name;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -27,7 +27,7 @@ pub fn unquote(quoted: &Name, diags: &mut Diagnostics) -> String {
                         Diagnostic::new(
                             Code::E0104,
                             span,
-                            message!("there is no escape '\\{}'", other),
+                            message!("unknown escape '\\{}'", other),
                         )
                         .help(message!("write '\\\\{}' for a backslash", other))
                         .replace(format!("\\\\{other}")),

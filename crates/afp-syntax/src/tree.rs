@@ -1,4 +1,4 @@
-//! Parses a text to a lossless tree.
+//! Parses a file to a lossless tree.
 //!
 //! Parsing never fails: for any text, the tree holds every byte, and every error is reported. The
 //! tree knows the grammar only; names and types are checked later.
@@ -30,7 +30,7 @@ impl Parse {
     }
 }
 
-/// Parses a text; `file` is the index for spans.
+/// Parses a file; `file` is its index for spans.
 ///
 /// Takes time and memory linear in the length of the text, and a stack of bounded depth.
 pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
@@ -40,7 +40,7 @@ pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
     Parse { green, file }
 }
 
-/// Counts the tokens of a text. A compilation does this first, to limit the cost of its other
+/// Counts the tokens of a file. A compilation does this first, to limit the cost of its other
 /// stages.
 pub fn count_tokens(text: &str) -> usize {
     lexer::lex(text, 0, &mut Diagnostics::default()).len()

@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn absurd_units_are_no_units() {
+    fn absurd_units_are_rejected() {
         assert_eq!(Unit::parse("h^9*h^9"), None);
         assert_eq!(Unit::parse("m^99"), Unit::parse("m^100"));
     }

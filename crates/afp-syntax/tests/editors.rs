@@ -101,19 +101,19 @@ fn words(pattern: &str) -> Vec<String> {
     plain.split_whitespace().map(str::to_owned).collect()
 }
 
-/// The texts in double quotes, line by line, except in comments.
+/// The strings in double quotes, line by line, except in comments.
 fn quoted(text: &str, comment: &str) -> BTreeSet<String> {
     let code = text.lines().map(|line| line.split(comment).next().unwrap_or_default());
     code.flat_map(|line| line.split('"').skip(1).step_by(2)).map(str::to_owned).collect()
 }
 
 #[test]
-fn visual_studio_code_knows_every_word() {
+fn visual_studio_code_highlights_every_word() {
     compare(&coloured(), NAMES);
 }
 
 #[test]
-fn tree_sitter_knows_every_word() {
+fn tree_sitter_has_every_word() {
     let text = fs::read_to_string(path("editors/tree-sitter-afp/queries/highlights.scm")).unwrap();
     let words = quoted(&text, ";").into_iter().filter(|word| word.starts_with(char::is_alphabetic));
     // There, truth values are a separate kind of node.
@@ -123,7 +123,7 @@ fn tree_sitter_knows_every_word() {
 }
 
 #[test]
-fn tree_sitter_knows_every_unit() {
+fn tree_sitter_has_every_unit() {
     let quoted: Vec<_> = Unit::symbols().map(|symbol| format!("\"{symbol}\"")).collect();
     let lines: Vec<_> =
         quoted.chunks(13).map(|line| format!("    {},\n", line.join(", "))).collect();
@@ -133,13 +133,13 @@ fn tree_sitter_knows_every_unit() {
 }
 
 #[test]
-fn visual_studio_code_knows_every_unit() {
+fn visual_studio_code_highlights_every_unit() {
     let wanted = Unit::symbols().collect::<Vec<_>>().join("|");
     let around = (r"\\s*(", r")(?![A-Za-z_])");
     compare_part("editors/vscode/syntaxes/afp.tmLanguage.json", around, &wanted);
 }
 
-/// Compares the part of a file between two texts with the correct text; `AFP_BLESS=1` rewrites it
+/// Compares the part of a file between two markers with the correct text; `AFP_BLESS=1` rewrites it
 /// instead.
 fn compare_part(file: &str, (before, behind): (&str, &str), wanted: &str) {
     let text = fs::read_to_string(path(file)).unwrap();
@@ -152,8 +152,8 @@ fn compare_part(file: &str, (before, behind): (&str, &str), wanted: &str) {
     assert_eq!(actual, wanted, "{file} is behind: 'AFP_BLESS=1' writes it");
 }
 
-/// Compares the words that an editor highlights with those of the language, including names that
-/// need no declaration.
+/// Compares the highlighted words of an editor with the language's words, including names without a
+/// declaration.
 fn compare(coloured: &BTreeSet<String>, names: &[&str]) {
     let mut keywords = keywords();
     keywords.extend(names.iter().map(|name| (*name).to_owned()));

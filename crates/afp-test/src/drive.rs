@@ -222,7 +222,7 @@ impl Judge<'_> {
     fn note_not_done(&mut self, line: usize, end: Instant) {
         let Some(stimulus) = self.scenario.stimuli.get(line) else { return };
         let (text, span) = (stimulus.text.clone(), stimulus.span);
-        let why = format!("this was not done: the run was over at {:.3} s", end.as_secs_f64());
+        let why = format!("this did not happen: the run was over at {:.3} s", end.as_secs_f64());
         self.broken.push(Broken { text, span, at: end, why });
     }
 
@@ -238,10 +238,10 @@ impl Judge<'_> {
         let holder = Holder::Entry(TraceEntryId(index as u32));
         let [held, known] = [held, known].map(|value| holder.named(view.names(), value));
         self.broken.push(Broken {
-            text: "(entries hold what was committed)".to_owned(),
+            text: "(an entry has its last committed value)".to_owned(),
             span: self.scenario.span,
             at: view.now(),
-            why: format!("'{name}' holds {held}, its last commit was {known}"),
+            why: format!("'{name}' is {held}, but its last commit was {known}"),
         });
         self.is_consistent = false;
     }

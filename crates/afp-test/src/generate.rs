@@ -134,7 +134,7 @@ impl Generated {
                 let judged = match came.get(&*draft.title) {
                     _ if draft.proven => Ok(()),
                     Some(verdict) => draft.judge(verdict),
-                    None => Err(format!("'{}' is no scenario of the plan", draft.title)),
+                    None => Err(format!("'{}' is not a scenario of the plan", draft.title)),
                 };
                 judged.map_err(|why| left_out.push(why)).is_ok()
             });

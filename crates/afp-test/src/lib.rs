@@ -56,7 +56,7 @@ pub fn run(
     log: Option<Recording<'_>>,
 ) -> Result<Verdict, RunError> {
     let came = run_while(scenario, setting, robot, log, &mut || true)?;
-    came.ok_or_else(|| RunError::usage("the scenario was called off", "run it again"))
+    came.ok_or_else(|| RunError::usage("the scenario was cancelled", "run it again"))
 }
 
 /// Runs a scenario like [`run`], while `go_on` returns true. It is called whenever time is about to

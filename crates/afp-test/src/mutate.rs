@@ -1,6 +1,6 @@
 //! Mutation tests for scenarios: small changes of the plan should break them.
 //!
-//! [`mutants`] makes the changed texts. A [`Bench`] holds the scenarios of a plan and judges each
+//! [`mutants`] creates the changed files. A [`Bench`] holds the scenarios of a plan and judges each
 //! mutant. Nothing here prints or starts a thread; callers can judge several mutants at once.
 
 mod bench;
@@ -96,7 +96,7 @@ scenario \"x\" for P { expect end within 3 s }
         let number = |one: &str, other: &str| told.contains(one) || told.contains(other);
         assert!(number("11: 60 deg => 120 deg", "11: 60 deg => 30 deg"), "{told}");
         assert!(number("6: 20 ms => 40 ms", "6: 20 ms => 10 ms"), "{told}");
-        assert!(!told.contains("3 s"), "scenarios stay as they are\n{told}");
+        assert!(!told.contains("3 s"), "scenarios do not change\n{told}");
     }
 
     #[test]

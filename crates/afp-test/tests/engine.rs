@@ -96,8 +96,12 @@ const FREE: &str = "robot at (3.5 m, 2.4 m) heading 0 deg\n";
 fn an_unreached_expectation_fails() {
     let short = format!("{FREE} at 1 s: press escape\n expect end\n until 40 s\n");
     // The robot rests for a second after the end of its plan.
-    breaks(&format!("{short} at 30 s: press touch"), "not done: the run was over at 2.000 s", 2.0);
-    breaks(&format!("{short} at 30 s: fail wheels.slip"), "not done: the run was over", 2.0);
+    breaks(
+        &format!("{short} at 30 s: press touch"),
+        "did not happen: the run was over at 2.000 s",
+        2.0,
+    );
+    breaks(&format!("{short} at 30 s: fail wheels.slip"), "did not happen: the run was over", 2.0);
     for claim in [
         "collision",
         "halted",
@@ -127,7 +131,7 @@ fn an_unreached_expectation_fails() {
 }
 
 #[test]
-fn each_kind_of_claim_is_kept() {
+fn each_kind_of_claim_can_hold() {
     passes(&format!(
         "{FREE} set way = 20 cm
         expect go -> count by ForwardSuccessful before 10 s
@@ -192,29 +196,29 @@ plan Ahead {
 }
 
 #[test]
-fn each_kind_of_claim_breaks() {
+fn each_kind_of_claim_can_fail() {
     breaks("expect go -> back before 100 ms\n until 1 s", "did not happen", 0.099_999_999);
     breaks("expect back active before 1 s", "did not happen", 0.999_999_999);
-    breaks("at 1 s: press touch\n never go -> back by touch", "it was so", 1.0);
-    breaks("at 1 s: press touch\n expect go active always\n until 2 s", "otherwise", 1.0);
+    breaks("at 1 s: press touch\n never go -> back by touch", "it held", 1.0);
+    breaks("at 1 s: press touch\n expect go active always\n until 2 s", "did not hold", 1.0);
     breaks("at 1 s: press touch\n expect go -> back within 2 ms after 1.5 s", "at 1.000 s", 1.502);
     breaks("expect way == 2 m\n until 1 s", "in the end it is 1 m", 1.0);
     breaks("at 1 s: set way = 2 m\n expect way == 1 m always\n until 2 s", "it is 2 m", 1.0);
     breaks("at 1 s: press escape\n expect end by OK", "as Interrupted", 2.0);
     breaks("expect end before 1 s\n until 1 s", "did not end", 0.999_999_999);
-    breaks("expect collision before 1 s", "it was not so", 0.999_999_999);
+    breaks("expect collision before 1 s", "it did not hold", 0.999_999_999);
     breaks(
         "at 1 s: press touch\n expect interrupt of go 2 times\n until 2 s",
         "once, at 1.000",
         2.0,
     );
     breaks("at 1 s: press touch\n expect commit by go once\n until 2 s", "did not happen", 2.0);
-    breaks("expect halted always\n until 2 s", "it was not so", 0.01);
-    breaks("expect standing after 1 s\n until 2 s", "it was not so", 2.0);
-    breaks("expect robot.pose.x > 90 m\n until 2 s", "it was otherwise; in the end it is", 2.0);
+    breaks("expect halted always\n until 2 s", "it did not hold", 0.01);
+    breaks("expect standing after 1 s\n until 2 s", "it did not hold", 2.0);
+    breaks("expect robot.pose.x > 90 m\n until 2 s", "it did not hold; in the end it is", 2.0);
     breaks("expect way < gone\n until 1 s", "in the end it is 1 m, compared with ", 1.0);
-    breaks("never robot.pose.x > -90 m after 1 s\n until 2 s", "it was so", 1.0);
-    breaks("at 1 s: press escape\n expect running always\n until 5 s", "otherwise", 1.0);
+    breaks("never robot.pose.x > -90 m after 1 s\n until 2 s", "it held", 1.0);
+    breaks("at 1 s: press escape\n expect running always\n until 5 s", "did not hold", 1.0);
 }
 
 #[test]
@@ -246,7 +250,7 @@ fn messages_show_values_like_the_timeline() {
     ] {
         let verdict = run_of(plan, &format!("expect {claim} always after 10 ms\n until 1 s"));
         let whys: Vec<_> = verdict.broken.iter().map(|broken| broken.why.as_str()).collect();
-        assert_eq!(whys, [format!("it was otherwise; in the end it is {is}")], "{claim}");
+        assert_eq!(whys, [format!("it did not hold; in the end it is {is}")], "{claim}");
     }
 }
 
@@ -274,7 +278,11 @@ fn presses_that_overlap_hold_until_the_last_one_ends() {
         assert!(verdict.passed(), "{lines}\n{}", verdict.report());
     }
     let late = run_of(plan, "expect wait active\n at 11.5 s: release touch\n until 12 s");
-    assert!(late.broken.iter().any(|it| it.why.contains("this was not done")), "{}", late.report());
+    assert!(
+        late.broken.iter().any(|it| it.why.contains("this did not happen")),
+        "{}",
+        late.report()
+    );
 }
 
 #[test]
@@ -410,8 +418,8 @@ fn idle_actors_are_active_and_do_nothing() {
     assert_eq!(
         whys[..2],
         [
-            "expect halted always after 1.1 s: it was not so",
-            "expect standing always after 1.5 s: it was not so",
+            "expect halted always after 1.1 s: it did not hold",
+            "expect standing always after 1.5 s: it did not hold",
         ]
     );
 }
@@ -426,17 +434,17 @@ fn an_unexpected_error_breaks_a_scenario() {
 }
 
 #[test]
-fn the_same_scenario_is_the_same_run() {
+fn a_scenario_repeats_its_run() {
     let lines = "seed 3\n set way = 20 cm\n expect end";
     assert_eq!(run(lines).trace, run(lines).trace);
     assert_ne!(run(lines).trace, run(&lines.replace("seed 3", "seed 4")).trace);
 }
 
 #[test]
-fn the_report_shows_the_timeline_around_what_broke() {
+fn the_report_shows_the_timeline_around_the_failed_claim() {
     let verdict = run("at 1 s: press touch\n never go -> back by touch\n until 3 s");
     let report = verdict.report();
-    assert!(report.contains("never go -> back by touch\n    1.000 s: it was so\n"), "{report}");
+    assert!(report.contains("never go -> back by touch\n    1.000 s: it held\n"), "{report}");
     let (before, behind) = report.split_once("broken here").unwrap();
     assert!(before.contains("TouchSensorPressed → back") && !behind.contains("→ back"), "{report}");
 }

@@ -215,7 +215,7 @@ fn scenarios_without_an_interruption_are_listed() {
 }
 
 #[test]
-fn errors_and_supervisors_of_sub_plans_lead_on_too() {
+fn errors_and_supervisors_of_sub_plans_are_generated() {
     let plan = "use carbot\nplan Errand {
             start go
             subplan go: Go { OK -> terminate }
@@ -242,7 +242,7 @@ fn errors_and_supervisors_of_sub_plans_lead_on_too() {
 const OUT_OF_REACH: [&str; 3] = ["'shift.aside", "'pass.avoid", "'elsewhere.go.free"];
 
 #[test]
-fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
+fn every_event_of_the_shipped_plans_interrupts() {
     let files = fs::read_dir(root().join("plans")).unwrap().map(|entry| entry.unwrap().path());
     let files: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "afp")).collect();
     assert!(!files.is_empty());
@@ -273,7 +273,7 @@ fn testable(file: &Path) -> Made {
 }
 
 #[test]
-fn every_event_in_the_sub_plans_of_the_example_does_too() {
+fn every_event_in_the_examples_sub_plans_interrupts() {
     let robot = afp_sim::carbot(|registry: &mut Registry<Simulation>| {
         shop::register(registry);
     });

@@ -19,7 +19,6 @@ impl Token {
         Ok(Token(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
     }
 
-    /// A token from a known word.
     pub fn from_word(word: &str) -> Token {
         Token(word.to_owned())
     }

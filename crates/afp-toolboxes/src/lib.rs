@@ -12,7 +12,6 @@ pub mod project;
 pub struct Builtin {
     /// The name for `use`.
     pub name: &'static str,
-    /// The name of its file, for diagnostics.
     pub file_name: &'static str,
     /// The text of its file.
     pub text: &'static str,
@@ -137,13 +136,13 @@ mod tests {
     }
 
     #[test]
-    fn no_name_of_an_icon_leads_out_of_its_folder() {
+    fn no_icon_name_leaves_its_folder() {
         assert!(ICONS.iter().all(|(name, _)| is_icon_name(name)));
         assert!(!["", "../x", "a/b", "a.svg", "é"].iter().any(|name| is_icon_name(name)));
     }
 
     #[test]
-    fn an_unknown_icon_is_none() {
+    fn an_unknown_icon_is_not_found() {
         assert!(icon("teapot").is_none());
     }
 }

@@ -16,14 +16,12 @@ use afp_dsl::toolbox::Toolbox;
 use afp_project::{CrateLink, Mistake, ProjectError, ProjectFile, ToolboxFile, shown};
 use afp_syntax::source::Source;
 
-/// A project and its own toolboxes.
 #[derive(Debug)]
 pub struct OwnToolboxes {
     pub project: ProjectFile,
     files: Vec<ToolboxFile>,
 }
 
-/// A toolbox of the project and its crate.
 #[derive(Clone, Debug)]
 pub struct OwnToolbox {
     pub name: String,
@@ -95,7 +93,6 @@ impl OwnToolboxes {
         &self.files
     }
 
-    /// Names and texts of the toolboxes.
     pub fn texts(&self) -> impl Iterator<Item = (&str, &str)> {
         self.files.iter().map(|file| (file.toolbox.name.as_str(), file.text.as_str()))
     }
@@ -191,7 +188,7 @@ fn misnamed(file: &ToolboxFile) -> Mistake {
     Mistake {
         span: Some(file.toolbox.span.clone()),
         message: format!("'{}' does not begin with 'toolbox {name}'", path.display()),
-        help: "write the name that stands behind 'toolbox' in the file".to_owned(),
+        help: "write the name after 'toolbox' in the file".to_owned(),
     }
 }
 

@@ -219,7 +219,7 @@ mod tests {
     ];
 
     #[test]
-    fn numbers_go_through_the_whole_table() {
+    fn numbers_continue_through_the_whole_table() {
         for (words, id) in [
             ("bumper.left", Some(0)),
             ("right", Some(1)),

@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_the_wrong_way_round_are_an_error() {
+    fn bounds_in_the_wrong_order_are_an_error() {
         assert_eq!(Function::Clamp.of_floats([1.0, 2.0, 1.0]), Err(Error::NoRange));
         assert_eq!(Function::Clamp.of_ints([1, 2, 1]), Err(Error::NoRange));
         assert_eq!(Function::Clamp.of_ints([7, 2, 5]), Ok(5));
@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn values_of_functions() {
+    fn functions_have_their_values() {
         let float = |function: Function, a, b| function.of_floats([a, b, 0.0]).unwrap_or(f64::NAN);
         assert_eq!(float(Function::Abs, -2.5, 0.0), 2.5);
         assert_eq!((float(Function::Min, 1.0, -2.0), float(Function::Max, 1.0, -2.0)), (-2.0, 1.0));

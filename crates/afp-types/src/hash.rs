@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_hash_as_the_whole() {
+    fn the_hash_of_pieces_equals_the_hash_of_the_whole() {
         let mut hash = TextHash::of("foo");
         hash.add("bar");
         assert_eq!(hash, TextHash::of("foobar"));

@@ -83,12 +83,12 @@ pub enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Error::Overflow => "an integer leaves 64 bits",
+            Error::Overflow => "an integer does not fit 64 bits",
             Error::DivisionByZero => "a division by zero",
             Error::NotFinite => "the result is not finite",
-            Error::NoRange => "the least value of a range is above its greatest one",
-            Error::TooLong => "a text of more than 64 bytes",
-            Error::NotAValue => "a text is no value of the wanted type",
+            Error::NoRange => "the lower bound of a range is above its upper bound",
+            Error::TooLong => "a string of more than 64 bytes",
+            Error::NotAValue => "a string is not a value of the wanted type",
             Error::Unknown => "an entry has no value yet",
             Error::Mistyped => "a part of a formula has the wrong type",
         })

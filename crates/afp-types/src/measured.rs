@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_is_exact_where_it_can_be_read_back() {
+    fn a_number_that_can_be_read_back_is_exact() {
         let exact = |number, unit| Measured::exact(number, unit).map(|shown| shown.to_string());
         assert_eq!(exact(-core::f64::consts::FRAC_PI_2, "rad").as_deref(), Some("-90 deg"));
         assert_eq!(exact(0.1 + 0.2, "m").as_deref(), Some("30 cm"));

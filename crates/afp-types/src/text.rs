@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_no_idle_zeros() {
+    fn numbers_have_no_trailing_zeros() {
         for (number, decimals, text) in [
             (0.30, 3, "0.3"),
             (2.0, 3, "2"),

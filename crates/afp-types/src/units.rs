@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_a_unit_become_those_of_another() {
+    fn numbers_convert_between_units() {
         for (unit, other, number) in
             [("deg", "deg", 1.0), ("mrad", "rad", 0.001), ("km", "h", 1000.0 / 3600.0)]
         {

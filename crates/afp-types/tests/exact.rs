@@ -39,7 +39,7 @@ fn a_fraction_is_rounded_once() {
 }
 
 #[test]
-fn a_digit_far_behind_a_midpoint_decides() {
+fn a_digit_far_after_a_midpoint_decides() {
     // 1 + 2^-53, halfway between 1 and the next double.
     let midpoint = "1.00000000000000011102230246251565404236316680908203125";
     let above = format!("{midpoint}{}1", "0".repeat(680));

@@ -76,7 +76,7 @@ impl fmt::Display for Rejected {
             Rejected::Damaged => f.write_str("a frame is damaged"),
             Rejected::Stranger => f.write_str("a message came before the hello"),
             Rejected::Version { theirs } => {
-                write!(f, "the other end speaks version {theirs} of the protocol")
+                write!(f, "the other end has version {theirs} of the protocol")
             }
             Rejected::Repeated => f.write_str("a frame came twice"),
             Rejected::Restarted => f.write_str("the other end has restarted"),

@@ -168,7 +168,7 @@ proptest! {
 
     /// One changed, lost or added byte costs at most the two frames that it touches, and the number of lost frames is right.
     #[test]
-    fn a_disturbance_costs_its_frames_and_changes_no_other(
+    fn a_disturbance_loses_only_its_frames(
         commands in prop::collection::vec(command(), 4..8),
         place in any::<prop::sample::Index>(),
         byte in any::<u8>(),
@@ -198,7 +198,7 @@ proptest! {
     }
 
     #[test]
-    fn rubbish_is_no_message(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn random_bytes_are_not_a_message(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let (mut sender, mut receiver) = connected();
         for heard in hear(&mut receiver, &bytes) {
             prop_assert_eq!(heard, Err(Rejected::Damaged));

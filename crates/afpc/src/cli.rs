@@ -110,7 +110,7 @@ Examples:
   afpc graph plans/wall_following.afp -o plan.svg
   afpc build plans/wall_following.afp
 
-Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wrong usage, 3 the plan ended in Error";
+Exit codes: 0 done, 1 a plan is invalid or a file cannot be read or written, 2 wrong usage, 3 the plan ended in Error";
 
 /// Runs the selected command.
 pub fn run(linked: &Linked<'_>) -> ExitCode {
@@ -254,7 +254,7 @@ fn no_utf8(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
     let wrong: Vec<_> = wrong.map(|argument| argument.to_string_lossy()).collect();
     let names = list(wrong.iter().map(|name| &**name), "and");
     let verb = if wrong.len() == 1 { "is" } else { "are" };
-    let help = "give the file a name in UTF-8, or make a link with a UTF-8 name: 'ln -s OLD NEW'";
+    let help = "rename the file in UTF-8, or create a link with a UTF-8 name: 'ln -s OLD NEW'";
     Some(RunError::usage(format!("{names} {verb} not in UTF-8"), help))
 }
 

@@ -47,7 +47,6 @@ const QUIET: Style = Style::new().dimmed();
 /// The exit code of a stopped command that does many runs.
 const EXIT_STOPPED: u8 = 130;
 
-/// The name of a value on the command line.
 fn name_of(value: &impl ValueEnum) -> String {
     value.to_possible_value().map(|it| it.get_name().to_owned()).unwrap_or_default()
 }

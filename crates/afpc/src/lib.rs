@@ -68,7 +68,6 @@ pub struct Linked<'a> {
 }
 
 impl Linked<'_> {
-    /// Whether all of these parts are linked in.
     fn has(&self, parts: &Parts<'_>) -> bool {
         let hardware = self.hardware.map(|(name, _)| name);
         parts.are_in(self.own_robot, hardware, self.toolboxes)

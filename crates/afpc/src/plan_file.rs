@@ -95,7 +95,10 @@ impl PlanFile {
         let recipe = log.recipe();
         let Recipe { plan, file, texts, .. } = &recipe;
         if file.is_empty() {
-            return Err(RunError::usage("the log does not say which plan ran", "name a whole log"));
+            return Err(RunError::usage(
+                "the log does not name the plan of its run",
+                "name a complete log",
+            ));
         }
         let path = path_of_log(log, at);
         let Some(first) = texts.first() else {
@@ -213,7 +216,7 @@ mod tests {
         };
         let file = PlanFile::of_log(&log, Path::new("/nowhere/p.mcap")).unwrap();
         assert!(file.compiled.graph.is_some(), "{}", file.compiled.render(false));
-        assert_eq!(file.foreign, ["mine"], "the plan does not use the other one");
+        assert_eq!(file.foreign, ["mine"], "the plan does not use the other file");
         assert_eq!(file.robot.unwrap().sim.as_deref(), Some("Mine"));
     }
 }

@@ -129,11 +129,11 @@ fn missing(machine: &Linux, library: bool, linker: bool) -> RunError {
     let Linux { name, triple, packages: [compiler, c_library], .. } = machine;
     let (mut things, mut commands) = (Vec::new(), Vec::new());
     if !library {
-        things.push("Rust's standard library for it");
+        things.push("Rust's standard library for the target");
         commands.push(format!("rustup target add {triple}"));
     }
     if !linker {
-        things.push("a C compiler and linker for it");
+        things.push("a C compiler and linker for the target");
         commands.push(match (is_there("apt-get"), is_there("sudo")) {
             (true, true) => format!("sudo apt-get install -y {compiler} {c_library}"),
             (true, false) => format!("apt-get install -y {compiler} {c_library}"),

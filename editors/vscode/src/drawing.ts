@@ -1,6 +1,5 @@
 // The drawing of a document: requests it from the language server, passes on changes, and
-// synchronizes selection and cursor. It depends on neither the editor nor the page, so it is tested
-// with the real server alone.
+// synchronizes selection and cursor. It depends on neither the editor nor the page, so its tests need only the real server.
 import type { Answer, Changed, Part } from "../../../studio/page/drawing/shapes";
 import type { Position, Range } from "../../../studio/page/documents/positions";
 
@@ -43,7 +42,7 @@ export class Drawing {
   /** The plan that the page shows. */
   private told: string | null = null;
   private ready = false;
-  /** The last part selected here; the cursor's move to it is no news. */
+  /** The last part selected here; the cursor's move to it is ignored. */
   private own: string | null = null;
 
   constructor(

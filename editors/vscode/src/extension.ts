@@ -45,7 +45,7 @@ function fileFor(lens: Lens | undefined): vscode.Uri | undefined {
 /** As `fileFor`, for commands that run code of the folder. */
 function runnable(lens: Lens | undefined): vscode.Uri | undefined {
   if (vscode.workspace.isTrusted) return fileFor(lens);
-  void vscode.window.showWarningMessage("This folder is not trusted, so nothing of it is run.");
+  void vscode.window.showWarningMessage("This folder is not trusted, so its plans do not run.");
   return undefined;
 }
 
@@ -102,7 +102,7 @@ const adapters: vscode.DebugAdapterDescriptorFactory = {
   createDebugAdapterDescriptor({ configuration }) {
     // A remote run has its adapter already.
     if (configuration.request === "attach") return new vscode.DebugAdapterServer(configuration.port as number);
-    if (!vscode.workspace.isTrusted) throw new Error("This folder is not trusted, so nothing of it is run.");
+    if (!vscode.workspace.isTrusted) throw new Error("This folder is not trusted, so its plans do not run.");
     const file = configuration.program ? programOf(configuration.program as string).file : (configuration.log as string);
     return new vscode.DebugAdapterExecutable(command(), adapterOf(configuration as Launch), { cwd: path.dirname(file) });
   },

@@ -31,7 +31,7 @@ export function completed(config: Launch, open: Open | null): Launch | string {
   if (isEmpty && !plan) return "Open a plan first.";
   const full: Launch = isEmpty ? { name: "Debug the plan", program: plan! } : { ...config };
   if (!full.program && !full.log) return "The configuration needs a 'program', the plan's file, or a 'log'.";
-  if (full.program && full.log) return "The configuration has a 'program' and a 'log': it can be one of them.";
+  if (full.program && full.log) return "The configuration must have a 'program' or a 'log', not both.";
   Object.assign(full, { type: "afp", request: "launch" });
   if (full.speed === undefined) full.speed = REAL_TIME;
   // Without a speed, the run is as fast as possible.
@@ -42,7 +42,7 @@ export function completed(config: Launch, open: Open | null): Launch | string {
 /** The configuration to join a run of 'afpc dap --port', or an error message. */
 function joining(config: Launch): Launch | string {
   const both = Number.isInteger(config.port) && config.token;
-  return both ? { ...config, type: "afp" } : "To join a run, the configuration needs the 'port' and the 'token' that 'afpc dap --port' said.";
+  return both ? { ...config, type: "afp" } : "To join a run, the configuration needs the 'port' and the 'token' that 'afpc dap --port' printed.";
 }
 
 /** The configuration of a lens above a plan, or of a file without one. */

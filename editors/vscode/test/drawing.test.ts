@@ -25,7 +25,7 @@ function drawn(talk: Talk, plan: string | null = null): Seen {
 
 const of = <K extends ToPage["kind"]>(seen: Seen, kind: K): Extract<ToPage, { kind: K }>[] => seen.posted.filter((message) => message.kind === kind) as Extract<ToPage, { kind: K }>[];
 
-test("nothing is asked before the page is ready, then all of it, then what changes", () =>
+test("requests wait for the page, then get the whole drawing, then changes", () =>
   serving(async (talk) => {
     const seen = drawn(talk);
     await seen.drawing.ask();
@@ -37,17 +37,17 @@ test("nothing is asked before the page is ready, then all of it, then what chang
     await talk.type(PLAN.replace("-30 cm", "-40 cm"));
     const { change } = await there(() => of(seen, "changed")[0], "change");
     assert.ok(change.elements.some(({ item }) => item === "Patrol.back"));
-    assert.ok(!change.elements.some(({ item }) => item === "Patrol.go"), "what is as it was is not sent again");
+    assert.ok(!change.elements.some(({ item }) => item === "Patrol.go"), "unchanged parts are not sent again");
     const other = { ...change, textDocument: { uri: "file:///other.afp" } };
     seen.drawing.changed(other);
     assert.equal(of(seen, "changed").length, 1, "changes of other documents are theirs");
     await seen.drawing.end();
     await talk.type(PLAN);
     await talk.request("afp/itemAt", { textDocument: { uri: talk.uri }, position: { line: 0, character: 0 } });
-    assert.equal(of(seen, "changed").length, 1, "whoever has closed it hears nothing");
+    assert.equal(of(seen, "changed").length, 1, "a closed drawing receives nothing");
   }));
 
-test("what is pressed is selected in the text, and the cursor's item in the drawing", () =>
+test("a click selects in the text, and the cursor selects in the drawing", () =>
   serving(async (talk) => {
     const seen = drawn(talk);
     await seen.drawing.receive({ kind: "ready" });
@@ -64,7 +64,7 @@ test("what is pressed is selected in the text, and the cursor's item in the draw
     assert.deepEqual([seen.revealed[1]?.range.start.line, seen.revealed[1]?.focus], [6, true]);
   }));
 
-test("a plan that is renamed goes on to be shown, and is asked for by its new name", () => {
+test("a renamed plan stays visible and is requested by its new name", () => {
   const text = (name: string): string => `${PLAN}\nplan ${name} { start go actor go: Turn { TurnSuccessful -> go } }\n`;
   return serving(async (talk) => {
     const seen = drawn(talk, "Other");
@@ -80,7 +80,7 @@ test("a plan that is renamed goes on to be shown, and is asked for by its new na
   }, text("Other"));
 });
 
-test("another plan of the file is shown, and one that is not there says so", () =>
+test("another plan of the file is shown, and a missing plan is reported", () =>
   serving(async (talk) => {
     const seen = drawn(talk, "Other");
     await seen.drawing.receive({ kind: "ready" });

@@ -38,7 +38,7 @@ beforeEach(() => {
 
 const run = (name: string, ...args: unknown[]): unknown => seen.commands.get(name)!(...args);
 
-test("every command that is announced is there, and every lens has one", async () => {
+test("every declared command exists, and every lens has a command", async () => {
   const announced = manifest.contributes.commands.map(({ command }: { command: string }) => command).sort();
   assert.deepEqual([...seen.commands.keys()].sort(), announced);
   const lenses = await LanguageClient.current!.sendRequest<{ command: { command: string; title: string } }[]>("textDocument/codeLens", { textDocument: { uri: uri.toString() } });
@@ -46,11 +46,11 @@ test("every command that is announced is there, and every lens has one", async (
   for (const named of Object.values<{ command: string }[]>(manifest.contributes.menus).flat()) assert.ok(announced.includes(named.command), named.command);
 });
 
-test("what the manifest names is there", () => {
+test("the files in the manifest exist", () => {
   for (const path of [manifest.main, manifest.contributes.languages[0].configuration, manifest.contributes.grammars[0].path]) assert.ok(existsSync(path), path);
 });
 
-test("run and test are processes with arguments, not words for a shell", () => {
+test("run and test are processes with arguments, not shell commands", () => {
   void run("afp.run", lens);
   void run("afp.test");
   assert.deepEqual(seen.tasks.map(({ execution }) => [execution.process, execution.args]), [[AFPC, ["run", `${file}:Patrol`]], [AFPC, ["test", file]]]);
@@ -63,13 +63,13 @@ test("debug launches the plan of its lens, with an adapter that has the plan", a
   assert.deepEqual([adapter.command, adapter.args, adapter.options], [AFPC, ["dap", `${file}:Patrol`], { cwd: folder }]);
 });
 
-test("a run that is joined has its adapter already", () => {
+test("a joined run uses the existing adapter", () => {
   const configuration = { type: "afp", request: "attach", port: 4711, token: "t" };
   const adapter = seen.factories.get("afp").createDebugAdapterDescriptor({ configuration });
   assert.equal(adapter.port, 4711);
 });
 
-test("of a folder that is not trusted nothing is run, and plans are drawn all the same", async () => {
+test("an untrusted folder runs nothing, but plans are drawn", async () => {
   seen.trusted = false;
   for (const name of ["afp.run", "afp.test", "afp.debug"]) void run(name, lens);
   assert.equal(seen.warnings.length, 3);
@@ -79,13 +79,13 @@ test("of a folder that is not trusted nothing is run, and plans are drawn all th
   assert.equal(seen.panels.length, 1);
 });
 
-test("without a plan the commands say so", () => {
+test("without a plan the commands report it", () => {
   window.activeTextEditor = undefined;
   for (const name of ["afp.run", "afp.debug", "afp.drawing", "afp.graph"]) void run(name);
   assert.deepEqual(seen.warnings, Array(4).fill("Open a plan first."));
 });
 
-test("with errors nothing runs, and the first of them is shown", async () => {
+test("a plan with errors does not run, and its first error is shown", async () => {
   const provider = seen.providers.get("afp");
   const config = provider.resolveDebugConfiguration(undefined, {});
   assert.equal(config.program, file);
@@ -129,7 +129,7 @@ test("the drawing has a panel, which follows cursor and run and closes the subsc
   assert.equal(panel.posted.length, before);
 });
 
-test("a run is asked to say what it is at", () => {
+test("a run is asked for its current element", () => {
   const asked: unknown[] = [];
   const customRequest = async (...args: unknown[]): Promise<void> => void asked.push(args);
   seen.events.started.fire({ type: "afp", customRequest });

@@ -12,27 +12,27 @@ const manifest = JSON.parse(readFileSync("package.json", "utf8"));
 const [debuggers] = manifest.contributes.debuggers;
 const open = { path: "/w/a.afp", language: "afp" };
 
-test("F5 without a file of configurations debugs the plan that is open, in real time", () => {
+test("F5 without a configuration file debugs the open plan in real time", () => {
   assert.deepEqual(completed({}, open), { type: "afp", request: "launch", name: "Debug the plan", program: "/w/a.afp", speed: 1 });
   assert.equal(completed({}, null), "Open a plan first.");
   assert.equal(completed({}, { path: "/w/afp.toml", language: "toml" }), "Open a plan first.");
 });
 
-test("a configuration says what it lacks, and may ask for all speed there is", () => {
+test("a configuration reports missing values and may use full speed", () => {
   assert.match(completed({ type: "afp", name: "x" }, open) as string, /needs a 'program'/);
   assert.match(completed({ type: "afp", program: "a", log: "b" }, open) as string, /one of them/);
   assert.equal((completed({ type: "afp", program: "a", speed: null }, open) as Launch).speed, undefined);
   assert.equal((completed({ type: "afp", program: "a", speed: 3 }, open) as Launch).speed, 3);
 });
 
-test("a run is joined by what its server said", () => {
+test("a run is joined with the output of its server", () => {
   const attach = { type: "afp", request: "attach", name: "x", port: 4711, token: "t" };
   assert.deepEqual(completed(attach, null), attach);
   assert.match(completed({ ...attach, token: "" }, open) as string, /the 'port' and the 'token'/);
   assert.match(completed({ ...attach, port: undefined }, open) as string, /the 'port' and the 'token'/);
 });
 
-test("a lens names the plan", () => {
+test("a lens has the name of its plan", () => {
   assert.equal(launchOf("/w/a.afp", "Patrol").program, "/w/a.afp:Patrol");
   assert.deepEqual(programOf("C:\\w\\a.afp:Patrol"), { file: "C:\\w\\a.afp", plan: "Patrol" });
   assert.deepEqual(programOf("C:\\w\\a.afp"), { file: "C:\\w\\a.afp", plan: null });
@@ -40,7 +40,7 @@ test("a lens names the plan", () => {
   assert.deepEqual(argumentsOf("test", "/w/a.afp", "a scenario"), ["test", "/w/a.afp"]);
 });
 
-test("what can be configured is what docs/debug.md says", () => {
+test("the options match docs/debug.md", () => {
   const page = readFileSync("../../docs/debug.md", "utf8");
   const table = page.slice(page.indexOf("## Launch arguments"), page.indexOf("## Debug a log"));
   const rows = table.split("\n").filter((line) => line.startsWith("| `"));
@@ -51,7 +51,7 @@ test("what can be configured is what docs/debug.md says", () => {
 });
 
 for (const [nth, config] of [...debuggers.initialConfigurations, ...debuggers.configurationSnippets.slice(0, 2).map((one: { body: Launch }) => one.body)].entries()) {
-  test(`what is proposed can be launched, ${nth + 1}: ${config.name}`, () =>
+  test(`a proposed configuration can be launched, ${nth + 1}: ${config.name}`, () =>
     serving(async ({ file }) => {
       const text = JSON.stringify(config).replaceAll('"^\\"\\\\${file}\\""', '"${file}"').replaceAll("${file}", file);
       const launch = completed(JSON.parse(text), null) as Launch;

@@ -69,7 +69,7 @@ async function press(page: Page, item: string, twice = false): Promise<void> {
   await (twice ? page.mouse.dblclick(...at) : page.mouse.click(...at));
 }
 
-test("what is pressed is shown in the text, what is typed in the drawing", { skip }, () =>
+test("a click in the drawing selects the text, and the cursor selects in the drawing", { skip }, () =>
   serving((talk) =>
     shown(talk, async ({ page, drawing, revealed, wrong }) => {
       await press(page, "Patrol.back");
@@ -111,7 +111,7 @@ test("a drag moves the drawing and selects nothing", { skip }, () =>
   ),
 );
 
-test("a sub-plan is entered, and colours are those of the editor's theme", { skip }, () =>
+test("a sub-plan is opened, and the colours follow the editor's theme", { skip }, () =>
   serving(
     (talk) =>
       shown(
@@ -132,7 +132,7 @@ test("a sub-plan is entered, and colours are those of the editor's theme", { ski
   ),
 );
 
-test("no script of anybody else runs in the page, and nothing is loaded from elsewhere", { skip }, () =>
+test("the page runs no other scripts and loads nothing from elsewhere", { skip }, () =>
   serving((talk) =>
     shown(talk, async ({ page, drawing }) => {
       const ran = await page.evaluate(async () => {

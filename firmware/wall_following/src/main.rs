@@ -1,7 +1,7 @@
-//! A plan on bare metal: everything of it that can run, with nothing behind the devices.
+//! A plan on bare metal: its whole run time, with devices that do nothing.
 //!
-//! The image is looked into, not run: no `panic` may be linked, since a plan on a robot has nobody
-//! to panic to.
+//! The test inspects the image instead of running it: no `panic` may be linked, because nothing
+//! handles a panic on a robot.
 #![no_std]
 #![no_main]
 
@@ -17,7 +17,7 @@ use robot::Robot;
 
 afp_macros::plan!("../../plans/wall_following.afp");
 
-/// Where the image starts: runs the plan to its end, stepping whenever something is due.
+/// The entry point: runs the plan to its end, with a step when a component is due.
 #[unsafe(no_mangle)]
 pub extern "C" fn _start() -> ! {
     let mut robot = Robot::new();

@@ -11,7 +11,7 @@ use afp_core::{Environment, Instant};
 
 /// The latest readings and commands.
 pub struct Robot {
-    /// Whether somebody asks the plan to stop.
+    /// Whether the plan is asked to stop.
     pub stop_requested: bool,
     pressed: Reading<bool>,
     touched: Reading<bool>,

@@ -149,7 +149,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'afp' has no attribute '{name}'")
     found = importlib.import_module(f".{module}", __name__)
     if not hasattr(found, name):
-        raise AttributeError(f"'afp.{name}' is of the Carbot, and this process has another robot")
+        raise AttributeError(f"'afp.{name}' is for the Carbot, and this process has another robot")
     globals()[name] = getattr(found, name)
     return globals()[name]
 

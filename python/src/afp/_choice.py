@@ -23,7 +23,7 @@ def use(project: str | os.PathLike[str]) -> None:
     """
     folder = Path(project).resolve()
     if not folder.is_dir():
-        raise NotADirectoryError(f"there is no folder '{folder}': give that of the project's afp.toml")
+        raise NotADirectoryError(f"the folder '{folder}' does not exist: give the folder of the project's afp.toml")
     if _NATIVE in sys.modules:
         if folder == _chosen:
             return

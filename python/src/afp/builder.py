@@ -272,7 +272,7 @@ def _pose(what: str, pose: Sequence[float]) -> list[Any]:
 
 def _text(what: str, text: Any) -> str:
     if not isinstance(text, str):
-        raise TypeError(f"{what} is a text, not {text!r}")
+        raise TypeError(f"{what} must be a string, not {text!r}")
     return text
 
 

@@ -14,7 +14,7 @@ __all__ = ["flag", "keys", "text", "toolboxes_of"]
 def text(what: str, value: Any) -> str:
     """Check that an argument is a string; `what` names it in the error."""
     if not isinstance(value, str):
-        raise TypeError(f"{what} is a text, not {value!r}")
+        raise TypeError(f"{what} must be a string, not {value!r}")
     return value
 
 
@@ -38,10 +38,10 @@ def keys(what: str, values: Mapping[str, Any] | None, does: str) -> dict[str, An
 def toolboxes_of(toolboxes: Any) -> list[_afp.Toolbox]:
     """Check that an argument is a list of toolboxes."""
     if isinstance(toolboxes, _afp.Toolbox):
-        raise TypeError(f"toolboxes is a list, also of one: toolboxes=[{toolboxes.name}]")
+        raise TypeError(f"toolboxes must be a list, also with one item: toolboxes=[{toolboxes.name}]")
     if isinstance(toolboxes, str) or not isinstance(toolboxes, Sequence):
-        raise TypeError(f"toolboxes is a list of Toolbox, not {toolboxes!r}")
+        raise TypeError(f"toolboxes must be a list of Toolbox, not {toolboxes!r}")
     for toolbox in toolboxes:
         if not isinstance(toolbox, _afp.Toolbox):
-            raise TypeError(f"toolboxes has Toolbox in it, not {toolbox!r}")
+            raise TypeError(f"toolboxes must contain Toolbox, not {toolbox!r}")
     return list(toolboxes)

@@ -28,7 +28,7 @@ from .tables import need
 __all__ = ["Sent", "run"]
 
 RETRIES = 5
-"""How often a chunk is done again when its worker dies."""
+"""The maximum number of repetitions of a chunk after a worker dies."""
 WAITING = 64
 """Chunks that are handed to Ray ahead of time."""
 
@@ -55,7 +55,7 @@ class Sent:
             packed: bytes = need("ray.cloudpickle").dumps(self)
         except (TypeError, pickle.PicklingError) as error:
             text = f"the plan's components or the metrics cannot be sent to other processes: {error}"
-            help = 'let them make there what cannot be pickled, or use backend="local"'
+            help = 'create such objects in the worker, or use backend="local"'
             raise TypeError(f"{text}\n  help: {help}") from None
         return packed
 

@@ -73,7 +73,7 @@ class Toolbox(_afp.Toolbox):
 
     _path: str | os.PathLike[str] | None = None
     _components: dict[str, Callable[..., Any]]
-    """What implements each template."""
+    """The implementation of each template."""
 
     def implement(self, component: Component, template: str | None = None) -> Component:
         """Set the class or function that implements a template; the default name is its own.
@@ -200,7 +200,7 @@ class Toolbox(_afp.Toolbox):
         def declare(component: Component) -> Component:
             template = _name(component) if name is None else text("name", name)
             if not template.isidentifier():
-                raise ValueError(f"{template!r} is no name of a template; give letters, digits and '_'")
+                raise ValueError(f"{template!r} is not the name of a template; give letters, digits and '_'")
             _fits(kind, template, component)
             outcomes = annotated_outcomes(kind, component) if declared_here is None else declared_here
             declared = declaration(kind, template, component, outcomes, devices, timing, icon)
@@ -208,7 +208,7 @@ class Toolbox(_afp.Toolbox):
             try:
                 self._declare(template, declared)
             except _afp.AfpError as why:
-                raise _afp.AfpError(f"the {kind} '{template}' cannot be declared so:\n{self._alone(declared, why)}") from None
+                raise _afp.AfpError(f"the {kind} '{template}' has an invalid declaration:\n{self._alone(declared, why)}") from None
             return self.implement(component, template)
 
         return declare
@@ -240,18 +240,18 @@ def _again(kind: type[Toolbox], text: str, path: str | os.PathLike[str] | None) 
 def _name(component: Callable[..., Any]) -> str:
     name = getattr(component, "__name__", None)
     if isinstance(component, functools.partial):
-        raise TypeError(f"{component!r} is no function of its own: write one that calls it, with its ports as parameters")
+        raise TypeError(f"{component!r} is not a plain function: write a function that calls it, with its ports as parameters")
     if not callable(component) or not isinstance(name, str):
-        raise TypeError(f"a component is a class or a function, not {component!r}")
+        raise TypeError(f"a component must be a class or a function, not {component!r}")
     if not name.isidentifier():
-        raise TypeError(f"the component {component!r} has no name of its own: give name=")
+        raise TypeError(f"the component {component!r} has no name: give name=")
     return name
 
 
 def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
     """Raise at once if a component can never work."""
     if not callable(component):
-        raise TypeError(f"a component is a class or a function, not {component!r}")
+        raise TypeError(f"a component must be a class or a function, not {component!r}")
     is_class = isinstance(component, type)
     if is_class and kind == "computation":
         raise TypeError(f"the computation '{name}' is a class; a computation is a function")
@@ -259,7 +259,7 @@ def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
     if inspect.isasyncgenfunction(steps):
         raise TypeError(f"'{name}' yields; an 'async def' actor awaits afp.tick() and returns its state")
     if inspect.isgeneratorfunction(steps):
-        raise TypeError(f"'{name}' yields; a component returns what it has to say")
+        raise TypeError(f"'{name}' yields; a component returns its result")
     if inspect.iscoroutinefunction(steps) and (kind != "actor" or is_class):
         what = "a 'poll'" if is_class else f"a {kind}"
         raise TypeError(f"'{name}' is 'async def'; {what} is a plain function, called at each poll")
@@ -286,13 +286,13 @@ def _timing(**times: str | float | None) -> str:
     return " ".join(f"{word} {spelled_time(time)}" for word, time in times.items() if time is not None)
 
 
-# Making components run
+# Running components
 
 
 def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
     """The function that the native half calls to make a component."""
     if kind == "computation":
-        takes = _takes(component, inputs, (), dict.fromkeys(GIVEN, "a computation has its inputs alone"))
+        takes = _takes(component, inputs, (), dict.fromkeys(GIVEN, "a computation has only its inputs"))
         return lambda values: component(**{name: values[name] for name in takes})
     if isinstance(component, type):
         return _class_maker(kind, component, inputs, live)
@@ -303,8 +303,8 @@ def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live
     return _coroutine_maker(component, inputs, live)
 
 
-_AN_ACTOR = {"wanted": "only supervisors are told what is wanted"}
-"""What an actor cannot take, and why."""
+_AN_ACTOR = {"wanted": "only supervisors receive the wanted events"}
+"""Names that an actor cannot request, with the reasons."""
 
 
 def _takes(
@@ -318,7 +318,7 @@ def _takes(
         if name in ports or name in given:
             continue
         known = [*given, *ports]
-        there = f"there are only: {', '.join(known)}" if known else "it has nothing to take"
+        there = f"there are only: {', '.join(known)}" if known else "it has no parameters"
         raise TypeError(f"'{named(function)}' takes '{name}', but {others.get(name, there)}")
     return names
 
@@ -361,7 +361,7 @@ def _class_maker(kind: str, component: type, inputs: Sequence[str], live: Sequen
     begins = start_of(component)
     given = GIVEN if kind == "supervisor" else ("robot",)
     no_start = _AN_ACTOR | dict.fromkeys(live, "it is live: 'poll' takes it")
-    no_poll = _AN_ACTOR | dict.fromkeys([*inputs, *given], "it is there from the start: '__init__' takes it")
+    no_poll = _AN_ACTOR | dict.fromkeys([*inputs, *given], "it is fixed at the start: '__init__' takes it")
     start = _takes(begins, inputs, given, no_start) if begins else []
     poll = _takes(method_of(component, "poll"), live, ("robot",), no_poll)
 
@@ -441,7 +441,7 @@ def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None
         # The error of asyncio for an await here.
         if str(why) != "no running event loop":
             raise
-        raise TypeError("an actor can await afp.tick() only; no event loop of asyncio runs it") from why
+        raise TypeError("an actor can only await afp.tick(); asyncio's event loop does not run it") from why
     if waits is not None:
-        raise TypeError(f"an actor can await afp.tick() only, not {waits!r}")
+        raise TypeError(f"an actor can only await afp.tick(), not {waits!r}")
     return None

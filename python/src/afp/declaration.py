@@ -69,9 +69,9 @@ def outcomes_of(given: Any) -> Outcomes:
     names = list(given)
     for name in names:
         if not isinstance(name, str):
-            raise TypeError(f"the name of a state or event is a text, not {name!r}")
+            raise TypeError(f"the name of a state or event must be a string, not {name!r}")
         if names.count(name) > 1:
-            raise ValueError(f"'{name}' is there twice among {names}")
+            raise ValueError(f"'{name}' appears twice in {names}")
     if not isinstance(given, Mapping):
         return [str.__str__(name) for name in names]
     for name, outputs in given.items():
@@ -130,8 +130,8 @@ def _type(hint: Any, where: str) -> str:
         return hint
     known = "bool, int, float, str, afp.Length, afp.Angle, afp.Duration, afp.Speed, afp.AngularSpeed"
     if hint is not None:
-        raise TypeError(f"{where} has the hint {_shown(hint)}, and no type of the language is like it; there are: {known}")
-    raise TypeError(f"{where} needs a type hint: one of {known}, or Annotated[float, 'force'] and the like")
+        raise TypeError(f"{where} has the hint {_shown(hint)}, which matches no type of the language; there are: {known}")
+    raise TypeError(f"{where} needs a type hint: one of {known}, or, for example, Annotated[float, 'force']")
 
 
 def _shown(hint: Any) -> str:
@@ -174,7 +174,7 @@ def _hints(function: Callable[..., Any]) -> dict[str, Any]:
     try:
         return get_type_hints(function, include_extras=True)
     except NameError as error:
-        what = f"a hint of '{named(function)}' names '{error.name}', which is not there while the program runs"
+        what = f"a hint of '{named(function)}' names '{error.name}', which is undefined while the program runs"
         raise TypeError(f"{what}: import it outside of 'if TYPE_CHECKING'") from None
 
 
@@ -185,7 +185,7 @@ def parameters_of(function: Callable[..., Any]) -> Mapping[str, inspect.Paramete
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
             raise TypeError(f"'{named(function)}' takes *{name}; its parameters are ports and need names")
         if parameter.kind == parameter.POSITIONAL_ONLY and name != "self":
-            raise TypeError(f"'{named(function)}' takes '{name}' by position alone; ports are given by name: leave out the '/'")
+            raise TypeError(f"'{named(function)}' takes '{name}' only by position; ports are passed by name: leave out the '/'")
     return parameters
 
 

@@ -49,7 +49,7 @@ def _generator(name: str, seed: int) -> np.random.Generator:
 
 
 def each(name: str, function: Callable[[np.random.Generator], Any], seeds: Sequence[int]) -> list[Any]:
-    """What a function draws for each seed."""
+    """The values that a function draws for each seed."""
     return [function(_generator(name, seed)) for seed in seeds]
 
 

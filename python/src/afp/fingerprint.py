@@ -24,7 +24,7 @@ import numpy as np
 __all__ = ["Fingerprint", "digest", "fingerprint"]
 
 Fingerprint = tuple[str, dict[str, str]]
-"""The hash of what something does, and of each thing that it reads, by name."""
+"""The hash of an object's behaviour, and the hash of each value that it reads, by name."""
 
 _PLAIN = (type(None), bool, int, float, complex, str, bytes, type(...))
 

@@ -19,18 +19,18 @@ from .units import seconds
 __all__ = ["Log"]
 
 _NO_TOOLBOX = "E0238"
-"""The rule that a plan names a toolbox that is not there."""
+"""The code of the error for an unknown toolbox."""
 
 
 class Log(tables.Events):
     """A log in memory; an incomplete file gives its readable part."""
 
     facts: dict[str, str]
-    """What the log says of the run: plan, world, seed, ..."""
+    """The description of the run: plan, world, seed, ..."""
     attachments: dict[str, str]
-    """The texts that it carries: the world, perhaps the plan."""
+    """The files in the log: the world, perhaps the plan."""
     events: list[Event]
-    """What happened, polls that saw nothing included."""
+    """The events, including polls without an event."""
     configurations: list[tuple[float, dict[str, Any]]]
     """The values of the entries at the start and after each commit, with its time."""
     entries: dict[str, Any]
@@ -40,9 +40,9 @@ class Log(tables.Events):
     signals: list[str]
     """The names of the robot's signals in the log, by device and name: `ultrasonic.echo`."""
     path: NDArray[np.float64]
-    """Where the robot was: rows of time, x, y, heading."""
+    """The robot's poses: rows of time, x, y, heading."""
     cut_short: str | None
-    """Why the log ends before its end, or what it misses, when it does."""
+    """The reason if the log is incomplete, or its missing parts."""
 
     def __init__(self, file: str | os.PathLike[str]) -> None:
         self.file = os.fspath(file)
@@ -63,7 +63,7 @@ class Log(tables.Events):
         """The times and values of an entry: its first value and all changes."""
         known = sorted({name for _, values in self.configurations for name in values})
         if name not in known:
-            others = f"there are: {', '.join(known)}" if known else "it has none at all"
+            others = f"there are: {', '.join(known)}" if known else "it has no entries"
             raise KeyError(f"the log has no entry '{name}'; {others}")
         rows: list[tuple[float, Any]] = []
         for time, values in self.configurations:

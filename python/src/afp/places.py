@@ -20,14 +20,14 @@ def place_of(world: object) -> World | str:
     if isinstance(world, World):
         return world
     if hasattr(world, "build"):
-        raise TypeError(f"a world is made of {world!r} by its method build()")
+        raise TypeError(f"call build() of {world!r} to make a world")
     if not isinstance(world, (str, os.PathLike)):
-        raise TypeError(f"a world is a file, a text such as 'random:7', or a World, not {world!r}")
+        raise TypeError(f"a world must be a file, a string such as 'random:7', or a World, not {world!r}")
     return os.fspath(world)
 
 
 OF_WORLD = "world."
-"""What the name of a value of the world's file begins with, where entries have theirs."""
+"""The prefix of values of the world's file, to distinguish them from entries."""
 
 
 def changed(

@@ -1,4 +1,4 @@
-"""The result of a run: figures, events, path, tables, plots."""
+"""The result of a run: numbers, events, path, tables, plots."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ComponentError:
     """An exception of a component written in Python."""
 
     time: float
-    """When, seconds since the start."""
+    """The time in seconds since the start."""
     element: str
     """The element or supervisor, by its path in the plan; empty while the plan runs."""
     template: str
@@ -36,7 +36,7 @@ class ComponentError:
     error: BaseException
     """The exception."""
     traceback: str
-    """How Python prints it."""
+    """Its traceback."""
     _frames: TracebackType | None = field(default=None, repr=False, compare=False)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -75,19 +75,19 @@ class Result(tables.Events):
     stopped_by: str | None
     """`until` or `stop` when the plan did not end by itself."""
     time: float
-    """How long it ran, seconds."""
+    """The duration of the run, in seconds."""
     trace_hash: str
-    """The same for two runs that did the same, here and with `afpc run`."""
+    """The hash of the trace, as in `afpc run`; equal runs have equal hashes."""
     deadline_misses: int
     """Deadlines missed, skipped releases included."""
     collisions: list[Collision]
-    """What the robot touched."""
+    """The robot's collisions."""
     entries: dict[str, Any]
     """The values of the plan's entries at the end."""
     events: list[Event]
-    """What happened."""
+    """The events."""
     path: NDArray[np.float64]
-    """Where the robot was every 20 ms: rows of time, x, y, heading."""
+    """The robot's pose every 20 ms: rows of time, x, y, heading."""
     errors: list[ComponentError]
     """The exceptions of components written in Python."""
     timeline: list[str]

@@ -25,11 +25,11 @@ from .units import UNITS, Quantity, plain, spelled
 __all__ = ["Runs"]
 
 SHOWN = 4
-"""So many runs a notebook shows pictures of,"""
+"""The number of runs with pictures in a notebook,"""
 SHOWN_S = 2.0
-"""if doing them again takes no longer, seconds."""
+"""if repeating them takes at most this time, in seconds."""
 BROKEN = ("not_started", "panicked")
-"""Endings of what cannot be done again."""
+"""Endings of runs that cannot be repeated."""
 
 
 class Runs:
@@ -117,7 +117,7 @@ class Runs:
             ValueError: a seed was used before.
         """
         if not self._again:
-            raise RuntimeError("runs that were pickled are a table only: sweep again")
+            raise RuntimeError("pickled runs are only a table: sweep again")
         seeds = range(seeds) if isinstance(seeds, int) else list(seeds)
         known = set(self.columns["seed"])
         for seed in seeds:
@@ -231,7 +231,7 @@ class Runs:
     def simulation(self, row: int, *, log: str | os.PathLike[str] | None = None, camera: bool = False) -> Simulation:
         """The run of a row before its start, to watch, log, draw or change it."""
         if self._again is None:
-            raise RuntimeError("runs that were pickled are a table only: sweep again, or make the simulation from the row")
+            raise RuntimeError("pickled runs are only a table: sweep again, or make the simulation from the row")
         row = operator.index(row)
         again, run = self._again[row]
         return again.simulation(run, self.columns["seed"][row], log, flag("camera", camera))
@@ -296,7 +296,7 @@ class Runs:
         """The column of a varied value's numbers, if it has numbers."""
         return f"{column}_si" if f"{column}_si" in self.columns else column
 
-    # As they are shown
+    # Display
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_again": None}

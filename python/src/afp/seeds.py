@@ -17,5 +17,5 @@ def seed_of(seed: int) -> int:
     except TypeError:
         raise TypeError(f"a seed is a whole number, not {seed!r}") from None
     if not 0 <= number <= MOST:
-        raise ValueError(f"{number} is no seed; seeds go from 0 to 2**64 - 1")
+        raise ValueError(f"{number} is not a seed; seeds go from 0 to 2**64 - 1")
     return number

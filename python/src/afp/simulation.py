@@ -165,9 +165,9 @@ class Simulation(Driven):
         A simulation with a log cannot be restored, because its log cannot be undone.
         """
         if not isinstance(snapshot, Snapshot):
-            raise TypeError(f"a simulation is restored from what save() gave, not from {snapshot!r}")
+            raise TypeError(f"a simulation is restored from a result of save(), not from {snapshot!r}")
         if not snapshot._is_of(self.plan, self.world, self.seed):
-            raise ValueError(f"{snapshot!r} is of another simulation; restore goes to a moment of this one")
+            raise ValueError(f"{snapshot!r} belongs to another simulation; restore() needs a moment of this simulation")
         self._runner.restore(snapshot._runner)
 
     def clone(self) -> Simulation:

@@ -27,7 +27,7 @@ class Snapshot:
         return self._plan is plan and self._world is world and self._seed == seed
 
     def __reduce__(self) -> NoReturn:
-        raise TypeError("a Snapshot cannot be pickled; make the simulation anew from its plan, world and seed")
+        raise TypeError("a Snapshot cannot be pickled; create the simulation again from its plan, world and seed")
 
     def __repr__(self) -> str:
         return f"<Snapshot of {self._plan.name} in '{self._world.name}' at {self.time:.3f} s>"

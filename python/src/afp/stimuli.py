@@ -1,6 +1,6 @@
 """Stimuli as values: faults of devices, and presses of controls.
 
-The same values describe what happens in a simulation, in every run of a sweep, in a scored plan and
+The same values describe the events of a simulation, in every run of a sweep, in a scored plan and
 in the episodes of an environment.
 """
 
@@ -119,7 +119,7 @@ Presses = Iterable[Press] | Callable[[np.random.Generator], Iterable[Press]]
 def several(kind: type[Stimulus], given: Any) -> list[Stimulus]:
     """Check a list of faults or presses."""
     if isinstance(given, kind):
-        raise TypeError(f"give a list, also of one {kind.__name__}: [{given!r}]")
+        raise TypeError(f"give a list, also for one {kind.__name__}: [{given!r}]")
     if not isinstance(given, Iterable) or isinstance(given, str):
         raise TypeError(f"give a list of afp.{kind.__name__}, not {given!r}")
     these = list(given)

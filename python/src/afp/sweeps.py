@@ -29,7 +29,7 @@ Draw = Callable[[np.random.Generator], Any]
 DrawWorld = Callable[[np.random.Generator], Place]
 
 MOST_RUNS = 10_000_000
-"""A sweep has at most so many runs."""
+"""The maximum number of runs of a sweep."""
 
 
 def sweep(
@@ -86,7 +86,7 @@ def sweep(
     if not isinstance(plan, Plan):
         raise TypeError(f"a sweep needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
     if jobs is not None and jobs < 1:
-        raise ValueError(f"jobs is {jobs}; give a number of threads from 1 on, or None for all cores")
+        raise ValueError(f"jobs is {jobs}; give at least 1 thread, or None for all cores")
     if backend not in ("local", "ray"):
         raise ValueError(f"no backend '{backend}'; there are: local, ray")
     until = seconds("until", until)
@@ -148,7 +148,7 @@ class Spec:
     until: float
     metrics: dict[str, Metric]
     stimuli: tuple[list[str], list[str]] = ([], [])
-    """What is pressed, and what fails."""
+    """The presses and the faults."""
 
     def sweeper(self, plan: Plan, is_kept: bool = True) -> Sweeper:
         """The sweep of a plan; fingerprints are needed only if it is kept or sent."""
@@ -195,9 +195,9 @@ def _figure(name: str, value: float | None) -> float | None:
         figure = float(value)
     except (TypeError, ValueError):
         raise TypeError(f"the metric '{name}' gives a number or None, not {value!r}") from None
-    # A figure that is not a number counts as missing.
+    # A result that is not a number counts as missing.
     if math.isinf(figure):
-        raise ValueError(f"the metric '{name}' gave {figure}; give None where there is no number")
+        raise ValueError(f"the metric '{name}' returned {figure}; return None if there is no number")
     return None if math.isnan(figure) else figure
 
 
@@ -207,7 +207,7 @@ def _worlds(worlds: Place | Iterable[Place] | None) -> list[World | str | None]:
     if isinstance(worlds, (World, str, os.PathLike)) or hasattr(worlds, "build"):
         worlds = [worlds]  # type: ignore[list-item]
     if not isinstance(worlds, Iterable):
-        raise TypeError(f"worlds are files, texts such as 'random:7', or Worlds, one or several, not {worlds!r}")
+        raise TypeError(f"worlds are files, strings such as 'random:7', or Worlds, one or several, not {worlds!r}")
     return [_world(world) for world in worlds]
 
 
@@ -230,7 +230,7 @@ def _seeds(seeds: int | Iterable[int]) -> tuple[int, int] | list[int]:
 
 
 def _count(seeds: int) -> int:
-    wrong = f"seeds is {seeds!r}; give how many, a range or a list of whole numbers"
+    wrong = f"seeds is {seeds!r}; give their number, a range or a list of whole numbers"
     if not hasattr(seeds, "__index__"):
         raise TypeError(wrong)
     if seeds < 1:

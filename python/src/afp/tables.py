@@ -30,16 +30,16 @@ COLUMNS = (
 )
 
 VALUES = {"old": ("old", "old_text"), "value": ("value", "text")}
-"""The columns of values of entries and inputs: for numbers, and for texts."""
+"""The columns of values of entries and inputs: for numbers, and for strings."""
 
 NUMBERS = ("time", "lateness", "old", "value")
 """The columns of numbers,"""
 TRUTHS = ("on",)
-"""of truth values; all others are of texts."""
+"""of truth values; all others are of strings."""
 
 
 EXTRAS = {"pyarrow": "arrow", "matplotlib": "plot", "gymnasium": "gym", "stable_baselines3": "sb3"}
-"""The extra that a package comes with, where that has another name."""
+"""The extra of a package, if it has another name."""
 
 
 def need(module: str) -> Any:

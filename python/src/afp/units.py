@@ -57,7 +57,7 @@ class Quantity(float):
 
     def __new__(cls, value: float, unit: str | None = None) -> Quantity:
         if unit is None:
-            # Code that makes results of the numbers' type, like 'statistics', gets a plain float.
+            # Code that creates results of the numbers' type, such as 'statistics', gets a plain float.
             return float(value)  # type: ignore[return-value]
         self = super().__new__(cls, value)
         self.unit = unit
@@ -91,7 +91,7 @@ class Quantity(float):
         if not isinstance(other, Quantity):
             return value
         if other.unit != self.unit:
-            raise TypeError(f"a quantity in {self.unit} and one in {other.unit} have no sum and no difference")
+            raise TypeError(f"a quantity in {self.unit} and one in {other.unit} cannot be added or subtracted")
         return Quantity(value, self.unit)
 
     def _scaled(self, value: Any, other: object) -> Any:
@@ -134,7 +134,7 @@ class Quantity(float):
     def _comparable(self, other: object) -> float:
         """The number of `other`, unless its unit differs."""
         if isinstance(other, Quantity) and other.unit != self.unit:
-            raise TypeError(f"a quantity in {self.unit} and one in {other.unit} are not to be compared")
+            raise TypeError(f"a quantity in {self.unit} and one in {other.unit} cannot be compared")
         return plain_number(other)  # type: ignore[no-any-return]
 
     def __lt__(self, other: Any) -> bool:
@@ -265,7 +265,7 @@ def spelled_time(value: str | float) -> str:
 
 def _text(value: object) -> str:
     if not isinstance(value, str):
-        raise TypeError(f"expected a text, a number or a quantity, not {value!r}")
+        raise TypeError(f"expected a string, a number or a quantity, not {value!r}")
     return value
 
 
@@ -284,15 +284,15 @@ def _unit(name: str, unit: str, scale: Fraction | int, what: str) -> Callable[[f
     return make
 
 
-m = _unit("m", "m", 1, "So many metres.")
-cm = _unit("cm", "m", Fraction(1, 100), "So many centimetres, in metres.")
-mm = _unit("mm", "m", Fraction(1, 1000), "So many millimetres, in metres.")
-s = _unit("s", "s", 1, "So many seconds.")
-ms = _unit("ms", "s", Fraction(1, 1000), "So many milliseconds, in seconds.")
-minutes = _unit("minutes", "s", 60, "So many minutes, in seconds.")
-rad = _unit("rad", "rad", 1, "So many radians.")
-m_per_s = _unit("m_per_s", "m/s", 1, "So many metres a second.")
-rad_per_s = _unit("rad_per_s", "rad/s", 1, "So many radians a second.")
+m = _unit("m", "m", 1, "A length in metres.")
+cm = _unit("cm", "m", Fraction(1, 100), "A length in centimetres, as metres.")
+mm = _unit("mm", "m", Fraction(1, 1000), "A length in millimetres, as metres.")
+s = _unit("s", "s", 1, "A time in seconds.")
+ms = _unit("ms", "s", Fraction(1, 1000), "A time in milliseconds, as seconds.")
+minutes = _unit("minutes", "s", 60, "A time in minutes, as seconds.")
+rad = _unit("rad", "rad", 1, "An angle in radians.")
+m_per_s = _unit("m_per_s", "m/s", 1, "A speed in metres per second.")
+rad_per_s = _unit("rad_per_s", "rad/s", 1, "A turn rate in radians per second.")
 
 
 def deg(value: float) -> Quantity:

@@ -17,17 +17,17 @@ __all__ = ["watch"]
 EVERY = 0.1
 """Seconds between two pictures."""
 ACTIVE = "stroke:#e8590c!important;stroke-width:5!important"
-"""How the box of the active element is drawn."""
+"""The style of the active element's box."""
 KINDS = ".actor,.subplan,.computation"
-"""The boxes of elements, without those of what watches them."""
+"""The boxes of elements, without their supervisors."""
 
 
 def watch(simulation: Simulation, until: float, speed: float) -> None:
     """Drive a simulation to its end or to `until` at `speed` times real time, and show it."""
     if not notebook.is_here():
-        raise RuntimeError("watch() shows the run in a notebook's cell, and this is none; run() runs it")
+        raise RuntimeError("watch() needs a notebook cell; call run() instead")
     if not speed > 0:
-        raise ValueError(f"speed is {speed}; give how many times as fast as the clock on the wall, such as 1 or 5")
+        raise ValueError(f"speed is {speed}; give a multiple of real time, such as 1 or 5")
     cell, first, begin = notebook.Cell(), simulation.time, time.monotonic()
     view = _View(simulation)
     going, shown = True, begin

@@ -65,7 +65,7 @@ class Stress(RuleBasedStateMachine):
         self.gone = 0
         self.note("---- a new example", anew=True)
 
-    # What is done, and what may come of it
+    # Actions and their possible results
 
     def note(self, text: str, anew: bool = False) -> None:
         """Record the next action, in case it is the last one."""

@@ -141,7 +141,7 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
   );
 }
 
-/** The states of a declared computation: the condition of each, and what it assigns. */
+/** The states of a declared computation, each with its condition and assignments. */
 function Computation({ item, of: { name, states } }: { item: string; of: ask.Computation }) {
   const change = (kind: string, fields: object) => ask.edit([{ [kind]: { computation: name, ...fields } }], {}, [{ item }]);
   return (

@@ -1,5 +1,4 @@
-// Controls of the robot: pressed as long as they are held, and long enough that a plan notices a
-// short press.
+// Controls of the robot: a press lasts while the pointer holds it, and at least until the plan has polled it.
 import { effect } from "@preact/signals";
 import { active, order, state } from "../debug/run";
 

@@ -314,7 +314,7 @@ const RULES: &[Rule] = &[
         "literals are the doubles nearest to their decimal values",
         &["formula_literals_are_exact"],
     ),
-    ("1.12", "a text of more than 64 bytes is a fault", &["formula_text_too_long"]),
+    ("1.12", "a string of more than 64 bytes is a fault", &["formula_text_too_long"]),
     (
         "1.12",
         "objects are known by the commit that wrote them",

@@ -123,7 +123,9 @@ impl fmt::Display for Chance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (at, stimulus) in &self.0 {
             match stimulus {
-                Stimulus::Break(fault, Duration::MAX) => writeln!(f, "{at}: {fault:?} for good")?,
+                Stimulus::Break(fault, Duration::MAX) => {
+                    writeln!(f, "{at}: {fault:?}, permanently")?
+                }
                 Stimulus::Break(fault, during) => writeln!(f, "{at}: {fault:?} for {during}")?,
                 Stimulus::Escape(down) => writeln!(f, "{at}: escape {}", word(*down))?,
                 Stimulus::Bump(down) => writeln!(f, "{at}: bumper {}", word(*down))?,

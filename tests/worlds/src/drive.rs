@@ -133,7 +133,7 @@ pub fn run(case: &Case) -> Outcome {
     let contacts = diary.borrow().contacts(&case.world, truth.collisions(), LOOK);
     let pose = truth.pose();
     drop((robot, scheduler));
-    let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
+    let watch = Rc::into_inner(watch).expect("it has no other owner");
     let broken = watch.into_inner().broken();
     Outcome { trace, ending, broken, timeline, contacts, seen, at, pose }
 }

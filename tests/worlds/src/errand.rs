@@ -139,7 +139,7 @@ impl Errand {
 }
 
 fn parsed(text: &str) -> World {
-    World::parse(text).expect("a room made up is sound")
+    World::parse(text).expect("a generated room is valid")
 }
 
 fn lasting(case: Case, seconds: u64) -> Case {

@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_way_leads_through_a_door_and_not_through_a_gap() {
+    fn a_path_leads_through_a_door_and_not_through_a_gap() {
         let halves = |door: f64| {
             World::parse(&format!(
                 "version = 1\nname = \"halves\"\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n\

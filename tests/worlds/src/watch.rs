@@ -176,7 +176,10 @@ impl Watch {
     fn must_stand(&mut self, at: Instant, when: &str) {
         if self.command != (0.0, 0.0) {
             let (speed, turn) = self.command;
-            self.breaks(at, format!("what drives {when}, but {speed} m/s, {turn} rad/s stay"));
+            self.breaks(
+                at,
+                format!("a driving actor {when}, but {speed} m/s, {turn} rad/s remain"),
+            );
         }
     }
 

@@ -95,7 +95,7 @@ impl Account {
         }
     }
 
-    /// Whether at most one goal of so many is missed.
+    /// Whether at most one goal of this number is missed.
     fn misses_one_of(&self, many: usize) -> bool {
         self.missed.len() * many <= self.took.len() + self.missed.len()
     }

@@ -31,7 +31,7 @@ fn cases() -> impl Iterator<Item = (String, Case)> {
 }
 
 #[test]
-fn traces_are_the_recorded_ones() {
+fn traces_equal_the_recorded_traces() {
     let line = |(name, case): (String, Case)| {
         let plan = &case.plan.name;
         format!("{} {plan}, {name}\n", run(&case).trace)

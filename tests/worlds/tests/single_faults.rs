@@ -18,7 +18,7 @@ const ROOMS: u64 = 1;
 /// Runs with a longer push are printed.
 const TOLD: Duration = Duration::from_millis(900);
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/single-faults.md");
-/// One run of so many may push for more than a second, apart from plans that feel their way.
+/// One run of this number may push for more than a second, apart from plans that feel their way.
 const LONG_OF: usize = 500;
 /// The beginning of the page's tables.
 const TABLES: &str = "<!-- tables: made by a test -->\n";

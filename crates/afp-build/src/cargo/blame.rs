@@ -113,7 +113,6 @@ impl Generated<'_> {
     }
 }
 
-/// The declaration in a toolbox for a message.
 fn declared<'a>(own: &'a OwnToolbox, message: &Message) -> Option<Found<'a>> {
     let said = words(&message.said);
     let inside = is_in(message, own.krate.folder.as_deref());
@@ -127,7 +126,7 @@ fn declared<'a>(own: &'a OwnToolbox, message: &Message) -> Option<Found<'a>> {
     let (name, title) = (&own.name, &message.title);
     let message = match inside {
         false if title.starts_with("the trait bound ") => {
-            format!("the robot does not have all that the toolbox '{name}' asks for here: {title}")
+            format!("the robot lacks a trait that the toolbox '{name}' needs here: {title}")
         }
         _ => format!("the Rust of the toolbox '{name}' does not compile: {title}"),
     };

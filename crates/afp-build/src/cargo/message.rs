@@ -26,7 +26,6 @@ pub struct Message {
 pub struct Place {
     /// The file, relative to the package's folder or absolute.
     pub file: PathBuf,
-    /// The byte range in the file.
     pub bytes: Range<usize>,
     /// Line and column in it, from 1.
     pub at: (usize, usize),
@@ -96,7 +95,6 @@ fn text(value: &Value, key: &str) -> String {
     value[key].as_str().unwrap_or_default().to_owned()
 }
 
-/// Collects the sentences of a message.
 fn collect(message: &Value, said: &mut String) {
     let mut add = |value: &Value| {
         said.push_str(value.as_str().unwrap_or(""));
@@ -117,7 +115,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn a_message_is_read_from_its_primary_place() {
+    fn a_message_has_its_primary_place() {
         let span = |primary, line: u32, label| {
             json!({ "is_primary": primary, "file_name": "src/lib.rs", "line_start": line,
                 "byte_start": 40, "byte_end": 45, "column_start": 3, "label": label, "text": [{ "text": "  let x" }] })

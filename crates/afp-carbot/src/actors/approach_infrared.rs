@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn stops_where_the_light_is_as_bright_as_wanted() {
+    fn it_stops_at_the_wanted_brightness() {
         for (x, y) in [(2.0, 0.0), (2.0, 0.7), (1.5, -1.0), (0.3, 0.0)] {
             let mut robot = Fake::new(&[]);
             robot.light = Some((x, y));
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn darkness_ends_it_where_it_stands() {
+    fn darkness_ends_it_at_its_place() {
         let mut robot = Fake::new(&[]);
         assert!(matches!(approach(&mut robot), Ok(Some(State::InfraredLost))));
         assert_eq!((robot.motion.x.si(), robot.millis()), (0.0, 510));
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sensor_that_dies_or_freezes_on_the_way_stops_the_robot() {
+    fn a_sensor_that_fails_or_freezes_while_driving_stops_the_robot() {
         let way = |break_it: fn(&mut Fake)| {
             let mut robot = Fake::new(&[]);
             robot.light = Some((5.0, 0.0));

@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_quarter_of_a_circle_ends_beside_its_centre() {
+    fn a_quarter_of_a_circle_ends_next_to_its_centre() {
         for degrees in [90.0_f64, -90.0] {
             let mut robot = Fake::new(&[]);
             let state = curve(&mut robot, degrees);
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn another_arc_than_the_one_asked_for_is_a_fault() {
+    fn a_wrong_arc_is_a_fault() {
         // Both commands are close enough at every instant, but neither gives a circle of 50 cm.
         for follows in [(0.6, 1.0), (1.0, 0.6)] {
             let mut robot = Fake::new(&[]);

@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn is_at_the_place_and_looks_as_it_should() {
+    fn it_ends_at_the_place_with_the_wanted_heading() {
         for [x, y, degrees] in [[1.0, 0.5, 90.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 180.0]] {
             let mut robot = Fake::new(&[]);
             let state = drive(&mut robot, [x, y, degrees], 30);
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_knows_not_where_it_is_stands_and_says_so() {
+    fn a_robot_without_a_position_stops_and_reports_it() {
         let mut robot = Fake::new(&[]);
         robot.spread = 1.5;
         let state = drive(&mut robot, [5.0, 0.0, 0.0], 3);

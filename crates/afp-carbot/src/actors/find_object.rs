@@ -53,7 +53,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_the_object_wherever_it_is() {
+    fn it_faces_the_object_in_every_direction() {
         for (x, y) in [(1.0, 1.0), (1.0, -0.5), (-1.5, 0.2), (2.5, 0.0)] {
             let mut robot = Fake::new(&[]);
             robot.post = Some((x, y));
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_once_around_for_a_missing_object_and_does_not_wait_for_one_that_has_gone() {
+    fn it_turns_once_for_a_missing_object_and_does_not_wait_for_a_lost_object() {
         let mut robot = Fake::new(&[]);
         assert_eq!(find(&mut robot), Ok(Some(State::NoObjectFound)));
         assert!(robot.motion.heading.si() > core::f64::consts::TAU);
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dead_camera_and_one_that_repeats_itself_are_faults() {
+    fn a_dead_or_frozen_camera_is_a_fault() {
         let mut robot = Fake::new(&[]);
         robot.dead_camera = true;
         assert_eq!(find(&mut robot), Err(NO_PICTURE));

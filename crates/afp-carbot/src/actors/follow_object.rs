@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn stops_so_far_before_the_object() {
+    fn it_stops_at_the_wanted_distance_from_the_object() {
         for (x, y) in [(2.0, 0.0), (2.0, 0.7), (1.5, -0.6)] {
             let mut robot = Fake::new(&[]);
             robot.post = Some((x, y));
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dead_camera_and_one_that_repeats_itself_are_faults() {
+    fn a_dead_or_frozen_camera_is_a_fault() {
         for freezes in [0, 1000] {
             let mut robot = Fake::new(&[]);
             (robot.post, robot.camera_freezes) = (Some((3.0, 0.0)), freezes);

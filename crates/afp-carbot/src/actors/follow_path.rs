@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn keeps_to_the_path_round_its_corners_to_the_end() {
+    fn it_follows_the_path_around_corners_to_its_end() {
         for places in [
             &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]][..],
             &[[0.0, 0.0], [-1.0, 0.0]],
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_is_elsewhere_or_knows_not_where_stands_and_says_so() {
+    fn a_robot_off_the_path_or_without_a_position_stops_and_reports_it() {
         let mut robot = Fake::new(&[]);
         let state = follow(&mut robot, &[[2.0, 2.0], [5.0, 2.0]], 3);
         assert_eq!((state, robot.motion.x.si()), (Ok(Some(State::PathLost)), 0.0));
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn another_path_takes_its_place_without_a_stop() {
+    fn a_new_path_replaces_the_old_path_without_a_stop() {
         let mut robot = Fake::new(&[]);
         let first = Path::new([[0.0, 0.0], [3.0, 0.0]]).unwrap();
         let second = Path::new([[0.5, 0.0], [1.5, 0.4]]).unwrap();

@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_blocked_robot_and_one_that_drives_in_circles_are_faults() {
+    fn a_blocked_robot_or_a_robot_that_drives_in_circles_is_a_fault() {
         let mut robot = Fake::new(&[]);
         robot.follows = (0.0, 0.0);
         assert_eq!(drive(&mut robot, 1.0, 5), Err(DRIVE_BLOCKED));
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn stands_still_without_odometry_and_faults_after_half_a_second() {
+    fn without_odometry_it_stops_and_fails_after_half_a_second() {
         let mut robot = Fake::new(&[]);
         robot.dead_odometry = true;
         assert_eq!(drive(&mut robot, 1.0, 5), Err(NO_ODOMETRY));

@@ -38,7 +38,7 @@ mod tests {
     use afp_core::quantity::{AngularSpeed, Speed};
 
     #[test]
-    fn stands_from_its_start_on_whatever_moves_the_drive() {
+    fn it_stops_the_robot_from_its_start() {
         let mut robot = Fake::new(&[]);
         let now = robot.now;
         let roll = |robot: &mut Fake| {

@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn before_nothing_there_is_nothing_to_learn() {
+    fn without_an_object_it_learns_nothing() {
         assert_eq!(learn(&mut Fake::new(&[])), Ok(None));
     }
 

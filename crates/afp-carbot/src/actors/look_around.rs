@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_leaves_it_standing() {
+    fn an_interrupt_leaves_the_robot_stopped() {
         assert!(matches!(look(&mut Fake::new(&[plane(0.0, 0.7)]), 1), Ok(None)));
     }
 

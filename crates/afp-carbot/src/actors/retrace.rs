@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn undoes_a_turn_and_then_the_way_before_it() {
+    fn it_undoes_a_turn_and_then_the_path_before_it() {
         for degrees in [40.0, -40.0] {
             let mut robot = Fake::new(&[]);
             forward(&mut robot, 0.3);
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn goes_straight_back_where_nothing_is_known() {
+    fn without_a_known_path_it_goes_straight_back() {
         let mut robot = Fake::new(&[]);
         assert_eq!(back(&mut robot, 0.15), Ok(Some(State::Retraced)));
         assert!((robot.motion.x.si() + 0.15).abs() < 0.01, "{:?}", robot.motion);

@@ -183,13 +183,13 @@ mod tests {
     }
 
     #[test]
-    fn in_a_corner_the_wall_ahead_is_found_and_not_the_one_beside() {
+    fn in_a_corner_the_wall_ahead_is_found_and_not_the_wall_at_the_side() {
         let turn = found(&[plane(0.0, 0.5), plane(-90.0, 0.475)]);
         assert!((turn - 90.0).abs() < 3.0, "{turn}");
     }
 
     #[test]
-    fn in_a_nook_it_turns_on_as_far_as_it_has_looked() {
+    fn in_a_nook_it_turns_as_far_as_it_has_looked() {
         let walls = [plane(0.0, 0.5), plane(90.0, 0.35)];
         let turn = |degrees| match search_to(degrees, &mut Fake::new(&walls)) {
             Ok(Some(State::WallFound { angle })) => angle.si().to_degrees(),
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_and_something_out_of_range_is_no_wall() {
+    fn silence_and_an_object_out_of_range_are_not_a_wall() {
         assert_eq!(search(&mut Fake::new(&[])), Ok(Some(State::NoWallFound)));
         assert_eq!(search(&mut Fake::new(&[plane(0.0, 1.7)])), Ok(Some(State::NoWallFound)));
     }

@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn blinks_and_beeps_as_often_as_wanted_and_is_dark_and_silent_then() {
+    fn it_blinks_and_beeps_as_often_as_wanted_and_ends_dark_and_silent() {
         let mut robot = Fake::new(&[]);
         let state = robot.run::<templates::Signal, Signal>(inputs(true, true, 3), || Live {}, 5);
         assert_eq!(state, Ok(Some(State::Signalled)));
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_leaves_it_dark_silent_and_standing() {
+    fn an_interrupt_leaves_it_dark_silent_and_stopped() {
         let mut robot = Fake::new(&[]);
         let state = robot.run::<templates::Signal, Signal>(inputs(true, true, 100), || Live {}, 1);
         assert_eq!((state, robot.signals.last()), (Ok(None), Some(&(false, None))));

@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn is_ready_once_the_robot_stands() {
+    fn it_is_ready_once_the_robot_has_stopped() {
         let mut robot = Fake::new(&[]);
         robot.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.1), robot.now);
         robot.tick();
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn without_odometry_nobody_knows_whether_it_stands() {
+    fn without_odometry_it_is_unknown_whether_the_robot_has_stopped() {
         let mut robot = Fake::new(&[]);
         robot.dead_odometry = true;
         assert_eq!(stop(&mut robot), Err(NO_ODOMETRY));

@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn light_that_goes_out_is_not_waited_for() {
+    fn it_does_not_wait_for_light_that_goes_out() {
         let mut robot = Fake::new(&[]);
         robot.light = Some((1.0, 1.0));
         robot.light_goes_out = 300;
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sensor_that_dies_or_freezes_on_the_way_stops_the_robot() {
+    fn a_sensor_that_fails_or_freezes_while_driving_stops_the_robot() {
         for (dies, freezes, fault) in
             [(700, u64::MAX, NO_INFRARED), (u64::MAX, 700, FROZEN_INFRARED)]
         {

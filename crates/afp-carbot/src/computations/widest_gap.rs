@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn the_wider_of_two_gaps_is_found_whichever_way_the_sweep_went() {
+    fn the_wider_of_two_gaps_is_found_in_both_sweep_directions() {
         for leftward in [true, false] {
             let map = map(0.5, &[(-120, -70), (-30, 30), (75, 120)], leftward);
             assert_eq!(found(&map, 0.4), Some((53, 68)));
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_alike_the_one_nearer_to_the_heading() {
+    fn the_gap_nearer_to_the_heading_wins_a_tie() {
         for leftward in [true, false] {
             let map = map(0.5, &[(-120, -70), (-30, 50), (90, 120)], leftward);
             assert_eq!(found(&map, 0.4), Some((-50, 60)));
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_near_is_one_gap_and_all_near_is_none() {
+    fn free_space_is_one_gap_and_blocked_space_is_no_gap() {
         assert_eq!(found(&map(0.5, &[], true), 2.0), Some((0, 200)));
         assert_eq!(found(&map(0.5, &[(-120, 120)], true), 0.1), None);
         assert_eq!(found(&DistanceMap::default(), 0.1), None);

@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pixel_beyond_the_picture_is_none() {
+    fn a_pixel_outside_of_the_picture_has_no_colour() {
         let frame = Frame { width: 2, height: 1, rgb: &[1, 2, 3, 4, 5, 6], number: 1 };
         assert_eq!(frame.pixel(1, 0), Some([4, 5, 6]));
         assert_eq!(frame.pixel(2, 0), None);

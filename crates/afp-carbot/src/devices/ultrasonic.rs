@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_driver_cannot_turn_nonsense_into_an_echo() {
+    fn an_invalid_driver_value_is_not_an_echo() {
         let beam = Beam {
             forward: Length::from_si(0.1),
             opening: Angle::from_deg(30.0),

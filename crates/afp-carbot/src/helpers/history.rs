@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn the_heading_is_known_for_longer_than_readings_are_waited_for() {
+    fn the_heading_history_covers_the_patience_for_readings() {
         for every in [2, 5, 10, 20, 40, 50] {
             let history = turning(every);
             for millis in 1490..=2000 {
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn old_and_invalid_readings_are_not_noted() {
+    fn old_and_invalid_readings_are_not_stored() {
         let mut history = turning(5);
         let elsewhere = Motion { heading: Angle::from_si(9.0), ..Motion::default() };
         history.note(Reading::valid(elsewhere, at(2000)));

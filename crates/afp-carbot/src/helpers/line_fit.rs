@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn something_else_in_the_sweep_does_not_pull() {
+    fn an_outlier_in_the_sweep_does_not_change_the_line() {
         let mut returns = sweep(0.0, 0.6);
         returns.extend(
             (8..12).map(|step| Return { bearing: f64::from(step * 5).to_radians(), range: 0.4 }),
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scatter_or_a_post_is_no_wall() {
+    fn a_scatter_or_a_post_is_not_a_wall() {
         let scatter = (0..20).map(|i| Return {
             bearing: f64::from(i * 6 - 60).to_radians(),
             range: 0.5 + 0.15 * f64::from((i * 7) % 6),

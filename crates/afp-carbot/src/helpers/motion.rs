@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn wrapped_angles_lie_within_half_a_turn() {
+    fn wrapped_angles_are_within_half_a_turn() {
         assert!((wrap(4.0) - (4.0 - core::f64::consts::TAU)).abs() < 1e-12);
         assert_eq!(wrap(-3.0), -3.0);
     }

@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_standing_robot_explains_no_flow() {
+    fn a_stationary_robot_causes_no_flow() {
         let step = step(0.0, 0.0);
         assert!(off(step, [10.0, -5.0], [10.0, -5.0]) < 1e-9);
         assert!((off(step, [10.0, -5.0], [13.0, -1.0]) - 5.0).abs() < 1e-9);
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn the_floor_is_no_farther_than_it_is() {
+    fn the_distance_of_the_floor_is_not_overestimated() {
         // The floor in this row is 0.2 m * 114 / 50 ahead of the lens.
         let (depth, step) = (0.456, step(0.02, 0.0));
         let scale = depth / (depth - 0.02);

@@ -107,21 +107,21 @@ mod tests {
     }
 
     #[test]
-    fn the_same_on_twenty_centimetres_and_ten_readings_is_frozen() {
+    fn a_sensor_is_frozen_after_ten_equal_readings_in_twenty_centimetres() {
         assert_eq!(checked(100, 0.0101, |_| Some(1.0)), Some(21));
         assert_eq!(checked(100, -0.0101, |_| Some(1.0)), Some(21));
         assert_eq!(checked(100, 0.5, |_| Some(1.0)), Some(11));
     }
 
     #[test]
-    fn silence_may_repeat_and_so_may_what_a_standing_robot_measures() {
+    fn silence_and_readings_of_a_stationary_robot_may_repeat() {
         assert_eq!(checked(100, 0.01, |_| None), None);
         assert_eq!(checked(100, 0.0, |_| Some(1.0)), None);
         assert_eq!(checked(100, 0.01, |n| Some(f64::from(n / 15))), None);
     }
 
     #[test]
-    fn a_silent_odometry_tells_of_no_way() {
+    fn a_silent_odometry_counts_no_distance() {
         let mut repeats = Repeats::new(FROZEN_RANGE, Instant::ZERO);
         for n in 1..100 {
             let at = Instant::ZERO + Duration::from_millis(50 * n);

@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn remembers_places_apart_newest_first() {
+    fn it_remembers_separate_places_newest_first() {
         let trail = noted(&[(0.0, 0.0), (0.01, 0.0), (0.02, 0.0), (0.02, 0.05), (0.02, 0.1)]);
         assert_eq!(known(&trail), [(0.02, 0.1), (0.02, 0.0), (0.0, 0.0)]);
     }
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn the_oldest_make_room_and_a_jump_forgets_all() {
+    fn old_places_are_dropped_and_a_jump_clears_all() {
         let mut places: Vec<_> = (0..100).map(|n| (0.02 * f64::from(n), 0.0)).collect();
         assert_eq!(known(&noted(&places)).len(), KEPT);
         places.push((5.0, 0.0));

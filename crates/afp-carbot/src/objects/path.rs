@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_is_counted_from_the_end_and_the_last_piece_goes_on() {
+    fn a_place_is_counted_from_the_end_and_the_last_piece_continues() {
         let place = |rest| corner().place(rest).unwrap();
         assert_eq!(place(0.5), [1.0, 1.5]);
         assert_eq!(place(2.25), [0.75, 0.0]);
@@ -166,14 +166,14 @@ mod tests {
     }
 
     #[test]
-    fn places_that_are_the_same_are_no_trouble() {
+    fn equal_places_are_accepted() {
         let twice = Path::new([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]]).unwrap();
         assert_eq!(twice.nearest([0.5, 0.0]), Some(Nearest { off: 0.0, rest: 0.5 }));
         assert_eq!(twice.place(-0.5), Some([1.5, 0.0]));
     }
 
     #[test]
-    fn one_place_more_than_there_is_room_for_makes_the_first_one_go() {
+    fn a_place_above_the_limit_replaces_the_first_place() {
         let mut path = Path::new((0..Path::MOST).map(|n| [n as f64, 0.0])).unwrap();
         path.note([0.5, 0.5]);
         assert_eq!((path.places().next(), path.end()), (Some([1.0, 0.0]), Some([0.5, 0.5])));
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_with_too_many_corners_is_none() {
+    fn a_path_with_too_many_corners_is_rejected() {
         let places: Vec<_> = (0..=Path::MOST).map(|n| [n as f64, 0.0]).collect();
         assert_eq!(Path::new(places), Err(LONG_PATH));
     }

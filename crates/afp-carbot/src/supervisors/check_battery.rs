@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn reports_a_low_battery_only() {
+    fn only_a_low_battery_is_reported() {
         let mut robot = Fake::new(&[]);
         assert_eq!(watch(&mut robot, 1), Ok(None));
         robot.charge = 0.19;

@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn reports_the_colour_and_no_other() {
+    fn only_the_wanted_colour_is_reported() {
         let mut robot = Fake::new(&[]);
         robot.floor = Color { red: 0.75, green: 0.05, blue: 0.15 };
         assert_eq!(watch(&mut robot, 1), Ok(Some(Event::ColorSeen)));

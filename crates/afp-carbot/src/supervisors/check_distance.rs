@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn distances_begin_where_the_robot_ends() {
+    fn distances_are_measured_from_the_robots_edge() {
         assert_eq!(reports(&[plane(0.0, 0.6)], 0.0), Some(40));
         assert_eq!(reports(&[plane(0.0, 0.75)], 0.0), None);
         assert_eq!(reports(&[plane(90.0, 0.6)], 90.0), Some(43));
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn farther_takes_a_few_pings_in_a_row() {
+    fn farther_needs_several_consecutive_pings() {
         let mut robot = Fake::new(&[plane(0.0, 0.6)]);
         robot.lost_pings = (200, 3);
         assert_eq!(watch(&mut robot, 0.0, 0b10), Ok(None));

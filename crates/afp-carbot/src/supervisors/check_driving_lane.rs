@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_that_runs_beside_the_lane_does_not_block_it() {
+    fn a_wall_parallel_to_the_lane_does_not_block_it() {
         assert!(free(&[plane(-90.0, 0.475)]));
         assert!(free(&[]));
     }
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn an_obstacle_beside_the_beam_is_found_by_swinging() {
+    fn an_obstacle_next_to_the_beam_is_found_by_swinging() {
         let slanted = [plane(-50.0, 0.45)];
         assert!(!free(&slanted));
     }

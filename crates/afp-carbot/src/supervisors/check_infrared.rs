@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sensor_that_repeats_itself_is_a_fault_where_the_robot_moves() {
+    fn a_sensor_that_repeats_itself_is_a_fault_while_the_robot_moves() {
         for (drifts, seen) in [(0.0, Ok(None)), (1.0, Err(FROZEN_INFRARED))] {
             let mut robot = Fake::new(&[]);
             robot.light = Some((1.0, 0.5));

@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn driving_and_turning_are_progress_standing_and_creeping_are_not() {
+    fn driving_and_turning_are_progress_but_standing_and_creeping_are_not() {
         assert_eq!(watch(0.2, 0.0, 1), None);
         assert_eq!(watch(0.0, 0.5, 1), None);
         assert_eq!(watch(0.0, 0.0, 1), Some(2010));

@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_begins_where_the_robot_is() {
+    fn the_path_begins_at_the_robot() {
         let mut robot = Fake::new(&[]);
         robot.map_offset = [0.5, 0.0];
         let Ok(Some(Event::PathFound { path })) = plan(&mut robot, 3, 1000) else {
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn where_no_way_leads_it_says_so() {
+    fn an_unreachable_goal_is_reported() {
         let mut robot = Fake::new(&[]);
         robot.no_way = true;
         assert!(matches!(plan(&mut robot, 3, 1000), Ok(Some(Event::NoPath))));

@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wanted_press_is_reported_and_no_other() {
+    fn only_a_wanted_press_is_reported() {
         reports_a_wanted_press_only::<templates::CheckTouchSensor>(bumper, |robot| {
             robot.touched = true;
         });
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn each_press_that_is_wanted_is_reported_once() {
+    fn each_wanted_press_is_reported_once() {
         let polls = [false, true, true, false, true].map(|held| (held, 1));
         let both = |reports: &[bool]| [Ok(reports.to_vec()), Ok(reports.to_vec())];
         assert_eq!(clicks(&polls), both(&[false, true, false, false, true]));
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reading_that_says_nothing_begins_and_ends_no_press() {
+    fn an_invalid_reading_neither_begins_nor_ends_a_press() {
         let mut press = Press::default();
         let readings = [Some(false), Some(true), None, Some(true), Some(false), None, Some(true)];
         let begins: Vec<_> = readings.into_iter().map(|held| press.is_due(held)).collect();

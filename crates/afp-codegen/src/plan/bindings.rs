@@ -29,7 +29,7 @@ pub struct Bound<'a> {
 pub struct Function {
     /// Its item; empty if it would do nothing.
     pub item: TokenStream,
-    /// Statements that declare its scratch texts.
+    /// Statements that declare its scratch strings.
     pub scratch: TokenStream,
     /// The expression that calls it.
     pub call: TokenStream,
@@ -103,7 +103,7 @@ impl Bound<'_> {
         }
     }
 
-    /// The values of inputs by their names, and the scratch texts for them.
+    /// The values of inputs by their names, and the scratch strings for them.
     fn fields(&self, ports: &[(u16, (&InPort, &Formula))]) -> (Vec<TokenStream>, Vec<Ident>) {
         self.context.with_type_paths(|type_paths| {
             let mut formulas = Formulas::new(type_paths, &self.context.entries);
@@ -241,7 +241,6 @@ fn staged_value(
     }
 }
 
-/// A value, limited to the range of its entry.
 pub fn limited(entry: &Entry, value: TokenStream) -> TokenStream {
     match entry.range {
         Some((least, greatest)) => {
@@ -284,7 +283,7 @@ fn can_fail(value: &TokenStream) -> bool {
     })
 }
 
-/// A value converted for its entry; numbers from a text or an `int` are finite.
+/// A value converted for its entry; numbers from a string or an `int` are finite.
 pub fn converted(
     type_paths: &TypePaths<'_>,
     conversion: &Conversion,
@@ -304,7 +303,6 @@ fn is_generic(ty: &Type) -> bool {
     matches!(ty, Type::Any | Type::Number | Type::Discrete)
 }
 
-/// Whether a formula reads entries.
 pub fn reads_entries(formula: &Formula) -> bool {
     formula.entries().next().is_some()
 }

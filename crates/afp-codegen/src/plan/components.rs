@@ -224,7 +224,6 @@ fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -
     }
 }
 
-/// Starts a sub-plan with its inputs.
 fn start_sub_plan_arm(
     context: &Context<'_>,
     element: &Element,

@@ -74,7 +74,6 @@ pub fn all_types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
     computations_of(graph).iter().flat_map(|file| types(&file.templates)).for_each(see);
 }
 
-/// The modules of the computations, one for each file.
 pub fn modules<'a>(
     graph: &'a Graph,
     (enums_of_files, files): (&'a [FileEnum], &'a [FileComputations]),

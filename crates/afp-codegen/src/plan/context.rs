@@ -45,7 +45,6 @@ pub struct Context<'a> {
 
 /// The Rust names of one element or supervisor.
 pub struct ComponentNames {
-    /// Its name in the text, for comments.
     pub text: String,
     /// The variant that holds an element.
     pub variant: Ident,
@@ -57,7 +56,6 @@ pub struct ComponentNames {
     pub live: Ident,
     /// The function that stages its outputs.
     pub outputs: Ident,
-    /// Its number.
     pub number: Ident,
     /// The start of its ids, for a sub-plan.
     pub place: Ident,
@@ -65,7 +63,6 @@ pub struct ComponentNames {
 
 /// The common parts of a graph's modules.
 pub struct Shared {
-    /// The enums of the plan files.
     pub enums: Vec<FileEnum>,
     /// The tables that some plan reads.
     pub tables: Vec<FileTable>,
@@ -279,7 +276,7 @@ fn read(plan: &Plan) -> Vec<bool> {
     read
 }
 
-/// Whether a formula is an entry that is cloned: a text or an object.
+/// Whether a formula is an entry that is cloned: a string or an object.
 pub fn is_bare(formula: &Formula) -> bool {
     matches!(formula.ty, Type::Text | Type::Object(_)) && matches!(formula.op(), Op::Entry(_))
 }

@@ -90,7 +90,6 @@ fn active(context: &Context<'_>, holder: &Holder) -> TokenStream {
     }
 }
 
-/// The description of an element, for a comment.
 pub fn description(context: &Context<'_>, element: &Element) -> String {
     let (word, template) = match element.component {
         Component::Actor(id) => ("actor", &context.template(id).name),

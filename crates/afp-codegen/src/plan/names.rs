@@ -18,7 +18,7 @@ pub fn names(context: &Context<'_>, id: PlanId) -> TokenStream {
     let components = all.components.iter().map(|names| component(names, &all.texts));
     let entries = all.entries.iter().map(|names| entry(names, &all.texts));
     let (ty, access) = (&context.ty, access(context));
-    let about = doc("", "The names behind the ids of a trace.");
+    let about = doc("", "The names of the ids of a trace.");
     quote! {
         #about
         pub static NAMES: NameTable =

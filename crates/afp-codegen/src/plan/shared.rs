@@ -1,4 +1,4 @@
-//! The common parts of a graph's plans: enums of their files, and units for texts.
+//! The common parts of a graph's plans: enums of their files, and units for strings.
 
 use afp_types::Scale;
 use proc_macro2::{Literal, TokenStream};
@@ -33,7 +33,7 @@ pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Modu
         let items = dimensions.iter().map(|dimension| units(*dimension));
         modules.push(Module {
             name: ident("units"),
-            doc: "The units of quantities in texts.".to_owned(),
+            doc: "The units of quantities in strings.".to_owned(),
             imports: quote!(use #core::rt::{Scale, Unit};),
             sections: vec![("Units", quote!(#(#items)*))],
             span: graph.main().span,
@@ -83,7 +83,7 @@ pub fn enums_of(graph: &Graph) -> Vec<FileEnum> {
     enums
 }
 
-/// The dimensions that are read from texts: by external writers, and by conversions.
+/// The dimensions that are read from strings: by external writers, and by conversions.
 fn dimensions_of(graph: &Graph) -> Vec<Dimension> {
     let mut dimensions = Vec::new();
     let mut add = |ty: &Type| {

@@ -94,7 +94,6 @@ pub fn enum_path(
     quote!(#module::templates::#name)
 }
 
-/// The reader of a table, in its own module.
 fn reader(
     core: &TokenStream,
     type_paths: &TypePaths<'_>,

@@ -104,7 +104,7 @@ pub mod devices {
                     ::afp_core::devices::FaultRow {
                         name: "frozen",
                         amount: ::core::option::Option::None,
-                        help: "it repeats its last value as if it were new",
+                        help: "it repeats its last value as a new value",
                     },
                     ::afp_core::devices::FaultRow {
                         name: "lost",
@@ -114,7 +114,7 @@ pub mod devices {
                     ::afp_core::devices::FaultRow {
                         name: "nan",
                         amount: ::core::option::Option::None,
-                        help: "it delivers what is no number",
+                        help: "its values are not numbers",
                     },
                     ::afp_core::devices::FaultRow {
                         name: "delayed",
@@ -125,7 +125,7 @@ pub mod devices {
                             from: 0.0,
                             to: 86400.0,
                         }),
-                        help: "its readings arrive so much later",
+                        help: "its readings arrive late by this time",
                     },
                     ::afp_core::devices::FaultRow {
                         name: "slow",
@@ -136,7 +136,7 @@ pub mod devices {
                             from: 0.0,
                             to: 86400.0,
                         }),
-                        help: "each use takes so long",
+                        help: "each use takes this time",
                     },
                 ],
                 signals: &[
@@ -162,7 +162,7 @@ pub mod devices {
                     ::afp_core::devices::FaultRow {
                         name: "frozen",
                         amount: ::core::option::Option::None,
-                        help: "it repeats its last value as if it were new",
+                        help: "it repeats its last value as a new value",
                     },
                     ::afp_core::devices::FaultRow {
                         name: "lost",
@@ -172,7 +172,7 @@ pub mod devices {
                     ::afp_core::devices::FaultRow {
                         name: "nan",
                         amount: ::core::option::Option::None,
-                        help: "it delivers what is no number",
+                        help: "its values are not numbers",
                     },
                     ::afp_core::devices::FaultRow {
                         name: "delayed",
@@ -183,7 +183,7 @@ pub mod devices {
                             from: 0.0,
                             to: 86400.0,
                         }),
-                        help: "its readings arrive so much later",
+                        help: "its readings arrive late by this time",
                     },
                     ::afp_core::devices::FaultRow {
                         name: "slow",
@@ -194,7 +194,7 @@ pub mod devices {
                             from: 0.0,
                             to: 86400.0,
                         }),
-                        help: "each use takes so long",
+                        help: "each use takes this time",
                     },
                     ::afp_core::devices::FaultRow {
                         name: "low",

@@ -56,7 +56,7 @@ fn self_inputs() -> Result<std_templates::wait::Inputs, BadValue> {
     })
 }
 
-/// The names behind the ids of a trace.
+/// The names of the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
         ComponentRow::new("Config", ComponentKind::Plan, "Config", &[], "", &[]),

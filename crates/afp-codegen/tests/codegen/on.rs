@@ -102,7 +102,7 @@ static SWEEPS: [u16; 2] = [
     TICK.0,
 ];
 
-/// The names behind the ids of a trace.
+/// The names of the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
         ComponentRow::new("P", ComponentKind::Plan, "P", &[], "", &[]),

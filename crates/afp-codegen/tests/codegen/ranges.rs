@@ -273,7 +273,7 @@ where
     }
 }
 
-/// The names behind the ids of a trace.
+/// The names of the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
         ComponentRow::new("Inner", ComponentKind::Plan, "Inner", &[], "", &[]),
@@ -753,7 +753,7 @@ where
     }
 }
 
-/// The names behind the ids of a trace.
+/// The names of the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
         ComponentRow::new("P", ComponentKind::Plan, "P", &[], "", &[]),

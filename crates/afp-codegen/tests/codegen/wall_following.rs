@@ -1,6 +1,6 @@
 // units.rs
 
-//! The units of quantities in texts.
+//! The units of quantities in strings.
 
 use ::afp_core::rt::{Scale, Unit};
 
@@ -843,7 +843,7 @@ static SWEEPS: [u16; 9] = [
 
 // **** Names ****
 
-/// The names behind the ids of a trace.
+/// The names of the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
         ComponentRow::new(

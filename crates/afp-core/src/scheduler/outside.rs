@@ -95,11 +95,9 @@ fn help(names: &impl Names, id: TraceEntryId) -> &'static str {
         "bool" => "write 'true' or 'false'",
         "int" => "write a whole number, such as '3'",
         "float" => "write a number, such as '0.5'",
-        "string" => "write a shorter one",
+        "string" => "write a shorter string",
         _ if !entry.unit.is_empty() => "write a number and a unit that fits, such as '80 cm'",
-        _ if names.holds_object(id) => {
-            "templates make objects: nothing that is written becomes one"
-        }
+        _ if names.holds_object(id) => "only templates make objects: an object has no written form",
         _ => "write one of the values that its enum declares, with or without the enum's name",
     }
 }

@@ -73,7 +73,7 @@ fn an_event_of_that_poll_wins_over_the_miss() {
 }
 
 #[test]
-fn an_event_that_is_not_taken_leaves_the_miss_its_place() {
+fn an_event_that_is_not_taken_does_not_hide_the_miss() {
     let guard = guard("g", 10).deadline(5).on("E", "a").on_miss("b").writes("E", "x", 1);
     let plan = plan("p")
         .var("x")
@@ -86,7 +86,7 @@ fn an_event_that_is_not_taken_leaves_the_miss_its_place() {
 }
 
 #[test]
-fn a_miss_of_an_earlier_supervisor_stands_before_a_later_event() {
+fn a_miss_of_an_earlier_supervisor_comes_before_a_later_event() {
     let plan = plan("p")
         .guarded(guard("first", 10).deadline(5).on("E", "c").on_miss("b"))
         .with(actor("a").guarded(guard("second", 10).on("E", "c")).on("Done", "a"))
@@ -123,7 +123,7 @@ fn a_poll_that_began_too_late_for_its_budget_is_not_to_blame() {
 }
 
 #[test]
-fn releases_that_passed_are_skipped_and_counted_once() {
+fn missed_releases_are_skipped_and_counted_once() {
     let mut run = Run::started(watched(true), World::default());
     run.trace();
     run.step(42);
@@ -152,7 +152,7 @@ fn the_latest_release_is_served_and_may_be_late_itself() {
 }
 
 #[test]
-fn the_look_counts_but_never_raises_it() {
+fn the_look_counts_a_miss_but_never_reports_it() {
     let mut run = Run::started(watched(true), World::default().costs("g", Phase::Poll, 6, 0..1));
     assert_eq!(run.active(), Some("a"));
     assert_lines(
@@ -209,7 +209,7 @@ fn ending_the_plan_by_a_miss_is_interrupted() {
 }
 
 #[test]
-fn a_supervisor_ended_before_it_was_polled_has_no_verdict() {
+fn a_supervisor_that_ended_before_its_poll_has_no_miss() {
     let plan = plan("p")
         .with(
             actor("a")
@@ -225,7 +225,7 @@ fn a_supervisor_ended_before_it_was_polled_has_no_verdict() {
 }
 
 #[test]
-fn a_global_miss_that_leads_where_the_plan_already_is_is_not_taken() {
+fn a_global_miss_to_the_active_element_is_not_taken() {
     let plan = plan("p")
         .guarded(guard("g", 10).deadline(5).on("E", "terminate").on_miss("a"))
         .with(actor("a").on("Done", "a"));

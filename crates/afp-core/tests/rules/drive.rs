@@ -21,7 +21,7 @@ fn scheduler(plan: Builder) -> Scheduler<Scripted> {
 }
 
 #[test]
-fn a_plan_begins_when_the_platform_is_and_not_at_zero() {
+fn a_plan_begins_at_the_platforms_time() {
     let mut world = World::default().says("a", 0, 0..9000).says("b", 0, 0..9000);
     for begin in [0, 5000] {
         world.time = ms(begin);
@@ -92,7 +92,7 @@ fn the_innermost_component_that_failed_is_known() {
 }
 
 #[test]
-fn a_fault_that_an_edge_took_is_not_why_the_plan_ended() {
+fn a_fault_that_an_edge_handled_is_not_the_reason_of_the_end() {
     let build = || {
         let inner = plan("Inner").with(actor("deep").on("Done", "deep"));
         plan("p")
@@ -118,7 +118,7 @@ fn an_actor_that_cannot_be_interrupted_is_the_source_of_the_fault() {
 }
 
 #[test]
-fn another_plan_takes_the_place_of_one_that_runs() {
+fn a_running_plan_can_be_replaced() {
     let mut world = World::default();
     let clock = world.clock.clone();
     let mut running = scheduler(two());
@@ -136,7 +136,7 @@ fn another_plan_takes_the_place_of_one_that_runs() {
 }
 
 #[test]
-fn nothing_takes_the_place_of_a_plan_that_cannot_be_stopped() {
+fn a_plan_that_cannot_be_stopped_cannot_be_replaced() {
     let mut run = Run::started(two(), World::default().fails("a", Phase::Interrupt, 0..100));
     let clock = run.world.clock.clone();
     let other = Scripted::new(two().build());

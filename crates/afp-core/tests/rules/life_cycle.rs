@@ -32,7 +32,7 @@ fn an_actor_that_finished_is_not_interrupted() {
 }
 
 #[test]
-fn outputs_reach_the_configuration_in_one_commit_with_old_and_new_values() {
+fn outputs_are_one_commit_with_old_and_new_values() {
     let plan = plan("p")
         .entry("x", EntryKind::Var, Value::Int(1))
         .var("y")

@@ -62,7 +62,7 @@ fn an_unasked_global_supervisor_looks_before_the_next_actor_starts() {
 }
 
 #[test]
-fn global_supervisors_look_before_the_local_ones_whatever_the_deadlines() {
+fn global_supervisors_look_before_local_supervisors_for_all_deadlines() {
     let plan = plan("p")
         .guarded(guard("slow", 100).on("E", "terminate"))
         .with(actor("a").guarded(guard("fast", 1).on("E", "terminate")).on("Done", "a"));
@@ -99,7 +99,7 @@ fn a_computation_and_terminate_have_no_look() {
 }
 
 #[test]
-fn an_event_at_plan_start_means_that_no_actor_ever_starts() {
+fn after_an_event_at_plan_start_no_actor_starts() {
     let plan =
         plan("p").guarded(guard("g", 10).on("E", "terminate")).with(actor("a").on("Done", "a"));
     let run = Run::started(plan, World::default().says("g", 0, 0..1));

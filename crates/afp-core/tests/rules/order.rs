@@ -30,7 +30,7 @@ fn shorter_deadline_first_then_global_then_as_written() {
 }
 
 #[test]
-fn first_event_is_taken_and_the_rest_is_not_asked() {
+fn after_the_first_event_no_supervisor_is_polled() {
     let plan = plan("p")
         .guarded(guard("late", 30).on("E", "terminate"))
         .with(
@@ -55,7 +55,7 @@ fn first_event_is_taken_and_the_rest_is_not_asked() {
 }
 
 #[test]
-fn an_event_beats_the_actor_that_would_finish_at_the_same_instant() {
+fn an_event_comes_before_an_actor_that_finishes_at_the_same_instant() {
     let plan = plan("p")
         .var("x")
         .with(
@@ -71,7 +71,7 @@ fn an_event_beats_the_actor_that_would_finish_at_the_same_instant() {
 }
 
 #[test]
-fn an_ignored_event_is_not_wanted_and_hides_nothing() {
+fn an_ignored_event_is_not_wanted_and_hides_no_other_event() {
     let plan = plan("p")
         .var("x")
         .with(

@@ -36,7 +36,7 @@ fn writes_are_one_commit_at_the_start_of_the_next_step_and_the_last_one_wins() {
 }
 
 #[test]
-fn a_write_is_committed_although_nothing_is_due() {
+fn a_write_is_committed_even_if_no_component_is_due() {
     let mut run = Run::started(watched(), World::default());
     run.write("size", 5).expect("it fits");
     assert_eq!(run.step(3), Wake::At(crate::support::ms(10)));
@@ -44,7 +44,7 @@ fn a_write_is_committed_although_nothing_is_due() {
 }
 
 #[test]
-fn a_write_that_does_not_fit_is_the_writers_error() {
+fn an_invalid_write_is_the_writers_error() {
     let mut run = Run::started(watched(), World::default());
     assert_eq!(run.write("fixed", 2), Err(WriteError::ReadOnly));
     assert_eq!(run.write("result", 2), Err(WriteError::ReadOnly));
@@ -92,7 +92,7 @@ fn a_stop_request_comes_before_the_writes_and_interrupts() {
 }
 
 #[test]
-fn a_stop_request_before_the_start_lets_nothing_run() {
+fn after_a_stop_request_before_the_start_nothing_runs() {
     let mut run = Run::ready(watched(), World::default());
     run.scheduler.request_stop();
     assert_eq!(run.start(), Ok(Wake::Ended(Ending::Interrupted)));
@@ -120,7 +120,7 @@ fn a_stop_request_whose_interrupt_fails_is_an_emergency() {
 }
 
 #[test]
-fn an_input_without_value_keeps_the_plan_from_starting() {
+fn a_plan_with_a_missing_input_does_not_start() {
     let build = || {
         plan("p")
             .entry("size", EntryKind::In, Value::Unset)
@@ -136,7 +136,7 @@ fn an_input_without_value_keeps_the_plan_from_starting() {
 }
 
 #[test]
-fn a_write_before_the_start_sets_an_input_and_is_no_commit() {
+fn a_write_before_the_start_sets_an_input_without_a_commit() {
     let build = plan("p")
         .entry("size", EntryKind::In, Value::Unset)
         .var("x")
@@ -153,7 +153,7 @@ fn a_write_before_the_start_sets_an_input_and_is_no_commit() {
 }
 
 #[test]
-fn a_running_plan_cannot_be_changed_past_its_commits() {
+fn a_running_plan_can_only_be_changed_by_commits() {
     let mut run = Run::started(watched(), World::default());
     assert!(run.scheduler.plan_mut().is_none());
     run.scheduler.request_stop();
@@ -162,7 +162,7 @@ fn a_running_plan_cannot_be_changed_past_its_commits() {
 }
 
 #[test]
-fn a_step_before_the_start_does_nothing_and_says_so() {
+fn a_step_before_the_start_does_nothing_and_reports_it() {
     let mut run = Run::ready(watched(), World::default());
     assert_eq!(run.step(10), Wake::NotStarted);
     assert_eq!((run.world.calls.len(), run.trace().len()), (0, 0));
@@ -170,7 +170,7 @@ fn a_step_before_the_start_does_nothing_and_says_so() {
 }
 
 #[test]
-fn a_plan_that_lacks_an_input_names_it() {
+fn a_missing_input_is_named() {
     let build = plan("p").entry("size", EntryKind::In, Value::Unset).with(actor("a").on("D", "a"));
     let mut run = Run::ready(build, World::default());
     let why = run.start().expect_err("an input is missing");

@@ -116,7 +116,7 @@ impl Clock for BreakingClock {
 }
 
 #[test]
-fn a_panic_of_the_sink_or_the_clock_is_nobodys_of_the_plan() {
+fn a_panic_of_the_sink_or_the_clock_belongs_to_no_component() {
     let of_sink = |run: &mut Run| {
         let mut sink = Observe(|_: Instant, record: &Record<'_>| {
             assert!(!matches!(record, Record::Polled { .. }), "the disk is full");

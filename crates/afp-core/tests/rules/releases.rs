@@ -9,7 +9,7 @@ use crate::support::run::{Run, assert_lines};
 use crate::support::world::{Phase, World};
 
 #[test]
-fn supervisors_stay_on_their_grid_however_late_a_step_is() {
+fn supervisors_stay_on_their_grid_after_late_steps() {
     let plan =
         plan("p").with(actor("a").every(1000).guarded(guard("g", 10).on("E", "a")).on("Done", "a"));
     let mut run = Run::started(plan, World::default());

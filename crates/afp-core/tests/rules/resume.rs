@@ -5,7 +5,7 @@ use crate::support::run::{Run, assert_lines};
 use crate::support::world::World;
 
 #[test]
-fn the_rest_is_asked_and_sees_what_was_written() {
+fn after_resume_the_other_supervisors_are_polled_and_see_the_write() {
     let plan = plan("p").var("x").with(
         actor("a")
             .live("x")

@@ -24,7 +24,7 @@ fn local() -> Builder {
 }
 
 #[test]
-fn rule_11_the_element_goes_on_where_it_was() {
+fn rule_11_the_element_continues_at_its_place() {
     let world = World::default().says("button", 0, 30..31).says("button", 0, 70..71).says(
         "drive",
         0,
@@ -98,7 +98,7 @@ fn rule_11_a_lasting_condition_suspends_again_in_the_look() {
 }
 
 #[test]
-fn rule_11_what_did_not_start_starts_with_inputs_read_then() {
+fn rule_11_an_element_that_did_not_start_starts_with_new_inputs() {
     let plan = plan("p")
         .var("v")
         .with(
@@ -226,7 +226,7 @@ fn two_handlers() -> Builder {
 }
 
 #[test]
-fn rule_13_an_inner_handler_is_set_aside_with_its_plan() {
+fn rule_13_an_inner_handler_is_suspended_with_its_plan() {
     let world = World::default()
         .says("beep", 0, 10..11)
         .says("button", 0, 20..21)
@@ -252,7 +252,7 @@ fn rule_13_an_inner_look_may_suspend_what_is_still_suspended() {
 }
 
 #[test]
-fn rule_14_an_outer_ending_interrupts_the_inner_handler_and_its_set_aside_element() {
+fn rule_14_an_outer_ending_interrupts_the_inner_handler_and_its_suspended_element() {
     let world = World::default().says("beep", 0, 10..11).says("button", 1, 20..21);
     let mut run = Run::started(two_handlers(), world);
     run.until(20);
@@ -300,7 +300,7 @@ fn rule_16_a_failed_resume_interrupts_once_and_takes_the_error_edge() {
 }
 
 #[test]
-fn rule_16_a_failed_resume_takes_the_error_edge_of_its_own_level() {
+fn rule_16_a_failed_resume_takes_the_error_edge_of_its_level() {
     let inner = plan("inner")
         .with(actor("act").on("Done", "terminate").on_error("then"))
         .with(actor("then").on("Done", "terminate"));
@@ -378,7 +378,7 @@ fn rule_19_a_handler_that_takes_no_time_ends_in_livelock() {
 }
 
 #[test]
-fn resume_in_a_handler_goes_on_with_the_handler() {
+fn resume_in_a_handler_continues_the_handler() {
     let plan = plan("p")
         .var("n")
         .guarded(guard("button", 10).on("Click", "suspend x"))
@@ -408,7 +408,7 @@ fn a_handler_may_compute_before_it_returns() {
 }
 
 #[test]
-fn a_copy_taken_while_an_element_is_set_aside_goes_on_alike() {
+fn a_copy_with_a_suspended_element_continues_like_its_original() {
     let world = World::default().says("button", 0, 10..11).says("button", 0, 50..51);
     let mut run = Run::started(paused(), world);
     run.until(30);

@@ -47,7 +47,7 @@ fn after(world: World, end: u64) -> Run {
 }
 
 #[test]
-fn a_state_that_reaches_terminate_is_ok_and_commits_the_results() {
+fn a_state_that_leads_to_terminate_is_ok_and_commits_the_results() {
     let mut run =
         Run::started(connected(), World::default().says("turn", 0, 10..11).says("pass", 0, 20..21));
     run.trace();
@@ -70,7 +70,7 @@ fn a_state_that_reaches_terminate_is_ok_and_commits_the_results() {
 }
 
 #[test]
-fn an_event_that_reaches_terminate_is_interrupted_and_commits_what_was_written() {
+fn an_event_that_leads_to_terminate_is_interrupted_and_commits_the_written_values() {
     let world = World::default().says("turn", 0, 10..11).says("stuck", 0, 20..21);
     let run = after(world, 20);
     assert_eq!(run.active(), Some("cut"));
@@ -79,7 +79,7 @@ fn an_event_that_reaches_terminate_is_interrupted_and_commits_what_was_written()
 }
 
 #[test]
-fn a_fault_that_nobody_catches_is_error_and_commits_nothing() {
+fn an_unhandled_fault_is_error_and_commits_nothing() {
     let world = World::default().says("turn", 0, 10..11).fails("pass", Phase::Poll, 20..21);
     let mut run = Run::started(connected(), world);
     run.until(10).trace();
@@ -131,7 +131,7 @@ fn results_that_do_not_convert_are_the_sub_plans_fault() {
 }
 
 #[test]
-fn an_outer_event_interrupts_what_runs_inside_and_commits_none_of_it() {
+fn an_outer_event_interrupts_the_inner_element_without_a_commit() {
     let world = World::default().says("turn", 0, 10..11).says("escape", 0, 50..51);
     let mut run = Run::started(connected(), world);
     run.until(49).trace();
@@ -148,7 +148,7 @@ fn an_outer_event_interrupts_what_runs_inside_and_commits_none_of_it() {
 }
 
 #[test]
-fn outer_plans_are_asked_first_whatever_the_deadlines() {
+fn outer_plans_are_polled_first_for_all_deadlines() {
     let mut run = after(World::default().says("turn", 0, 10..11), 99);
     run.trace();
     run.step(100);
@@ -255,7 +255,7 @@ fn a_sub_plan_of_computations_takes_no_time() {
 }
 
 #[test]
-fn the_earliest_instant_inside_is_when_a_sub_plan_is_due() {
+fn a_sub_plan_is_due_at_the_earliest_instant_inside() {
     let inner =
         plan("Inner").with(actor("a").every(7).guarded(guard("g", 3).on("E", "a")).on("Done", "a"));
     let plan = plan("p")

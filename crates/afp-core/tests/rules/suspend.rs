@@ -90,7 +90,7 @@ fn rule_7_in_the_look_nothing_is_called() {
 }
 
 #[test]
-fn rule_8_a_handler_gives_way_and_the_element_stays_aside() {
+fn rule_8_a_handler_yields_and_the_element_stays_suspended() {
     let plan = plan("p")
         .guarded(guard("first", 10).on("E", "suspend x"))
         .guarded(guard("second", 10).on("E", "suspend y"))
@@ -123,7 +123,7 @@ fn rule_9_a_global_supervisor_does_not_start_its_handler_again() {
 }
 
 #[test]
-fn rule_10_what_is_set_aside_is_silent() {
+fn rule_10_a_suspended_element_is_silent() {
     let plan = plan("p")
         .guarded(guard("global", 10).on("E", "suspend x"))
         .with(
@@ -148,7 +148,7 @@ fn rule_10_what_is_set_aside_is_silent() {
 }
 
 #[test]
-fn rule_14_another_element_gives_up_what_is_set_aside() {
+fn rule_14_another_element_abandons_the_suspended_element() {
     let plan = plan("p")
         .var("v")
         .guarded(guard("button", 10).on("Click", "suspend x"))
@@ -174,7 +174,7 @@ fn rule_14_another_element_gives_up_what_is_set_aside() {
 }
 
 #[test]
-fn rule_14_the_element_itself_is_given_up_and_entered_again() {
+fn rule_14_the_element_itself_is_abandoned_and_entered_again() {
     let plan = plan("p")
         .guarded(guard("button", 10).on("Click", "suspend x"))
         .guarded(guard("again", 10).on("E", "a"))
@@ -188,7 +188,7 @@ fn rule_14_the_element_itself_is_given_up_and_entered_again() {
 }
 
 #[test]
-fn rule_14_every_ending_gives_up_what_is_set_aside() {
+fn rule_14_every_ending_abandons_the_suspended_element() {
     for (to, ending) in [("terminate", "Interrupted"), ("fail", "Error(failed: stuck)")] {
         let plan = plan("p")
             .guarded(guard("button", 10).on("Click", "suspend x"))
@@ -272,7 +272,7 @@ fn rule_16_a_failed_suspend_interrupts_once_and_commits_nothing() {
 }
 
 #[test]
-fn rule_16_three_levels_down_the_error_edge_is_that_of_the_event() {
+fn rule_16_three_levels_down_the_event_selects_the_error_edge() {
     let inner = plan("inner").with(actor("act").on("Done", "terminate").on_error("act"));
     let middle = plan("middle").with(sub_plan("in", inner).on("OK", "terminate"));
     let plan = plan("p")
@@ -313,7 +313,7 @@ fn rule_16_a_failed_interrupt_ends_the_run_and_calls_nothing() {
 }
 
 #[test]
-fn rule_16_a_failed_interrupt_of_the_set_aside_element_ends_the_run() {
+fn rule_16_a_failed_interrupt_of_the_suspended_element_ends_the_run() {
     let world = World::default()
         .says("button", 0, 10..11)
         .fails("drive", Phase::Interrupt, 20..21)

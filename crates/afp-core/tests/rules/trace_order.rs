@@ -8,7 +8,7 @@ use crate::support::run::{Run, assert_lines};
 use crate::support::world::{Phase, World};
 
 #[test]
-fn outside_then_polls_event_interrupts_commits_starts() {
+fn the_trace_has_outside_writes_polls_the_event_interrupts_commits_and_starts() {
     let inner = plan("Inner").with(actor("work").on("Done", "terminate"));
     let plan = plan("p")
         .entry("x", EntryKind::Var, Value::Int(0))

@@ -193,7 +193,6 @@ impl Adapter<'_> {
         self.send_event(to, E::EVENT, body);
     }
 
-    /// Sends an event to all clients.
     pub(super) fn broadcast(&mut self, event: &str, body: &Value) {
         self.send_event_where(|client| client.attached, event, body);
     }

@@ -1,4 +1,4 @@
-//! The end of a run: its reason, its figures and the command that repeats it.
+//! The end of a run: its reason, its results and the command that repeats it.
 
 use afp_session::{EndingKind, Figure, FigureValue};
 use dapts::event;
@@ -82,7 +82,7 @@ impl Run<'_> {
                 format!("{name} was interrupted after {at:.1} s by {client}")
             }
             (_, By::Until) if by_edge.is_empty() => {
-                format!("{name} was interrupted after {at:.1} s: that was its time")
+                format!("{name} was interrupted after {at:.1} s: its time was up")
             }
             _ => format!("{name} was interrupted after {at:.1} s{by_edge}"),
         }
@@ -95,7 +95,7 @@ fn taken(edge: &str) -> String {
     format!(" ({element} → {outcome})")
 }
 
-/// A figure in words, if it has content.
+/// A result in words, if it has content.
 fn in_words(figure: &Figure) -> Option<String> {
     let name = figure.name.replace('_', " ");
     if !figure.text.is_empty() {

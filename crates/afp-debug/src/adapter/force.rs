@@ -109,7 +109,7 @@ impl Run<'_> {
                 Ok(What::Outcome { component, name })
             }
             _ if self.target.program().entry(ComponentId(0), path).is_some() => {
-                Err(format!("'{path}' is an entry: say its 'value'"))
+                Err(format!("'{path}' is an entry: give its 'value'"))
             }
             _ => Err(format!(
                 "'{path}' is not a state or event: write a path such as 'patrol.avoid.touch.TouchSensorPressed'"

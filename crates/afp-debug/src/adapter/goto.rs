@@ -58,7 +58,7 @@ impl Adapter<'_> {
     pub(super) fn goto(&mut self, asked: dapts::GotoArguments, now: Wall) -> Answer<()> {
         let run = self.run()?;
         if run.target.is_recorded() {
-            return Err("a log shows what was: launch its plan to go somewhere else".into());
+            return Err("a log cannot be changed: launch its plan to go to another element".into());
         }
         let id = u32::try_from(asked.target_id).map(ComponentId);
         let id = id.map_err(|_| Refusal("there is no such target".to_owned()))?;
@@ -82,10 +82,7 @@ impl Run<'_> {
         let steps = way(&program, unit.plan, from, &unit.name);
         let Some(Report { component, outcome }) = steps else {
             let from = program.unit(from).map_or("", |unit| &*unit.name);
-            return Err(format!(
-                "no edge that can be brought about leads from '{from}' to '{}'",
-                unit.name
-            ));
+            return Err(format!("no edge from '{from}' to '{}' can be forced", unit.name));
         };
         self.target.fire(component, &outcome)
     }

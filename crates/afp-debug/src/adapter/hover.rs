@@ -43,9 +43,7 @@ impl Adapter<'_> {
                 // Among several uses of a plan, the frame's one comes first, and then the active
                 // one.
                 let inside = all.iter().find(is_of_frame).or_else(|| all.iter().find(is_on));
-                *inside
-                    .or_else(|| all.first())
-                    .ok_or("the plan that runs does not use this text")?
+                *inside.or_else(|| all.first()).ok_or("the running plan does not use this text")?
             }
             None => {
                 let id = asked.frame_id.map(component).unwrap_or_default();
@@ -74,7 +72,7 @@ impl Adapter<'_> {
         let path = self.host.path(path);
         let counting = self.counting();
         let file = self.run()?.target.program().file(&path);
-        let file = file.ok_or("the plan that runs does not use this file")?;
+        let file = file.ok_or("the running plan does not use this file")?;
         let line = line.saturating_sub(counting.first_line);
         let column = asked.column.map(|column| column.saturating_sub(counting.first_column));
         Ok(Some(Place { file, line, column: column.unwrap_or(u32::MAX) }))
@@ -116,7 +114,7 @@ impl Word<'_> {
     }
 
     fn nothing(&self) -> Refusal {
-        Refusal(format!("'{}' is nothing that changes while the plan runs", self.text))
+        Refusal(format!("'{}' does not change while the plan runs", self.text))
     }
 
     /// The component, and the element that it watches.

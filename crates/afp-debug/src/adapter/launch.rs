@@ -126,8 +126,7 @@ impl Adapter<'_> {
         self.admit(launch.token.as_deref())?;
         if self.run.is_some() {
             return Err(
-                "a plan runs already: 'restart' begins it again, 'attach' joins those who watch it"
-                    .into(),
+                "a plan already runs: 'restart' starts it again, 'attach' joins its run".into()
             );
         }
         check(&launch)?;
@@ -191,7 +190,7 @@ impl Adapter<'_> {
     fn admit(&mut self, told: Option<&str>) -> Answer<()> {
         if let Some(Guard { token, most }) = &self.guard {
             if !token.is(told.unwrap_or_default()) {
-                return Err("'token' is the one that 'afpc dap' printed".into());
+                return Err("'token' must be the token that 'afpc dap' printed".into());
             }
             if !self.is_admitted(self.asker) && self.admitted().count() >= *most {
                 return Err(Refusal(format!(
@@ -265,7 +264,7 @@ impl Adapter<'_> {
             self.output("console", &format!("warning: {warning}\n"));
         }
         if !kept {
-            self.output("console", "the robot, or something of the plan, cannot be copied: going back runs all of it again from the start\n");
+            self.output("console", "the robot or a component cannot be copied: going back repeats the run from the start\n");
         }
         match held {
             true => self.stopped(Reason::Entry, "before the first step", Vec::new()),
@@ -354,7 +353,7 @@ impl Adapter<'_> {
     ) -> Answer<()> {
         let names = FILTERS.map(|(name, ..)| name);
         let known = |asked: &String| {
-            let unknown = || format!("nothing is called '{asked}'; there are {}", names.join(", "));
+            let unknown = || format!("unknown name '{asked}'; known names: {}", names.join(", "));
             names.into_iter().find(|name| *name == asked).ok_or_else(unknown)
         };
         let filters = asked.filters.iter().map(known).collect::<Result<_, _>>()?;
@@ -377,7 +376,7 @@ fn again(arguments: &Value) -> Answer<Option<Launch>> {
 /// The reason if the arguments of `launch` contradict each other.
 fn check(launch: &Launch) -> Answer<()> {
     if launch.speed.is_some_and(|speed| !(speed > 0.0 && speed.is_finite())) {
-        return Err("'speed' is a number above 0; leave it out for as fast as can be".into());
+        return Err("'speed' is a number above 0; leave it out for full speed".into());
     }
     if launch.until.is_some_and(|until| !(until > 0.0 && until < 1e9)) {
         return Err("'until' is a number of seconds above 0; leave it out for no end".into());
@@ -390,12 +389,12 @@ fn check(launch: &Launch) -> Answer<()> {
     match &launch.log {
         None if launch.program.is_empty() => {
             return Err(
-                "'program' is the file of the plan; 'log' is that of a run that is over".into()
+                "'program' must be the file of a plan, or 'log' the log of a finished run".into()
             );
         }
         Some(_) if fresh => {
             return Err(
-                "a log shows what was: leave 'world', 'start', 'seed', 'set' and 'until' out"
+                "a log cannot be changed: leave out 'world', 'start', 'seed', 'set' and 'until'"
                     .into(),
             );
         }

@@ -104,7 +104,7 @@ impl Adapter<'_> {
         let file = asked.source_reference.checked_sub(1);
         let program = self.run()?.target.program();
         let text = file.and_then(|file| program.text_of(file as usize));
-        let content = text.ok_or("its text is that of the file")?.to_owned();
+        let content = text.ok_or("the file has its text")?.to_owned();
         Ok(dapts::SourceResponse { content, mime_type: None })
     }
 
@@ -318,7 +318,7 @@ impl Adapter<'_> {
         }
         if let Some((name, value)) = assigned(&asked.expression) {
             if let Some(Context::Watch | Context::Clipboard | Context::Variables) = asked.context {
-                return Err("nothing is written from here: '==' compares".into());
+                return Err("an expression cannot write: use '==' to compare".into());
             }
             self.may("setExpression", now)?;
             let result = self.assign(asked.frame_id, name, value)?;

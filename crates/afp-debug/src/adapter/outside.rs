@@ -70,7 +70,7 @@ impl<'h> Adapter<'h> {
         let target = self.changeable()?;
         let named = fault.fault.split_once('.');
         let found = named.and_then(|(device, name)| find_fault(target.devices(), device, name));
-        let unknown = || Refusal(format!("nothing of the robot fails as '{}'", fault.fault));
+        let unknown = || Refusal(format!("the robot has no fault '{}'", fault.fault));
         let id = found.ok_or_else(unknown)?;
         let lasting = match fault.seconds {
             None => Duration::MAX,
@@ -106,7 +106,7 @@ impl<'h> Adapter<'h> {
 
     pub(super) fn speed(&mut self, speed: Speed, now: Wall) -> Answer<()> {
         if speed.factor.is_some_and(|factor| !(factor > 0.0 && factor.is_finite())) {
-            return Err("'factor' is a number above 0; leave it out for as fast as can be".into());
+            return Err("'factor' is a number above 0; leave it out for full speed".into());
         }
         let run = self.run()?;
         run.pace = Pace::new(speed.factor, run.target.now(), now);

@@ -126,7 +126,7 @@ impl Adapter<'_> {
                 description: format!("'{}' is written", entry.path),
             },
             _ => dapts::DataBreakpointInfoResponse {
-                description: format!("'{}' is nothing that is written", asked.name),
+                description: format!("'{}' cannot be written", asked.name),
                 ..dapts::DataBreakpointInfoResponse::default()
             },
         })

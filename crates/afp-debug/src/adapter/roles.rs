@@ -97,7 +97,7 @@ impl Adapter<'_> {
             Some(operator) => {
                 let name = self.name_of(operator);
                 return Err(Refusal(format!(
-                    "{name} steers this run: 'afp/role' with \"take\": \"operator\" takes over; anybody may end it with 'terminate'"
+                    "{name} operates this run: send 'afp/role' with \"take\": \"operator\" to take over, or 'terminate' to end it"
                 )));
             }
             None => {

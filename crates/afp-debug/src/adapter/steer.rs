@@ -63,7 +63,7 @@ impl Adapter<'_> {
         let run = self.run()?;
         if run.mode == Mode::Over {
             return Err(
-                "the plan has ended: 'restart' begins it again, 'stepBack' goes back".into()
+                "the plan has ended: 'restart' starts it again, 'stepBack' goes back".into()
             );
         }
         run.mode = mode;

@@ -86,7 +86,7 @@ impl Adapter<'_> {
         &mut self,
         _: dapts::ExceptionInfoArguments,
     ) -> Answer<dapts::ExceptionInfoResponse> {
-        let (name, text) = self.run()?.exception.clone().ok_or("nothing went wrong here")?;
+        let (name, text) = self.run()?.exception.clone().ok_or("no fault happened here")?;
         Ok(dapts::ExceptionInfoResponse {
             break_mode: dapts::ExceptionBreakMode::Always,
             description: Some(text),

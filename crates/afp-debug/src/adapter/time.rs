@@ -35,7 +35,7 @@ impl Adapter<'_> {
     /// Goes back to the last breakpoint hit, or the start.
     pub(super) fn reverse(&mut self) -> Answer<()> {
         let (run, breakpoints) = (self.run.as_mut(), &mut self.breakpoints);
-        let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
+        let run = run.ok_or("nothing runs yet: send 'launch' first")?;
         let end = run.target.steps();
         let program = run.target.program().clone();
         run.target.seek(Position::Step(0))?;

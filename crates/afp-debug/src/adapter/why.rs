@@ -38,7 +38,7 @@ impl Adapter<'_> {
         if let Some((since, led)) = state.cause(id) {
             answer["since"] = json!(since.as_secs_f64());
             let plan = program.unit(unit.plan).map_or("", |plan| &*plan.path);
-            let began = || format!("{plan} begins with it");
+            let began = || format!("{plan} starts with it");
             answer["because"] = json!(led.map_or_else(began, |led| led.text.clone()));
         }
         Ok(answer)

@@ -15,7 +15,7 @@ pub(crate) struct Wanted {
     pub at: At,
     pub condition: Option<String>,
     pub hits: Option<String>,
-    /// A text to log instead of stopping.
+    /// A message to log instead of stopping.
     pub log: Option<String>,
 }
 
@@ -35,14 +35,14 @@ impl At {
     fn spots(&self, program: &Program) -> Result<(Vec<Spot>, Option<u32>), String> {
         match self {
             At::Line(path, line) => {
-                let file = program.file(path).ok_or("the plan that runs does not use this file")?;
+                let file = program.file(path).ok_or("the running plan does not use this file")?;
                 let found = program.at_line(file, *line);
                 let (line, spots) = found.ok_or("nothing happens at this line or below it")?;
                 Ok((spots.to_vec(), Some(line)))
             }
             At::Path(path) => {
                 let like = "write a path such as 'patrol.avoid' or 'patrol.avoid.touch.Pressed'";
-                let nothing = || format!("the plan has nothing called '{path}': {like}");
+                let nothing = || format!("unknown path '{path}': {like}");
                 let spot = program.find(path.trim()).ok_or_else(nothing)?;
                 Ok((vec![spot], None))
             }

@@ -12,7 +12,7 @@ use afp_deploy::wire::{State, Step};
 use fake::{DISK, Robot, deploy, is_sound, release, session};
 
 #[test]
-fn a_deploy_sends_only_what_differs_and_starts_the_release() {
+fn a_deploy_sends_only_changed_files_and_starts_the_release() {
     let folder = tempfile::tempdir().unwrap();
     let mut robot = Robot::new(folder.path());
     let (first, second) = (release(1), release(2));
@@ -63,7 +63,7 @@ fn a_rollback_of_a_rollback_is_the_release_before_it() {
 }
 
 #[test]
-fn three_releases_stay_and_nothing_else() {
+fn only_three_releases_are_kept() {
     let folder = tempfile::tempdir().unwrap();
     let mut robot = Robot::new(folder.path());
     for n in 1..=6 {

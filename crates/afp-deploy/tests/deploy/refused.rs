@@ -67,7 +67,7 @@ fn a_program_for_another_processor_is_refused() {
 }
 
 #[test]
-fn an_armed_robot_is_stopped_first_if_that_is_permitted() {
+fn an_armed_robot_is_stopped_first_if_permitted() {
     let folder = tempfile::tempdir().unwrap();
     let mut robot = Robot::new(folder.path());
     deploy(&mut robot, &release(1), false).unwrap();
@@ -101,7 +101,7 @@ fn two_deploys_at_once_are_refused() {
     let lock = std::fs::File::create(folder.path().join("deploy.lock")).unwrap();
     lock.lock().unwrap();
     let said = deploy(&mut robot, &release(2), false).unwrap_err().to_string();
-    assert_eq!(said, "another deploy to this robot is going on");
+    assert_eq!(said, "another deploy to this robot is running");
     drop(lock);
     deploy(&mut robot, &release(2), false).unwrap();
 }
@@ -119,7 +119,7 @@ fn an_interpreted_plan_needs_the_same_version_and_a_program_does_not() {
 }
 
 #[test]
-fn other_output_than_that_of_an_agent_is_shown() {
+fn output_that_is_not_from_an_agent_is_shown() {
     for said in ["", "afp", "Welcome to Debian\nsh: afpc: not found\n"] {
         match Connection::new(said.as_bytes(), Vec::new()).map(|_| ()) {
             Err(ClientError::NotAgent(shown)) => assert_eq!(shown, said.trim()),

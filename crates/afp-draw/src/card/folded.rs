@@ -44,7 +44,6 @@ impl<'a> Tab<'a> {
         LEAST + self.leading().count().saturating_sub(1) as f64 * EDGE
     }
 
-    /// The exits that lead to elements.
     fn leading(&self) -> impl Iterator<Item = (&'a Component, &Exit<'a>)> {
         let all = self.supervisors.iter();
         all.flat_map(|(each, exits)| exits.iter().map(move |exit| (*each, exit))).filter(

@@ -65,7 +65,6 @@ struct Pull {
     weight: f64,
 }
 
-/// The pulls on the items of a layer.
 fn pulls(grid: &Grid, layer: usize) -> Vec<Pull> {
     let mut pulls = Vec::new();
     for (channel, above) in [(layer, false), (layer + 1, true)] {

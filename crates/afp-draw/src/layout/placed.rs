@@ -152,7 +152,7 @@ fn shift(
     (sum.0 / count, sum.1 / count)
 }
 
-/// The free place nearest to a node's wish: straight down from it, or beside it; for the first
+/// The free place nearest to a node's wish: straight down from it, or next to it; for the first
 /// node, straight up.
 fn nearest(
     nodes: &[Node],

@@ -38,7 +38,6 @@ pub(super) fn read(
 /// The column and the message of an error in a line.
 type Wrong = (usize, String);
 
-/// Reads a line and returns its item and position.
 fn line(line: &str) -> Result<Option<(Item, Placed)>, Wrong> {
     let mut words = Words { line, at: 0 };
     let column = words.column();
@@ -65,7 +64,7 @@ impl Layout {
         };
         let Placed { position: Position { x, y }, rest, .. } = placed;
         first.again.push(format!("{x} {y} {rest}").trim_end().to_owned());
-        Err((1, format!("'{item}' is placed already: remove one of the lines")))
+        Err((1, format!("'{item}' already has a position: remove one of the lines")))
     }
 }
 
@@ -78,7 +77,7 @@ fn is_known(line: &str, item: &Item, known: Option<&BTreeMap<Item, String>>) -> 
         None => "remove the line".to_owned(),
     };
     let column = Words { line, at: 0 }.column();
-    Err((column, format!("nothing in the plan's file is called '{path}': {help}")))
+    Err((column, format!("unknown item '{path}': {help}")))
 }
 
 fn number(word: &str, column: usize) -> Result<i32, Wrong> {

@@ -89,8 +89,7 @@ fn lines_with_unknown_names_get_a_suggestion_and_are_kept() {
         let text = format!("# by hand\n  {path} 300 300\n");
         let (layout, errors) = Layout::read_for(&text, &outline, outline.plans[0].file());
         let said: Vec<_> = errors.iter().map(ToString::to_string).collect();
-        let expected =
-            says.map(|it| format!("2:3: nothing in the plan's file is called '{path}': {it}"));
+        let expected = says.map(|it| format!("2:3: unknown item '{path}': {it}"));
         assert_eq!(said, Vec::from_iter(expected));
         assert_eq!(layout, Layout::read(&text).0, "it may be there again");
     }
@@ -103,7 +102,7 @@ fn errors_have_a_place_and_do_not_affect_other_lines() {
     let error = |line, column, message: &str| LayoutError { line, column, message: message.into() };
     let expected = [
         error(1, 6, "expected a whole number, found the end of the line"),
-        error(3, 1, "'P.b' is placed already: remove one of the lines"),
+        error(3, 1, "'P.b' already has a position: remove one of the lines"),
         error(4, 3, &format!("{OTHER_FORM}, found 'P.ä'")),
         error(5, 5, "expected a whole number, found '1.5'"),
         error(6, 9, "expected a whole number, found '99999999999'"),
@@ -126,7 +125,7 @@ fn no_line_is_lost_when_an_item_moves() {
     layout.relocate(&Item::inner("P", "b"), &Item::inner("P", "f"));
     assert_eq!(layout.write(), format!("{kept}P.e 1 1\nP.f 7 8 wide\nP.f 3 4\nP.f 5 6 far\n"));
     layout.remove(&Item::inner("P", "f"));
-    assert_eq!(layout.write(), format!("{kept}P.e 1 1\n"), "none of them places it anew");
+    assert_eq!(layout.write(), format!("{kept}P.e 1 1\n"), "none of them moves it");
 }
 
 #[test]

@@ -130,7 +130,6 @@ impl Trees {
         shared
     }
 
-    /// Whether an edge belongs to a bundle.
     pub(super) fn holds(&self, edge: usize) -> bool {
         self.bundle_of[edge].is_some()
     }

@@ -15,7 +15,7 @@ pub(super) const DOWN: usize = 1;
 pub(super) const LEFT: usize = 2;
 pub(super) const RIGHT: usize = 3;
 
-/// The side of one point with another point above, below or beside it.
+/// The side of one point with another point above, below or next to it.
 pub(super) fn side_of(from: Point, to: Point) -> usize {
     match Axis::of(from, to) {
         Axis::Upright if to.1 < from.1 => UP,

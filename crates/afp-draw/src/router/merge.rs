@@ -14,7 +14,6 @@ pub(super) enum Join {
     None,
     /// It joins the nearest edge there: the box is too narrow for more.
     Nearest,
-    /// It joins this edge.
     Edge(usize),
     /// It ends on an edge of its bundle, before the target.
     At(Junction),

@@ -23,7 +23,6 @@ const UNKNOWN: u32 = NONE - 1;
 /// The state of a search at a node and a direction.
 #[derive(Clone, Copy, Debug)]
 struct Visit {
-    /// The number of its search.
     stamp: u32,
     cost: u64,
     /// The previous state.
@@ -220,7 +219,6 @@ impl<'a> Search<'a> {
         gap
     }
 
-    /// The cost of the step to the next node.
     fn step(&mut self, node: usize, next: usize, side: usize) -> u64 {
         let (from, to) = (self.lines.positions[node], self.lines.positions[next]);
         let upright = axis_of(side) == Axis::Upright;

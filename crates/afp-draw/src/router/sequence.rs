@@ -37,7 +37,7 @@ impl Part {
         self.room.0 >= self.room.1
     }
 
-    /// Whether it is beside another part, or nearly.
+    /// Whether it is next to another part, or nearly.
     pub(super) fn is_beside(&self, other: &Part) -> bool {
         let margin = PITCH;
         self.span.0 - margin < other.span.1 && other.span.0 - margin < self.span.1
@@ -71,7 +71,7 @@ pub(super) fn sequence(axis: Axis, parts: &[Part], corners: &[Vec<Point>]) -> Ve
     order
 }
 
-/// For each part, the parts beside it within reach.
+/// For each part, the parts next to it within reach.
 fn neighbours(parts: &[Part], order: &[usize]) -> Vec<Vec<usize>> {
     let mut near = vec![Vec::new(); parts.len()];
     for (index, one) in order.iter().enumerate() {

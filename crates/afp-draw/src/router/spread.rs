@@ -250,7 +250,7 @@ fn that_matter(parts: Vec<Part>) -> Vec<Part> {
     parts.into_iter().filter(matters).collect()
 }
 
-/// The space between the boxes beside a part.
+/// The space between the boxes next to a part.
 fn between(axis: Axis, boxes: &[Bounds], at: f64, span: (f64, f64)) -> (f64, f64) {
     let mut room = (f64::NEG_INFINITY, f64::INFINITY);
     for each in boxes {

@@ -8,24 +8,24 @@ use afp_dsl::graph::{Component, Element, Supervisor, Target};
 
 /// The explanation for readers of the chart.
 const HEAD: &str = "\
-  The flow of action of an Action Flow Plan. Left out, because state charts have no words for it:
-  - the order in which supervisors are asked: a chart is fed one event at a time, so whoever feeds it
+  The flow of action of an Action Flow Plan. Omitted, because state charts cannot express it:
+  - the polling order of supervisors: a chart receives one event at a time, so its driver
     decides which of several events comes first (the plan: outer plans first, then the shorter
     deadline, then global before local, then as written);
   - periods, deadlines and the look before a start;
-  - entries and values: formulas stand in comments only, and results of a sub-plan that do not
-    convert, which its caller takes for an 'Error', are not seen. A declared computation has its
-    conditions and assignments in comments, too, because most of the values that it compares come
-    from sensors and from outside: its state is an event, like that of every element.
+  - entries and values: formulas are only comments, and results of a sub-plan that do not
+    convert, an 'Error' for its caller, are missing. A declared computation has its
+    conditions and assignments in comments, too, because most of the compared values come
+    from sensors and from outside: its states are events, like the states of every element.
   Events: 'element.State' when an actor or a computation reaches a state, 'element-supervisor.Event'
   when a supervisor of that element interrupts it, 'supervisor.Event' when a global one does,
   '.DeadlineMissed' and '.Error' likewise; an element's own reactions to a global supervisor are
   transitions of its state for the same events, which come before those of its plan; inside of sub-plans 'subplan:element.State' and so on.
   ':stopped' is a stop from outside, ':failed' a fault that no plan can handle.
-  A transition without target takes an event and does nothing: the event is ignored or resumes, or
-  the supervisor's target is active already. A computation that resumes leads to the history of what
+  A transition without a target takes an event and does nothing: the event is ignored or resumes, or
+  the supervisor's target is active already. A computation that resumes leads to the history of the element that
   was active.
-  'suspend' leaves the active state for that of its handler, and 'return' leads to the history of the
+  'suspend' leaves the active state for the state of its handler, and 'return' leads to the history of the
   state that was left. A chart enters that state again and starts it again, while the plan continues
   where it was. A state that is suspended and never continues is left earlier in the chart.";
 
@@ -174,7 +174,6 @@ impl Chart {
         }
     }
 
-    /// Faults of an element and of its supervisors.
     fn faults(&mut self, view: &View, scope: &Scope, element: &Element) {
         let locals = view.supervisors(Some(element)).into_iter();
         let locals = locals.map(|local| scope.local(&element.name, &local.name));
@@ -269,7 +268,6 @@ fn taken(view: &View, scope: &Scope, exit: &Exit) -> Option<String> {
     target(scope, exit.target, end, |id| &view.element(id).name)
 }
 
-/// The state after a fault of an element.
 fn after_fault(view: &View, scope: &Scope, element: &Element) -> String {
     let connected = element.on_error;
     let to = connected.and_then(|to| target(scope, to, End::Ok, |id| &view.element(id).name));

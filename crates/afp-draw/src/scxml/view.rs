@@ -203,7 +203,6 @@ impl<'a> View<'a> {
         globals.map(exits).collect()
     }
 
-    /// The supervisors of an element, or the global ones.
     pub(super) fn supervisors(&self, owner: Option<&Element>) -> Vec<&'a Supervisor> {
         let all = &self.plan.supervisors;
         match owner {

@@ -8,7 +8,6 @@ use super::super::sketch::Glyph;
 use afp_dsl::outline::ComponentKind;
 use roxmltree::{Attribute, Document, Node};
 
-/// The allowed elements of an icon.
 const ELEMENTS: &[&str] =
     &["g", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon"];
 

@@ -187,7 +187,6 @@ impl Display for Tenths {
     }
 }
 
-/// Adds a line of text.
 pub(super) fn line(out: &mut String, text: &str) {
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{text}");

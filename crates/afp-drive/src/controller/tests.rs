@@ -10,7 +10,7 @@ struct Bench {
     computer: Sender,
     listener: Receiver<LONGEST>,
     now: Instant,
-    /// The ways of the rims, in metres.
+    /// The distances of the rims, in metres.
     ways: [f32; 2],
     /// Whether the wheels are held.
     held: bool,
@@ -90,7 +90,7 @@ impl Bench {
 }
 
 #[test]
-fn it_drives_the_commanded_way_and_reports_it() {
+fn it_drives_the_commanded_path_and_reports_it() {
     let mut bench = Bench::started();
     bench.drive(0.2, 0.0, 500);
     bench.drive(0.0, 0.0, 40);

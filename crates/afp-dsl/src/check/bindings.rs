@@ -35,7 +35,6 @@ pub(crate) struct Site {
     pub broken: bool,
 }
 
-/// Checks the bindings of a component.
 pub(crate) fn check(
     scope: &Scope<'_>,
     signature: &Signature,
@@ -275,7 +274,6 @@ fn without_value(signature: &Signature, missing: &[&Input], site: &Site) -> Diag
         .help(message!("bind every input, such as '({})'", examples.join(", ")))
 }
 
-/// An example value of the type.
 fn example(ty: Option<&Type>) -> String {
     match ty {
         Some(Type::Bool) => "true".to_owned(),

@@ -105,7 +105,6 @@ impl Context<'_> {
         None
     }
 
-    /// All candidates of that name.
     fn candidates(&self, name: &Name, home: Option<&Name>) -> Vec<Candidate<'_>> {
         let mut found = Vec::new();
         let plans = self.file.plans.get(&name.text).filter(|_| home.is_none());
@@ -267,7 +266,7 @@ fn hides((name, span): (&Name, Span), own: &Candidate<'_>, hidden: &Candidate<'_
     };
     let (message, help) = match own.home {
         Some(home) => (
-            message!("'{}' is the template of '{}', not that of '{}'", name.text, home, other),
+            message!("'{}' is the template of '{}', not of '{}'", name.text, home, other),
             message!(
                 "write '{}' to be clear, or '{}' for {}",
                 format!("{home}.{}", name.text),
@@ -276,7 +275,7 @@ fn hides((name, span): (&Name, Span), own: &Candidate<'_>, hidden: &Candidate<'_
             ),
         ),
         None => (
-            message!("'{}' is the computation of this file, not that of '{}'", name.text, other),
+            message!("'{}' is the computation of this file, not of '{}'", name.text, other),
             message!("write '{}' for {}, or rename the computation", of_other, Words(which)),
         ),
     };

@@ -72,7 +72,6 @@ fn of_enum(template: &Template, home: &Arc<Enum>) -> Template {
     }
 }
 
-/// One state for each value.
 fn cases(states: &StatesOf, home: &Arc<Enum>) -> Arc<[Case]> {
     let formula = |op| Formula::new(op, [], Type::Enum(home.clone()), states.span);
     let last = home.variants.len().saturating_sub(1);

@@ -229,7 +229,6 @@ fn nameless_heads(files: &[PlanFile]) -> Vec<Span> {
     heads
 }
 
-/// The words of a text.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|letter: char| !letter.is_alphanumeric() && letter != '_')
         .filter(|it| !it.is_empty())
@@ -355,7 +354,7 @@ fn slip(head: &PlanHead, code: Code, used: &str) -> Option<Name> {
 /// Reports the misspelling at the declaration.
 fn at_declaration(error: &Diagnostic, others: &[Span], name: &Name, meant: &str) -> Diagnostic {
     let message =
-        message!("nothing uses '{}', and '{}', which is used, is not there", name.text, meant);
+        message!("nothing uses '{}', and '{}' is used but not declared", name.text, meant);
     let said = Diagnostic::new(error.code, name.span, message).write(meant);
     let places = std::iter::once(&error.span).chain(others).take(MOST_PLACES);
     places.fold(said, |said, place| said.note(*place, message!("'{}' is used here", meant)))

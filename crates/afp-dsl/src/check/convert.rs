@@ -74,14 +74,14 @@ pub(crate) fn remark(conversion: &Conversion, span: Span, diags: &mut Diagnostic
         Conversion::IntToFloat => return,
         Conversion::FloatToInt => {
             Diagnostic::new(Code::E0207, span, "the float becomes an int, rounded toward zero")
-                .help("make the entry or the number an int where that is not wanted")
+                .help("use an int if you do not want the rounding")
         }
         Conversion::BoolToInt | Conversion::BoolToFloat => {
             Diagnostic::new(Code::E0207, span, "the bool becomes a number, 0 or 1")
                 .help("use a number where that is not wanted")
         }
         Conversion::ToText(from) => {
-            let message = message!("{} becomes a text", Words(a_type(from)));
+            let message = message!("{} becomes a string", Words(a_type(from)));
             let help = match from {
                 Type::Quantity(dimension) if *dimension != Dimension::NONE => {
                     message!(
@@ -89,15 +89,17 @@ pub(crate) fn remark(conversion: &Conversion, span: Span, diags: &mut Diagnostic
                         dimension.si_unit()
                     )
                 }
-                _ => "use a text where that is not wanted".into(),
+                _ => "use a string if you do not want the conversion".into(),
             };
             Diagnostic::new(Code::E0207, span, message).help(help)
         }
         Conversion::FromText(to) => {
-            let message =
-                message!("the text becomes {} at run time, which may fail", Words(a_type(to)));
+            let message = message!(
+                "the string is converted to {} at run time, which may fail",
+                Words(a_type(to))
+            );
             Diagnostic::new(Code::E0208, span, message)
-                .help("connect 'Error' for the case that it fails, or use an entry of that type")
+                .help("connect 'Error' to handle a failure, or use an entry of that type")
         }
     };
     diags.push(diagnostic);
@@ -168,7 +170,7 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
                     error.help(message!("angles have a unit: write '{}'", better)).replace(better)
                 }
                 None => error.help(message!(
-                    "use {}, such as '{}', in place of {}",
+                    "use {}, such as '{}', instead of {}",
                     Words(a_dimension(*dimension)),
                     example(want, range),
                     Words(a_dimension(*found))

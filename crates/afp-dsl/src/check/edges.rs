@@ -70,7 +70,7 @@ impl Origin<'_> {
     }
 }
 
-/// The reason of a `fail` without a text.
+/// The reason of a `fail` without a string.
 const NO_REASON: &str = "the plan failed";
 
 /// The targets of edges: the elements of a plan by name, and the reasons after `fail`.
@@ -81,7 +81,7 @@ pub(crate) struct Elements<'a> {
     record: &'a Recorder,
 }
 
-/// The texts after `fail`, each once, with its index.
+/// The reasons after `fail`, each once, with its index.
 #[derive(Default)]
 struct Reasons {
     list: Vec<String>,
@@ -114,7 +114,7 @@ impl<'a> Elements<'a> {
         self.reasons.borrow().list.clone()
     }
 
-    /// The index of the text after `fail`. Reports a text that cannot be a reason.
+    /// The index of the text after `fail`. Reports an invalid reason.
     fn reason(&self, text: Option<&Name>, diags: &mut Diagnostics) -> Option<ReasonId> {
         let reason = text.map_or(NO_REASON.to_owned(), |text| unquote(text, diags));
         if let Some(Name { span, .. }) = text.filter(|_| reason.is_empty()) {
@@ -356,7 +356,7 @@ pub(crate) fn find(
         let error = error.unknown(Sought::Element, &to.text);
         // No element can have the name of a keyword.
         let none = match is_word(&to.text) {
-            true => "add an element, and name that",
+            true => "add an element, and name it",
             false => "add an element of that name",
         };
         if !diags.explains() {
@@ -390,9 +390,9 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
     let missing: Vec<&str> = missing.collect();
     let name = origin.name.map_or("", |name| name.text.as_str());
     if missing.len() > unknown {
-        let verb = if missing.len() == 1 { "leads" } else { "lead" };
+        let verb = if missing.len() == 1 { "is" } else { "are" };
         let message = message!(
-            "{} of '{}' {} nowhere",
+            "{} of '{}' {} not connected",
             list(missing.iter().copied(), "and"),
             name,
             Words(verb)
@@ -413,7 +413,7 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
             Diagnostic::new(
                 Code::E0233,
                 origin.span,
-                message!("'{}' of '{}' leads nowhere", "Interrupted", name),
+                message!("'{}' of '{}' is not connected", "Interrupted", name),
             )
             .note(edge, "this event ends the plan as interrupted")
             .help("add 'Interrupted -> ...' with an element, or 'terminate'"),

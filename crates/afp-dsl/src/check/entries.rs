@@ -115,7 +115,7 @@ fn initialise(
         }
     };
     let unreadable = match kind {
-        EntryKind::Const => "a 'const' may use constants that stand above it",
+        EntryKind::Const => "a 'const' may use constants that are declared above it",
         EntryKind::In => "the default of an 'in' may use 'const' entries",
         EntryKind::Var | EntryKind::Out => "an initial value may use 'const' and 'in' entries",
     };

@@ -49,7 +49,7 @@ pub(crate) fn check(
         ),
         None if looks && sensors(toolbox).all(|sensor| lacks(&sensor)) => (
             message!(
-                "'{}' looks at sensors of '{}', of which the robot '{}' has none",
+                "'{}' reads sensors of '{}', which the robot '{}' does not have",
                 name,
                 other,
                 own
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_runs_what_needs_no_more_than_it_has() {
+    fn a_robot_runs_templates_that_need_only_its_devices() {
         assert_eq!(refused(""), ["Look", "Grip"]);
         assert_eq!(refused("device arm { fault torn }"), ["Look"]);
         assert_eq!(refused("sensor eye { signal far: bool }"), ["Grip"]);

@@ -100,7 +100,7 @@ impl Scope<'_> {
             let message = message!("the formula has more than {} parts", Words(MAX_SIZE));
             diags.push(
                 Diagnostic::new(Code::E0231, formula.span(), message)
-                    .help("compute a part of it in an entry of its own"),
+                    .help("compute a part of it in a separate entry"),
             );
             return None;
         }
@@ -172,7 +172,6 @@ impl Scope<'_> {
     }
 }
 
-/// A value as a formula.
 pub(crate) fn of_constant(value: Constant, ty: &Type, span: Span) -> Option<Formula> {
     let op = match value {
         Constant::Bool(value) => Op::Bool(value),
@@ -408,26 +407,26 @@ pub(crate) fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
             "the value is infinite or not a number",
         )
         .help(
-            "divide by no zero, take no root of a negative number, and keep numbers below 1.8e308",
+            "do not divide by zero or take the root of a negative number, and keep numbers below 1.8e308",
         ),
         Error::NoRange => {
-            Diagnostic::new(Code::E0228, span, "the least value is above the greatest one")
+            Diagnostic::new(Code::E0228, span, "the lower bound is above the upper bound")
                 .help("write 'clamp(value, low, high)' with 'low' at most 'high'")
         }
         Error::NotAValue | Error::Unknown | Error::Mistyped => {
-            Diagnostic::new(Code::E0228, span, "the text is no value of the type")
+            Diagnostic::new(Code::E0228, span, "the string is not a value of the type")
                 .help("write a value of the type, unit included, without the quotes")
         }
         Error::TooLong => too_long(span),
     }
 }
 
-/// The error for a text of more than [`MAX_TEXT`] bytes.
+/// The error for a string of more than [`MAX_TEXT`] bytes.
 pub(crate) fn too_long(span: Span) -> Diagnostic {
     Diagnostic::new(
         Code::E0230,
         span,
-        message!("the text is longer than {} bytes", Words(MAX_TEXT)),
+        message!("the string is longer than {} bytes", Words(MAX_TEXT)),
     )
     .help(message!("shorten it to at most {} bytes of UTF-8", Words(MAX_TEXT)))
 }

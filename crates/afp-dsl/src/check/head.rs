@@ -10,7 +10,6 @@ use afp_syntax::source::Span;
 pub(crate) struct PlanHead {
     pub node: ast::Plan,
     pub name: Option<Name>,
-    /// Its file.
     pub file: usize,
     pub entries: Vec<EntryDraft>,
     pub indices: Indices,

@@ -14,7 +14,6 @@ use afp_syntax::source::Span;
 
 #[derive(Clone)]
 pub(crate) struct Import {
-    /// Its qualifier.
     pub qualifier: String,
     /// Declaration of the qualifier: after `as`, or in the toolbox.
     pub span: Span,
@@ -95,7 +94,7 @@ fn devices_of_two(
     diags.push(
         Diagnostic::new(Code::E0517, name.span, message)
             .note(device.span, "one declaration")
-            .note(own.span, "the other one")
+            .note(own.span, "the other declaration")
             .help("use one of the toolboxes, or give the device another name in one of them"),
     );
 }
@@ -155,7 +154,7 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
                         Diagnostic::new(
                             Code::E0114,
                             line.span(),
-                            "a 'use' stands below other items",
+                            "a 'use' comes after other items",
                         )
                         .help("move it to the top of the file"),
                     );
@@ -182,10 +181,10 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
                 Diagnostic::new(
                     Code::E0114,
                     span,
-                    message!("{} stands in a toolbox", Words(&what)),
+                    message!("{} is not allowed in a toolbox", Words(&what)),
                 )
                 .note(head, "this makes the file a toolbox")
-                .help("move it to a file of its own"),
+                .help("move it to a separate file"),
             );
         }
     }

@@ -66,7 +66,7 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     }
     let mut place = error.span;
     place.start = u32::try_from(first.len()).ok()?;
-    let help = message!("a unit has no blanks: write '{}'", whole);
+    let help = message!("a unit has no spaces: write '{}'", whole);
     Some(said.help(help).fix(place, whole))
 }
 
@@ -223,8 +223,7 @@ fn entry(head: &PlanHead, name: &str, error: &Diagnostic) -> Option<Diagnostic> 
     let elements = head.node.elements();
     let element = elements.iter().filter_map(|it| it.name()).find(|it| it.text == name)?;
     let said = error.bare();
-    let help =
-        "formulas read entries: let an output of the element go to one with '=>', and name that";
+    let help = "formulas read entries: write an output of the element to an entry with '=>', and read the entry";
     Some(said.note(element.span, message!("'{}' is an element", name)).help(help))
 }
 
@@ -244,7 +243,7 @@ fn element(
     let (other, place) = found.next()?;
     let said = error.bare();
     let help =
-        message!("lead to a 'subplan' made of '{}', or add an element '{}' here", other, name);
+        message!("lead to a 'subplan' made from '{}', or add an element '{}' here", other, name);
     Some(said.note(place, message!("'{}' is an element of '{}'", name, other)).help(help))
 }
 
@@ -258,7 +257,7 @@ fn no_element(
     let said = error.bare();
     let guards = head.node.guards().into_iter();
     if let Some(guard) = guards.filter_map(|it| it.name()).find(|it| it.text == name) {
-        let note = message!("'{}' is a supervisor, which watches beside the elements", name);
+        let note = message!("'{}' is a supervisor, not an element", name);
         let elements = head.node.elements().into_iter().filter_map(|it| it.name()).take(4);
         let names: Vec<_> = elements.map(|name| name.text).collect();
         let help = message!("lead to an element: {}", list(names.iter().map(String::as_str), "or"));
@@ -267,12 +266,12 @@ fn no_element(
     let mut plans = program.plans.iter().filter_map(|head| head.name.as_ref());
     if let Some(plan) = plans.find(|plan| plan.text == name) {
         let help =
-            message!("add an element made of it, 'subplan NAME: {}', and lead to that", name);
+            message!("add an element made from it, 'subplan NAME: {}', and lead to it", name);
         return Some(said.note(plan.span, message!("'{}' is a plan", name)).help(help));
     }
     let is_it = |toolbox: &&Arc<Toolbox>| toolbox.templates.iter().any(|it| it.name == name);
     program.toolboxes.iter().find(is_it)?;
-    let help = message!("add an element made of '{}', and lead to that by its own name", name);
+    let help = message!("add an element made from '{}', and lead to it by its name", name);
     Some(said.help(help))
 }
 

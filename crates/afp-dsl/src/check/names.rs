@@ -101,7 +101,10 @@ pub(crate) fn ambiguous(
     let (who, help) = match (full.len(), found.len() - full.len()) {
         (_, 0) => ("toolboxes", message!("write {}", write)),
         (0, _) => ("files", "give one of them another name".into()),
-        _ => ("files and toolboxes", message!("write {}, or rename the one of the file", write)),
+        _ => (
+            "files and toolboxes",
+            message!("write {}, or rename the declaration in the file", write),
+        ),
     };
     let message = message!("several {} have {} '{}'", Words(who), Words(what), name);
     let error = Diagnostic::new(Code::E0237, span, message).help(help);

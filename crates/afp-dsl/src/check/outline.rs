@@ -28,7 +28,6 @@ pub(crate) struct Material<'a> {
     pub main: Option<usize>,
 }
 
-/// Builds the outline of all files.
 pub(crate) fn build(mut material: Material<'_>) -> Outline {
     let mut members = take(&mut material.members).into_iter();
     let material = &material;
@@ -284,7 +283,6 @@ impl Places<'_> {
         }
     }
 
-    /// The entry that a name means.
     fn entry(&self, name: Span) -> Option<EntryId> {
         match self.meanings.get(name)? {
             Found::Definition(span) => find(&self.entries, span).map(EntryId::new),

@@ -80,7 +80,6 @@ fn nothing_known() -> Toolbox {
 /// Reads plans from the outline.
 struct Reader {
     toolboxes: Vec<Arc<Toolbox>>,
-    /// The template for unknown ones.
     unknown: TemplateId,
     /// Plans read so far, by their index in the program.
     ids: Vec<Option<PlanId>>,

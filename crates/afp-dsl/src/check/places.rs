@@ -68,7 +68,6 @@ impl Within {
         Within(sorted)
     }
 
-    /// Whether a range contains one of the places.
     pub(crate) fn any(&self, range: Span) -> bool {
         let from = (range.file, range.start);
         let first = self.0.partition_point(|(place, _)| (place.file, place.start) < from);
@@ -86,7 +85,6 @@ impl Ranges {
         Ranges(ranges)
     }
 
-    /// Whether one of the ranges contains a place.
     pub(crate) fn any(&self, place: Span) -> bool {
         let from = (place.file, place.start);
         let behind = self.0.partition_point(|range| (range.file, range.start) <= from);
@@ -103,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn nesting_is_found_as_by_trying_all() {
+    fn nesting_equals_an_exhaustive_search() {
         let ranges = [span(0, 4), span(4, 9), span(12, 12), span(14, 20)];
         let places =
             [span(3, 5), span(6, 20), span(7, 8), span(12, 12), span(15, 40), span(19, 21)];

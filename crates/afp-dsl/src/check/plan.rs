@@ -48,7 +48,6 @@ pub(crate) struct Members {
     pub elements: Vec<Component>,
     /// Signature of each supervisor: global ones, then those of each element.
     pub of_supervisors: Vec<Option<Rc<Signature>>>,
-    /// Signature of each element.
     pub of_elements: Vec<Option<Rc<Signature>>>,
     pub indices: Indices,
 }
@@ -165,7 +164,7 @@ fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
     Some(element)
 }
 
-/// Elements, supervisors, and the texts after `fail`.
+/// Elements, supervisors, and the reasons after `fail`.
 type Parts = (Vec<Option<Element>>, Vec<Option<Supervisor>>, Vec<String>);
 
 /// The plan or, if incomplete, the inputs of its elements.
@@ -266,12 +265,8 @@ fn start(
             let text = name.map(|name| name.text).unwrap_or_default();
             let one = elements.names().next().unwrap_or("first");
             diags.push(
-                Diagnostic::new(
-                    Code::E0215,
-                    span,
-                    message!("'{}' does not say where it starts", text),
-                )
-                .help(message!("add 'start {}', or another element", one)),
+                Diagnostic::new(Code::E0215, span, message!("'{}' has no 'start'", text))
+                    .help(message!("add 'start {}', or another element", one)),
             );
         }
         return None;

@@ -53,10 +53,10 @@ fn end(written: &Formula, value: &Constant, diags: &mut Diagnostics) -> Option<f
     match *value {
         Constant::Int(whole) if whole != end as i64 => {
             let message =
-                message!("'{}' cannot be the end of a range, which is kept as a float", whole);
+                message!("'{}' cannot be the bound of a range, which is stored as a float", whole);
             diags.push(
                 Diagnostic::new(Code::E0513, written.span(), message)
-                    .help(message!("write '{}', the nearest number that can be", end as i64)),
+                    .help(message!("write '{}', the nearest valid number", end as i64)),
             );
             None
         }

@@ -108,8 +108,8 @@ impl Watchers<'_> {
                 message!("'{}' watches only this element", name.text),
             )
             .unknown(Sought::Supervisor, &name.text)
-            .note(own.span, "it is the element's own")
-            .help("write the edges into its own braces"),
+            .note(own.span, "it belongs to the element")
+            .help("write the edges into the supervisor's braces"),
             None => {
                 let message = message!("the plan has no supervisor '{}'", name.text);
                 let known = names.flatten().map(|known| known.text.as_str());

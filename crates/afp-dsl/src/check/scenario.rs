@@ -274,7 +274,7 @@ impl Checker<'_> {
         if !outermost || !kinds.contains(&entry.kind) {
             let message = message!("'{}' cannot be set here", path.text());
             let help = match (outermost, kinds.len()) {
-                (false, _) => "set an entry of the scenario's own plan, not one of a sub-plan",
+                (false, _) => "set an entry of the scenario's plan, not of a sub-plan",
                 (true, 1) => {
                     "set an 'in' entry; the plan gives all others their first value itself"
                 }

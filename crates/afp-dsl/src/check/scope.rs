@@ -20,7 +20,6 @@ pub(crate) struct Program<'a> {
     pub toolboxes: &'a Toolboxes,
     /// The used toolboxes; [`crate::graph::ToolboxId`] is an index.
     pub linked: Vec<Arc<Toolbox>>,
-    /// The scope of each plan file.
     pub files: Vec<FileScope<'a>>,
     /// The plans of all files, file by file.
     pub plans: Vec<PlanHead>,

@@ -25,7 +25,6 @@ use afp_syntax::message;
 
 pub(super) use bound::{fits, read_by};
 
-/// The tables that a file declares.
 pub(super) fn own(
     file: &PlanFile,
     types: &Types,
@@ -175,7 +174,7 @@ fn misfit(
     let much = cells.get(columns.len()).and_then(Option::as_ref).map(ast::Formula::span);
     let help = match (much, columns.get(cells.len())) {
         (None, Some(column)) => message!("write a value for '{}', too", column.name),
-        _ => message!("remove what has no column, or add a column{}", comma.unwrap_or_default()),
+        _ => message!("remove the extra values, or add a column{}", comma.unwrap_or_default()),
     };
     let error = Diagnostic::new(Code::E0251, much.unwrap_or_else(|| row.span()), message);
     match columns.last() {
@@ -217,7 +216,8 @@ fn columns_fit(template: &Template, table: &Table, diags: &mut Diagnostics) {
     let is_port = |column: &&Column| template.inputs.iter().any(|port| port.name == column.name);
     for column in table.columns.iter().filter(is_port) {
         let (name, reader) = (&column.name, &template.name);
-        let message = message!("no column is called '{}': '{}' has such a port", name, reader);
+        let message =
+            message!("a column cannot be called '{}': '{}' has a port of that name", name, reader);
         let error = Diagnostic::new(Code::E0250, column.span, message);
         diags.push(error.help("give the column another name"));
     }

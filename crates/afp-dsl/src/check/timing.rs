@@ -24,7 +24,7 @@ pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u6
 
 fn above_zero(value: &Formula, kind: FormulaKind, diags: &mut Diagnostics) -> Option<u64> {
     match time_of(value, kind, &["ms"], diags)? {
-        0 => refuse(value, "a time is longer than nothing", diags),
+        0 => refuse(value, "a time must be longer than zero", diags),
         time => Some(time),
     }
 }
@@ -44,15 +44,15 @@ pub(crate) fn of_supervisor(
     let (_, constant) = scope.check(&value, Some(&duration), diags)?;
     let Some(Constant::Float(seconds)) = constant else {
         diags.push(
-            Diagnostic::new(Code::E0401, value.span(), "a time is known before the plan runs")
-                .help("write it down, or name a 'const'"),
+            Diagnostic::new(Code::E0401, value.span(), "a time must be known before the plan runs")
+                .help("write a number with a unit, or name a 'const'"),
         );
         return None;
     };
     // To the nearest nanosecond; far values stay out of range.
     match (seconds * 1e9).round() {
         nanos if (1.0..=LONGEST as f64).contains(&nanos) => Some(nanos as u64),
-        _ => refuse(&value, "a time is longer than nothing and at most one hour", diags),
+        _ => refuse(&value, "a time must be longer than zero and at most one hour", diags),
     }
 }
 
@@ -70,7 +70,7 @@ fn time_of(
 ) -> Option<u64> {
     let span = value.span();
     let FormulaKind::Number { number, unit, broken, .. } = kind else {
-        return refuse(value, "a time is a positive number with a unit", diags);
+        return refuse(value, "a time must be a positive number with a unit", diags);
     };
     if broken {
         return None;
@@ -92,8 +92,12 @@ fn time_of(
     }
     match literal.nanoseconds() {
         Some(time @ 0..=LONGEST) => Some(time),
-        Some(_) => refuse(value, "a time is at most one hour", diags),
-        None => refuse(value, "a time is a whole number of nanoseconds of at most one hour", diags),
+        Some(_) => refuse(value, "a time must be at most one hour", diags),
+        None => refuse(
+            value,
+            "a time must be a whole number of nanoseconds and at most one hour",
+            diags,
+        ),
     }
 }
 
@@ -107,7 +111,7 @@ fn no_duration(value: &Formula, unit: &Name, literal: &Literal) -> Diagnostic {
     let Some(rate) = rate else { return error.help("write a time in 's', 'ms', 'us' or 'ns'") };
     let nanos = (1e9 / rate).round();
     if !(1.0..=LONGEST as f64).contains(&nanos) {
-        return error.help("write the time from one to the next, such as '10 ms'");
+        return error.help("write the time between two polls, such as '10 ms'");
     }
     let period = duration(nanos as u64);
     match nanos * rate == 1e9 {

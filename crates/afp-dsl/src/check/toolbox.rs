@@ -168,16 +168,16 @@ fn head<'i>(items: &'i [Item], file: u16, diags: &mut Diagnostics) -> Option<&'i
     let Some(first) = heads.next() else {
         let start = Span { file, start: 0, end: 0 };
         diags.push(
-            Diagnostic::new(Code::E0114, start, "the file does not say which toolbox it is")
+            Diagnostic::new(Code::E0114, start, "the file does not name its toolbox")
                 .help("write 'toolbox' and a name above the templates"),
         );
         return None;
     };
     for other in heads {
         diags.push(
-            Diagnostic::new(Code::E0212, other.span(), "a file is one toolbox")
+            Diagnostic::new(Code::E0212, other.span(), "a file has only one toolbox")
                 .note(first.span(), "the first one")
-                .help("move it to a file of its own"),
+                .help("move it to a separate file"),
         );
     }
     Some(first)

@@ -78,7 +78,7 @@ impl Types {
         product.map(Type::Quantity)
     }
 
-    /// Reports `m/s` in place of a type, if no factor is a type.
+    /// Reports `m/s` instead of a type, if no factor is a type.
     fn unit_for_a_type(&self, ty: &ast::Type, factors: &[Factor]) -> Option<Diagnostic> {
         let mut unit = String::new();
         for factor in factors {
@@ -117,7 +117,8 @@ impl Types {
                 "number" if self.generic => return Some(Type::Number),
                 "discrete" if self.generic => return Some(Type::Discrete),
                 generic if GENERIC.contains(&generic) => {
-                    let message = message!("'{}' is a type of ports of toolboxes only", name.text);
+                    let message =
+                        message!("only ports of templates can have the type '{}'", name.text);
                     diags.push(
                         Diagnostic::new(Code::E0232, name.span, message)
                             .help("write the type that the values have, such as 'float'"),
@@ -133,7 +134,6 @@ impl Types {
         self.declared(reference, &name, home.as_ref(), record, diags)
     }
 
-    /// Records a qualifier.
     pub fn qualifier(&self, home: &ast::Name, record: &Recorder) {
         match self.homes.iter().find(|(known, _)| *known == home.text) {
             Some((_, definition)) => record.definition(home.span, *definition),
@@ -277,7 +277,7 @@ fn too_high(factor: &Factor, diags: &mut Diagnostics) {
     );
 }
 
-/// Reports a unit in place of a type.
+/// Reports a unit instead of a type.
 fn of_unit(span: Span, unit: &str, dimension: Dimension) -> Diagnostic {
     let ours = dimension.name();
     let message = message!("there is no type '{}', which is a unit", unit);

@@ -39,7 +39,6 @@ pub struct Watch {
 /// Why a watch is invalid, and a help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WatchError {
-    /// The error.
     pub message: String,
     /// The help; empty if unknown.
     pub help: String,
@@ -163,11 +162,11 @@ fn refused(text: &str, ends: Option<usize>, diags: &Diagnostics) -> WatchError {
     let rest = rest.and_then(|ends| text.get(ends..)).map(str::trim).unwrap_or_default();
     match first {
         _ if text.contains('}') => WatchError {
-            message: format!("'{}' is no formula", text.trim()),
+            message: format!("'{}' is not a formula", text.trim()),
             help: WATCHED.to_owned(),
         },
         _ if !rest.is_empty() => WatchError {
-            message: format!("'{rest}' stands behind the formula"),
+            message: format!("unexpected '{rest}' after the formula"),
             help: WATCHED.to_owned(),
         },
         // The closing brace of the suffix is not the user's.
@@ -175,7 +174,7 @@ fn refused(text: &str, ends: Option<usize>, diags: &Diagnostics) -> WatchError {
             WatchError { message: first.message_without(BEHIND.trim()), help: help(text, first) }
         }
         None => WatchError {
-            message: format!("'{}' is no formula", text.trim()),
+            message: format!("'{}' is not a formula", text.trim()),
             help: WATCHED.to_owned(),
         },
     }

@@ -59,7 +59,7 @@ fn cell(entry: &EntryDraft, output: &Output, table: &Table) -> Option<Diagnostic
         let message =
             |value: String| message!("the table has '{}', out of the range of '{}'", value, name);
         let error = outside(entry, output, (&cell.value, ty), output.span, message)?;
-        Some(error.note(cell.span, "the value stands here"))
+        Some(error.note(cell.span, "the value is here"))
     })
 }
 
@@ -93,7 +93,6 @@ fn outside(
     range::outside(&written, range, entry_ty, place, |own| message(shown.unwrap_or(own)))
 }
 
-/// The converted value of an output.
 fn converted(output: &Output, value: &Constant) -> Result<Constant, Error> {
     match &output.conversion {
         Some(conversion) => convert(conversion, value.clone()),

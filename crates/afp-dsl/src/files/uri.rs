@@ -35,7 +35,7 @@ mod tests {
     use super::{path_of, uri_of};
 
     #[test]
-    fn paths_and_addresses_lead_to_one_another() {
+    fn paths_and_addresses_convert_in_both_directions() {
         for (address, expected, back) in [
             ("file:///a/b.afp", "/a/b.afp", "file:///a/b.afp"),
             ("file:///a%20b/%C3%A4.afp", "/a b/ä.afp", "file:///a%20b/%C3%A4.afp"),

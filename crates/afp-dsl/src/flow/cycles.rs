@@ -256,7 +256,7 @@ impl<'a, 'b> Quick<'a, 'b> {
     fn report_endless(&self, inner: &[&Edge], diags: &mut Diagnostics) {
         let Some(closing) = inner.iter().max_by_key(|edge| self.place(edge)) else { return };
         let Some(cycle) = self.cycle(closing, &mut room(inner)) else { return };
-        let message = message!("computations without a way out: {}", Words(self.names(&cycle)));
+        let message = message!("computations without an exit: {}", Words(self.names(&cycle)));
         diags.push(
             Diagnostic::new(Code::E0305, self.view.span(closing.cause), message)
                 .help("lead one of their states to an element outside of the cycle"),
@@ -277,7 +277,6 @@ impl<'a, 'b> Quick<'a, 'b> {
         self.report_each(inner, conditions, |cycle| choices::never_change(self.view, cycle), diags);
     }
 
-    /// Returns whether it reported a cycle.
     fn report_conditions(
         &self,
         inner: &[&Edge],
@@ -331,7 +330,7 @@ impl<'a, 'b> Quick<'a, 'b> {
         for edge in
             conditions.iter().filter(|edge| edge.cause != closing.cause).take(MAX_CONDITIONS)
         {
-            let text = message!("this leads on to '{}'", self.view.node_name(edge.to));
+            let text = message!("this leads to '{}'", self.view.node_name(edge.to));
             found = found.note(self.view.span(edge.cause), text);
         }
         let counting = cycle.iter().find_map(|edge| counters::forgotten(self.view, edge.cause));
@@ -345,8 +344,7 @@ impl<'a, 'b> Quick<'a, 'b> {
             (None, _) if cycle.iter().all(|edge| is_sure(self.view, edge.cause)) => {
                 "lead one of them to an element that takes time, such as an actor that waits".into()
             }
-            (None, _) => "lead one of them to an element that is not left at once, such as one \
-                          without that supervisor"
+            (None, _) => "lead one of them to an element that is not left at once, such as an element without that supervisor"
                 .into(),
         };
         diags.push(found.help(help));

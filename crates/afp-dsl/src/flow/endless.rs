@@ -18,7 +18,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     if ends == [false; 3] {
         let message = message!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
         let help = message!(
-            "lead a state or an event to 'terminate', or write 'plan {} forever' where it is meant to run on",
+            "lead a state or an event to 'terminate', or write 'plan {} forever' if it must never end",
             view.plan.name
         );
         diags.push(Diagnostic::new(Code::E0307, view.plan.span, message).help(help));
@@ -31,7 +31,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
             let message = message!("once '{}' is reached, the plan cannot end", element.name);
             diags.push(
                 Diagnostic::new(Code::E0311, element.span, message)
-                    .help("lead one of its states, or one of those behind it, to 'terminate'"),
+                    .help("lead one of its states, or a state of a later element, to 'terminate'"),
             );
         }
     }
@@ -45,10 +45,10 @@ fn by_itself(view: &View<'_>, forth: &[bool], diags: &mut Diagnostics) {
         let Cause::State(id, state) = edge.cause else { continue };
         let element = &view.plan.elements[id.index()];
         let place = element.edges.outcomes.get(usize::from(state)).copied().flatten();
-        let message = message!("'{}' ends the plan, which is to run forever", element.name);
+        let message = message!("'{}' ends the plan, which is declared 'forever'", element.name);
         diags.push(
             Diagnostic::new(Code::E0320, place.unwrap_or(element.span), message)
-                .help("lead the state to an element, or remove 'forever' behind the plan's name"),
+                .help("lead the state to an element, or remove 'forever' after the plan's name"),
         );
     }
 }

@@ -24,7 +24,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
                     "the actor has no state: it lasts until an event",
                 )
                 .help(
-                    "watch it with a supervisor whose event leads on, or use an actor with a state",
+                    "watch it with a supervisor whose event leads to another element, or use an actor with a state",
                 ),
         );
     }

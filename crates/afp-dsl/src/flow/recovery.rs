@@ -158,7 +158,6 @@ fn alternate(
     }
 }
 
-/// The supervisor and event of an edge.
 fn event_of(cause: Cause) -> Option<(SupervisorId, u16)> {
     match cause {
         Cause::Event(id, event) | Cause::On(_, id, Some(event)) => Some((id, event)),
@@ -197,8 +196,11 @@ fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnosti
         (None, None) => "lead one of them to 'terminate'".into(),
     };
     let (before, label) = (view.label(first), view.label(next));
-    let message =
-        message!("once '{}' and '{}' hold, each ends what the other has started", before, label);
+    let message = message!(
+        "once '{}' and '{}' hold, each ends the element that the other has started",
+        before,
+        label
+    );
     Diagnostic::new(Code::E0309, view.span(next), message)
         .note(view.span(first), "this event may still hold")
         .help(help)

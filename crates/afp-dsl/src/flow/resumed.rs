@@ -133,10 +133,10 @@ fn written(
         let nothing = own.is_empty() && run.is_empty();
         written.extend(own.into_iter().chain(computed.map(|output| output.entry)));
         if nothing && written.len() == before {
-            let message = message!("'{}' resumes with nothing written", view.label(cause));
+            let message = message!("'{}' resumes, but nothing has been written", view.label(cause));
             diags.push(
                 Diagnostic::new(Code::E0316, view.span(cause), message)
-                    .help("write 'ignore', which says the same, or lead the event to a computation that writes"),
+                    .help("write 'ignore', which has the same effect, or lead the event to a computation that writes"),
             );
         }
     }

@@ -97,7 +97,7 @@ mod tests {
     use super::components;
 
     #[test]
-    fn nodes_of_one_cycle_share_a_number_and_later_ones_are_smaller() {
+    fn nodes_of_one_cycle_share_a_number_and_later_nodes_have_smaller_numbers() {
         // 0 -> 1 -> 2 -> 1, 2 -> 3
         let found = components(&[0, 1, 2, 4, 4], &[1, 2, 1, 3]);
         assert_eq!(found[1], found[2]);

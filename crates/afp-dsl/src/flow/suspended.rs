@@ -112,7 +112,7 @@ fn never_returns(view: &View<'_>, diags: &mut Diagnostics) {
             continue;
         };
         let name = &handler.name;
-        let message = message!("'{}' never returns to what it interrupts", name);
+        let message = message!("'{}' never returns to the element that it interrupts", name);
         let mut found = Diagnostic::new(Code::E0322, handler.span, message);
         if let Some(aside) = view.asides.iter().find(|aside| aside.handler == node) {
             let span = view.span(view.edges[aside.edge].cause);

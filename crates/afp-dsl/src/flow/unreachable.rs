@@ -13,7 +13,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         let message = message!("'{}' can never be reached", element.name);
         diags.push(
             Diagnostic::new(Code::E0302, element.span, message)
-                .note(view.plan.start_span, "no way from here leads to it")
+                .note(view.plan.start_span, "no path from here leads to it")
                 .help("lead a state or an event to it, or remove it"),
         );
     }

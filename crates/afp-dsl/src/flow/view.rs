@@ -302,7 +302,6 @@ impl<'a> View<'a> {
         plan.elements.iter().enumerate().filter(|(node, _)| self.reached[*node])
     }
 
-    /// The value of a constant formula.
     pub fn constant(&self, formula: &Formula) -> Option<Constant> {
         self.plan.constant(formula)
     }
@@ -426,7 +425,6 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The name of a node as a target.
     pub fn node_name(&self, node: Node) -> &str {
         let end = if node == self.end(FAILED) { "fail" } else { "terminate" };
         self.element(node).map_or(end, |element| &element.name)

@@ -114,7 +114,6 @@ impl Toolboxes {
         self.list.iter()
     }
 
-    /// Diagnostics of the toolboxes.
     pub fn diagnostics(&self) -> &Diagnostics {
         &self.diags
     }
@@ -192,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn devices_of_two_toolboxes_are_an_error_where_neither_is_the_robots() {
+    fn devices_of_two_toolboxes_are_an_error_if_neither_is_the_robots() {
         for robot in [None, Some("other")] {
             assert!(told(robot).0.contains(&"E0517".to_owned()), "{robot:?}: {:?}", told(robot).0);
         }

@@ -125,7 +125,6 @@ impl Dump<'_> {
         }
     }
 
-    /// The table that a template reads.
     fn table(&mut self, id: TemplateId) {
         if let Some((_, table)) = self.graph.template(id).table() {
             self.line(3, &format!("table = {} ({} rows)", table.name, table.rows.len()));

@@ -53,7 +53,6 @@ impl Formula {
         self
     }
 
-    /// The whole formula as a part.
     pub fn part(&self) -> Part<'_> {
         Part { root: &self.root, below: &self.below }
     }

@@ -15,7 +15,6 @@ impl Plan {
         all.filter_map(|(id, entry)| Some((id, entry, entry.init.as_ref()?)))
     }
 
-    /// The value of a constant formula.
     pub(crate) fn constant(&self, formula: &Formula) -> Option<Constant> {
         let known = |entry: u16| {
             let entry = self.entries.get(usize::from(entry))?;

@@ -49,7 +49,6 @@ impl Recorder {
         Recorder(RefCell::new(Records { names, ..Records::default() }))
     }
 
-    /// Records a definition, given by its own name.
     pub fn definition(&self, name: Span, definition: Span) {
         self.record(name, Found::Definition(definition));
     }
@@ -60,7 +59,6 @@ impl Recorder {
         self.0.borrow_mut().alone.push((name, port));
     }
 
-    /// Records an ambiguous name.
     pub fn several(&self, name: Span, definitions: impl IntoIterator<Item = Span>) {
         let mut records = self.0.borrow_mut();
         let place = u32::try_from(records.several.len()).unwrap_or(u32::MAX);

@@ -57,7 +57,6 @@ pub enum ComponentKind {
     Reactions,
 }
 
-/// The template or plan of a component.
 #[derive(Clone, Debug)]
 pub struct TemplateUse {
     /// The name as written, with its qualifier.
@@ -103,7 +102,6 @@ pub struct Input {
     pub nth: u16,
     /// Its declaration; `None` for an unknown input or template.
     pub declared: Option<Span>,
-    /// Its type in this component.
     pub ty: Option<Type>,
     /// Whether it must be bound.
     pub required: bool,
@@ -122,7 +120,6 @@ pub struct Output {
     pub nth: u16,
     /// Its declaration; `None` for an unknown output or template.
     pub declared: Option<Span>,
-    /// Its type in this component.
     pub ty: Option<Type>,
     pub binding: Option<Binding>,
     pub findings: Findings,

@@ -23,7 +23,7 @@ pub(crate) enum Table {
     Watches,
     /// States of elements and events of supervisors.
     Edges,
-    /// Texts after `fail`.
+    /// Reasons after `fail`.
     Reasons,
     /// Pairs of an element and a supervisor that is polled while it is active.
     Sweeps,

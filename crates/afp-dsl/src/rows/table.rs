@@ -6,7 +6,6 @@ pub struct Rows {
     pub start: ElementId,
     /// Number of global supervisors.
     pub globals: u16,
-    /// Number of entries.
     pub entries: u16,
     pub elements: Vec<ElementRow>,
     pub supervisors: Vec<SupervisorRow>,

@@ -46,7 +46,6 @@ fn late(row: &SupervisorTiming) -> Option<Response> {
         .copied()
 }
 
-/// Adds the parts of the response.
 fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
     let parts = [
         (response.tick, "of the target's tick"),

@@ -8,7 +8,7 @@ use super::{Basis, Interruption, StepParts, SupervisorTiming, Timing};
 use crate::types::text::duration;
 use afp_types::Duration;
 
-const RESPONSE: &str = "a response has the target's tick in it, not the delay of a sensor";
+const RESPONSE: &str = "a response includes the target's tick, but not the delay of a sensor";
 
 impl Timing {
     /// The table with one line for each supervisor and the parts of its response; ends with a line
@@ -98,18 +98,18 @@ impl Timing {
 }
 
 impl fmt::Display for Basis {
-    /// `budgets are those that the toolboxes declare, not measured`
+    /// `budgets are the declared budgets of the toolboxes, not measured`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let target = self.target.as_deref().unwrap_or_default();
         match self.given {
-            0 => write!(f, "budgets are those that the toolboxes declare")?,
+            0 => write!(f, "budgets are the declared budgets of the toolboxes")?,
             1 => write!(
                 f,
-                "one budget is that of '[target.{target}]', the others those that the toolboxes declare"
+                "one budget comes from '[target.{target}]', the others from the toolboxes"
             )?,
             n => write!(
                 f,
-                "{n} budgets are those of '[target.{target}]', the others those that the toolboxes declare"
+                "{n} budgets come from '[target.{target}]', the others from the toolboxes"
             )?,
         }
         if self.slowdown != 1.0 {
@@ -134,12 +134,13 @@ fn aligned<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; 
     text
 }
 
-/// ` while 'go' is active: supervisors 10 us + its poll or interruption 5 us + entered behind it 20 us`
+/// The parts of a step, such as ` while 'go' is active: supervisors 10 us + its poll or
+/// interruption 5 us`.
 fn described(parts: &StepParts) -> String {
     let parts_of = [
         ("supervisors", parts.supervisors),
         ("its poll or interruption", parts.active),
-        (if parts.path.is_empty() { "entered" } else { "entered behind it" }, parts.entered),
+        (if parts.path.is_empty() { "entered" } else { "entered after it" }, parts.entered),
     ];
     let of = parts_of.into_iter().filter(|(_, time)| *time > 0);
     let sum: Vec<_> = of.map(|(name, time)| format!("{name} {}", duration(time))).collect();

@@ -101,7 +101,7 @@ mod tests {
     use super::Target;
 
     #[test]
-    fn a_name_that_is_not_built_in_is_a_target_of_which_nothing_is_known() {
+    fn an_unknown_name_is_a_target_without_properties() {
         assert_eq!(Target::named("pi"), Target::built_in("pi").unwrap());
         let toy = Target::named("toy");
         assert_eq!((toy.tick, toy.capacity, toy.slowdown), (None, 0.7, 1.0));

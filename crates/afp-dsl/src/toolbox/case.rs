@@ -23,7 +23,6 @@ pub struct Condition {
     pub right: Formula,
 }
 
-/// The known values of input ports.
 pub type KnownInputs<'a> = &'a dyn Fn(u16) -> Option<Constant>;
 
 /// The value of a formula over input ports, if it is known and does not fail.

@@ -7,7 +7,6 @@ use afp_syntax::source::Span;
 
 pub use afp_syntax::ast::DeviceKind;
 
-/// The device name of the whole robot.
 pub const ROBOT: &str = "robot";
 
 #[derive(Clone, Debug)]
@@ -91,11 +90,11 @@ const LATEST: f64 = 86_400.0;
 
 /// Faults of every sensor: name, default time, effect.
 const EVERY_SENSOR: &[(&str, Option<f64>, &str)] = &[
-    ("frozen", None, "It repeats its last value as if it were new."),
+    ("frozen", None, "It repeats its last value as a new value."),
     ("lost", None, "It does not answer."),
-    ("nan", None, "It delivers what is no number."),
-    ("delayed", Some(0.2), "Its readings arrive so much later."),
-    ("slow", Some(0.02), "Each use takes so long."),
+    ("nan", None, "Its values are not numbers."),
+    ("delayed", Some(0.2), "Its readings arrive late by this time."),
+    ("slow", Some(0.02), "Each use takes this time."),
 ];
 
 pub(crate) fn of_every_sensor() -> Vec<Fault> {

@@ -16,7 +16,6 @@ pub enum Converter {
     BoolToFloat,
     /// Prints a quantity with its SI unit.
     PrintQuantity(String),
-    /// Prints the name of an enum value.
     PrintChoice(Vec<String>),
     /// Prints other values without a unit.
     Print,

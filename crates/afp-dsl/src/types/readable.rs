@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn plain_numbers_carry_no_unit() {
+    fn plain_numbers_have_no_unit() {
         assert!(readable(Dimension::NONE).is_empty());
     }
 }

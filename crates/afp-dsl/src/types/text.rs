@@ -89,7 +89,7 @@ pub(crate) fn a_type(ty: &Type) -> String {
         Type::Object(home) => format!("a '{}'", home.name),
         Type::Any => "a value".to_owned(),
         Type::Number => "a number".to_owned(),
-        Type::Discrete => "a bool, int, text or value of an enum".to_owned(),
+        Type::Discrete => "a bool, int, string or value of an enum".to_owned(),
     }
 }
 

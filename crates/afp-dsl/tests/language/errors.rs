@@ -71,7 +71,7 @@ fn annotated(text: &str, compiled: &Compiled) -> String {
 }
 
 #[test]
-fn every_case_says_what_it_should() {
+fn every_case_has_its_diagnostics() {
     let toolboxes = support::toolboxes();
     let mut wrong = Vec::new();
     for path in support::files("tests/errors") {
@@ -100,7 +100,7 @@ fn every_code_has_a_case() {
 }
 
 #[test]
-fn a_fix_mends_what_it_is_for() {
+fn a_fix_removes_its_error() {
     let toolboxes = support::toolboxes();
     for path in support::files("tests/errors") {
         let text = stripped(&support::read(&path));
@@ -130,7 +130,7 @@ fn a_fix_mends_what_it_is_for() {
 }
 
 #[test]
-fn diagnostics_are_worded_like_the_others() {
+fn diagnostics_follow_the_style() {
     let toolboxes = support::toolboxes();
     for path in support::files("tests/errors") {
         let compiled = support::compile(&stripped(&support::read(&path)), &toolboxes);
@@ -150,7 +150,7 @@ fn diagnostics_are_worded_like_the_others() {
 }
 
 #[test]
-fn a_graph_comes_exactly_without_errors() {
+fn a_graph_exists_exactly_without_errors() {
     let toolboxes = support::toolboxes();
     for path in support::files("tests/errors") {
         let text = stripped(&support::read(&path));

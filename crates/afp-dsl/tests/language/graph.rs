@@ -7,7 +7,7 @@ use crate::support;
 const MARK: &str = "\n// Graph:\n";
 
 #[test]
-fn every_case_has_the_graph_it_should() {
+fn every_case_has_its_graph() {
     let toolboxes = support::toolboxes();
     let mut wrong = Vec::new();
     for path in support::files("tests/graph") {
@@ -50,7 +50,7 @@ fn the_plan_of_the_paper_compiles_without_a_diagnostic() {
 }
 
 #[test]
-fn an_example_of_the_house_style_has_the_shown_text() {
+fn the_shown_example_has_its_diagnostic() {
     let text = "use carbot\n\nplan P {\n    start go\n\n\n    actor go: Forward(distance = 30) {\n        ForwardSuccessful -> go\n    }\n}\n";
     let compiled = support::compile(text, &support::toolboxes());
     let expected = "\

@@ -86,7 +86,7 @@ fn quoted(help: &str) -> Vec<&str> {
     help.split('\'').skip(1).step_by(2).collect()
 }
 
-/// The plan text of a help, inserted into its parts in place of the errors.
+/// The plan text of a help, inserted into its parts instead of the errors.
 fn followed(part: &'static str, help: &str) -> BTreeMap<&'static str, String> {
     let mut parts: BTreeMap<&str, String> = BTreeMap::new();
     for text in quoted(help) {
@@ -159,7 +159,7 @@ fn judge(line: &str, toolboxes: &Toolboxes) -> (Option<&'static str>, String) {
 }
 
 #[test]
-fn habits_have_one_error_and_a_help_that_mends() {
+fn habits_have_one_error_and_a_help_that_fixes_it() {
     let toolboxes = support::toolboxes();
     let base = plan(&BTreeMap::new());
     assert!(errors(&support::compile(&base, &toolboxes)).is_empty(), "{base}");

@@ -15,7 +15,7 @@ use afp_syntax::{kind::Kind, parse};
 const MARK: &str = "\n// Index:\n";
 
 #[test]
-fn every_case_has_the_index_it_should() {
+fn every_case_has_its_index() {
     let toolboxes = support::toolboxes();
     let mut wrong = Vec::new();
     for path in support::files("tests/index") {
@@ -198,7 +198,7 @@ fn find(compiled: &Compiled, word: &str, nth: usize) -> (u16, u32) {
 
 /// Examples of the index's uses.
 #[test]
-fn an_editor_asks_the_index() {
+fn the_index_answers_an_editor() {
     let compiled = support::compile(PATROL, &support::toolboxes());
     let index = &compiled.index;
     let said = |word: &str, nth: usize| {

@@ -206,7 +206,7 @@ fn every_shape_of_junk_has_at_most_twenty_errors_and_a_count() {
 }
 
 #[test]
-fn errors_beyond_a_bound_are_counted_and_not_kept() {
+fn errors_above_a_limit_are_only_counted() {
     let text = format!("plan P {{\n{}}}\n", "a\n".repeat(30_000));
     let compiled = support::compile(&text, &support::toolboxes());
     let (shown, counted) = shown_and_counted(&compiled);

@@ -74,7 +74,7 @@ fn watched(globals: usize, actors: usize) -> String {
 }
 
 #[test]
-fn states_and_events_fill_their_table_and_no_more() {
+fn states_and_events_can_fill_their_table() {
     let full = compile(&states(655, 35));
     let graph = full.graph.as_ref().unwrap_or_else(|| panic!("{}", full.render(false)));
     let rows = graph.rows(graph.main);
@@ -86,7 +86,7 @@ fn states_and_events_fill_their_table_and_no_more() {
 }
 
 #[test]
-fn supervisors_of_many_elements_fill_their_table_and_no_more() {
+fn supervisors_of_many_elements_can_fill_their_table() {
     let full = compile(&watched(254, 257));
     let graph = full.graph.as_ref().unwrap_or_else(|| panic!("{}", full.render(false)));
     let rows = graph.rows(graph.main);
@@ -128,7 +128,7 @@ fn the_last_of_64_events_is_wanted() {
 }
 
 #[test]
-fn sub_plans_are_numbered_behind_all_that_stands_before_them() {
+fn sub_plans_are_numbered_after_the_items_before_them() {
     let text = "plan Outer {
     start a
     out x: int = 0

@@ -173,7 +173,7 @@ fn mutants(
 }
 
 #[test]
-fn one_slip_is_one_error_where_it_is() {
+fn one_slip_is_one_error_at_its_place() {
     let number = |name| std::env::var(name).ok().and_then(|number| number.parse::<usize>().ok());
     let (asked, seed) = (number("AFP_MUTANTS"), number("AFP_MUTANTS_SEED"));
     let corpus = corpus();
@@ -230,7 +230,7 @@ fn to_do(compiled: &Compiled) -> usize {
 }
 
 #[test]
-fn a_fix_that_is_applied_leaves_fewer_to_do() {
+fn an_applied_fix_leaves_fewer_errors() {
     let corpus = corpus();
     let (mut tried, mut wrong) = (0, String::new());
     let all = seeds().iter().flat_map(|seed| mutants(*seed, MUTANTS, &corpus));
@@ -250,7 +250,7 @@ fn a_fix_that_is_applied_leaves_fewer_to_do() {
 }
 
 #[test]
-fn a_fix_of_a_case_mends_what_it_is_for() {
+fn a_fix_of_a_case_removes_its_error() {
     let toolboxes = support::toolboxes();
     let cases = files("tests/errors").into_iter().map(|path| (path.clone(), read(&path)));
     let one = |text: &str| !text.contains("// file: ") && !text.contains("\ntoolbox ");

@@ -17,7 +17,7 @@ use afp_syntax::{Node, kind::Kind};
 const MARK: &str = "\n// Outline:\n";
 
 #[test]
-fn every_case_has_the_outline_it_should() {
+fn every_case_has_its_outline() {
     let toolboxes = support::toolboxes();
     let mut wrong = Vec::new();
     for path in support::files("tests/outline") {
@@ -35,7 +35,7 @@ fn every_case_has_the_outline_it_should() {
 const STEP: usize = 13;
 
 #[test]
-fn every_prefix_of_every_shipped_plan_keeps_what_parses() {
+fn every_prefix_of_every_shipped_plan_keeps_its_valid_parts() {
     let toolboxes = support::toolboxes();
     let step = if std::env::var_os("AFP_BY_NIGHT").is_some() { 1 } else { STEP };
     let mut cuts = 0;

@@ -53,7 +53,7 @@ fn a_thousand_nested_sub_plans_fit_on_the_stack() {
 }
 
 #[test]
-fn plans_that_no_machine_could_unfold_are_refused() {
+fn plans_that_are_too_large_to_unfold_are_refused() {
     let mut text = String::from("use carbot\nplan P0 { start a subplan a: P1 { OK -> b } ");
     text += "subplan b: P1 { OK -> terminate } }\n";
     for level in 1..40 {
@@ -163,7 +163,7 @@ fn undeclared_ports(count: usize) -> String {
 type Text = fn(usize) -> String;
 
 #[test]
-fn ten_times_of_one_thing_take_about_ten_times_as_long() {
+fn ten_times_the_items_take_about_ten_times_as_long() {
     let texts: [(Text, usize); 4] =
         [(contradicting, 400), (ring, 150), (undeclared_states, 500), (undeclared_ports, 400)];
     for (of, count) in texts {
@@ -199,7 +199,7 @@ fn ten_times_the_unknown_names_take_about_ten_times_as_long() {
 }
 
 #[test]
-fn of_thousands_of_errors_twenty_are_shown() {
+fn only_twenty_of_thousands_of_errors_are_shown() {
     let wrong = (0..4000).map(|at| format!("const a{at} = 1 m + 1 s "));
     let text = format!("plan P {{ {}}}", wrong.collect::<String>());
     let compiled = support::compile(&text, &support::toolboxes());
@@ -214,7 +214,7 @@ fn of_thousands_of_errors_twenty_are_shown() {
 }
 
 #[test]
-fn one_cause_is_reported_once_however_often_it_occurs() {
+fn a_repeated_cause_is_reported_once() {
     let toolboxes = support::toolboxes();
     let edges =
         |count: usize| "    actor a: Forward { ForwardSuccessful -> zurück }\n".repeat(count);
@@ -281,7 +281,7 @@ fn scenarios_of_one_plan_share_its_graph() {
 }
 
 #[test]
-fn a_name_that_nothing_has_is_not_looked_for_in_every_copy_of_a_plan() {
+fn an_unknown_name_is_not_searched_in_every_copy_of_a_plan() {
     let mut text = String::from("use std\nplan P { start a subplan a: L40 { OK -> terminate } }\n");
     text += "plan L0 { start x out a: int = 0 ";
     text += "computation x: Assign(value = 1, result => a) { Done -> terminate } }\n";

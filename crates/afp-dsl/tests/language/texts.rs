@@ -53,6 +53,6 @@ impl Files for Nowhere {
 }
 
 #[test]
-fn where_the_folder_has_no_name_a_text_is_kept_under_each_path() {
+fn without_a_folder_name_a_file_has_an_entry_for_each_path() {
     assert_eq!(kept(&Nowhere), ["here/x.afp", "here/z.afp", "lib.afp", "plans/z.afp"]);
 }

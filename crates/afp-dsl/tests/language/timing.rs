@@ -10,7 +10,7 @@ use afp_syntax::diagnostics::Code;
 const MARK: &str = "\n// Timing:\n";
 
 #[test]
-fn every_case_has_the_timing_it_should() {
+fn every_case_has_its_timing() {
     let toolboxes = support::toolboxes();
     let mut wrong = Vec::new();
     for path in support::files("tests/timing") {
@@ -31,7 +31,7 @@ fn every_case_has_the_timing_it_should() {
 }
 
 #[test]
-fn the_plan_of_the_paper_is_proved_where_it_has_slack() {
+fn the_timing_of_the_papers_plan_is_proved_if_it_has_slack() {
     let text = include_str!("../../../../plans/wall_following.afp");
     let compiled = support::compile(text, &support::toolboxes());
     let graph = compiled.graph.unwrap();

@@ -45,7 +45,7 @@ fn examine(text: &str) {
 }
 
 #[test]
-fn every_beginning_of_a_toolbox_is_answered() {
+fn every_prefix_of_a_toolbox_is_checked() {
     let devices = support::read(
         &support::files("tests/errors")
             .into_iter()
@@ -63,13 +63,13 @@ fn every_beginning_of_a_toolbox_is_answered() {
 
 proptest! {
     #[test]
-    fn any_text_is_answered(text in any::<String>()) {
+    fn any_text_is_checked(text in any::<String>()) {
         examine(&text);
     }
 
     /// Replaces a piece of a text by a piece of another.
     #[test]
-    fn any_patchwork_is_answered(
+    fn any_patchwork_is_checked(
         base in any::<prop::sample::Index>(),
         patches in prop::collection::vec(
             (any::<prop::sample::Index>(), any::<(u16, u16)>(), (0..40_usize, 0..60_usize)), 1..6)

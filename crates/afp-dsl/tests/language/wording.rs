@@ -16,7 +16,7 @@ fn found(compiled: &Compiled) -> Vec<String> {
 }
 
 #[test]
-fn the_same_is_found_with_other_words() {
+fn checks_do_not_depend_on_the_wording() {
     let toolboxes = support::toolboxes();
     for path in support::files("tests/errors") {
         let text = stripped(&support::read(&path));

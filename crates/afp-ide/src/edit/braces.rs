@@ -35,7 +35,7 @@ pub(super) fn with_braces(buffer: &mut TextBuffer, element: &Item) -> Result<(),
     let Some(edge) = tree::nameless(&component) else { return Ok(()) };
     let state = state_of(buffer, &component, &edge);
     let state = state.ok_or_else(|| {
-        Refused::new(format!("the edge of '{}' is for no state that is known", element.name()))
+        Refused::new(format!("the edge of '{}' is not for a known state", element.name()))
     })?;
     let place = without_comma(&edge);
     let page = Page { text: buffer.text(), root: buffer.root() };

@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn the_difference_makes_one_text_the_other() {
+    fn the_difference_converts_one_text_into_the_other() {
         let texts =
             ["", "a\n", "a\nb\nc\n", "a\nx\nc\n", "a\nc\n", "a\nb\nc", "a\na\na\n", "a\na\n"];
         for before in texts {

@@ -50,7 +50,7 @@ pub(super) fn assign(
     let is_inside = |token: &afp_syntax::Token| place.contains(&range(token).start);
     let mut all = node.descendants_with_tokens().filter_map(|each| each.into_token());
     if all.any(|token| tree::is_comment(&token) && is_inside(&token)) {
-        return Err(Refused::new("there is a comment in it"));
+        return Err(Refused::new("it contains a comment"));
     }
     buffer.splice(vec![(place, text)]);
     Ok(())

@@ -45,7 +45,9 @@ pub(super) fn connect(
         None => {
             let arrow = tree::tokens(&edge, Kind::Arrow).next();
             let end = arrow.or_else(|| name_token(&edge)).map(|token| (range(&token).end, token));
-            let Some((end, token)) = end else { return Err(Refused::new("the edge is not whole")) };
+            let Some((end, token)) = end else {
+                return Err(Refused::new("the edge is incomplete"));
+            };
             let sign = if token.kind() == Kind::Arrow { "" } else { " ->" };
             buffer.splice(vec![(end..end, format!("{sign} {to}"))]);
         }
@@ -85,7 +87,7 @@ fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> 
 /// Events and computations may suspend; the handler is an element of the plan.
 fn check_suspend(plan: &Node, component: &Node, handler: &str) -> Result<(), Refused> {
     if !tree::has_events(component) && !tree::is_computation(component) {
-        return Err(Refused::new("what has ended cannot be suspended"));
+        return Err(Refused::new("an element that has ended cannot be suspended"));
     }
     match children(plan, Kind::Element).any(|element| tree::is_named(&element, handler)) {
         true => Ok(()),
@@ -141,7 +143,7 @@ pub(super) fn start(buffer: &mut TextBuffer, plan: &str, to: &str) -> Result<(),
             let end = range(&keyword).end;
             buffer.splice(vec![(end..end, format!(" {to}"))]);
         }
-        (None, None) => return Err(Refused::new("the 'start' of the plan is not whole")),
+        (None, None) => return Err(Refused::new("the 'start' of the plan is incomplete")),
     }
     Ok(())
 }

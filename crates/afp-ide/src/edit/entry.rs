@@ -10,7 +10,7 @@ fn find(buffer: &TextBuffer, entry: &Item) -> Result<Node, Refused> {
     let node = tree::find(&buffer.root(), entry)?;
     match node.kind() {
         Kind::Entry => Ok(node),
-        _ => Err(Refused::new(format!("'{}' is no entry", entry.name()))),
+        _ => Err(Refused::new(format!("'{}' is not an entry", entry.name()))),
     }
 }
 
@@ -111,7 +111,7 @@ pub(super) fn set_part(
         let root = buffer.root();
         let mut tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
         if tokens.any(is_comment) {
-            return Err(Refused::new("there is a comment in it"));
+            return Err(Refused::new("it contains a comment"));
         }
     }
     let splice = match (place, new.map(str::trim)) {

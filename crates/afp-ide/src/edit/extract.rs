@@ -121,7 +121,7 @@ fn check_names(
     let names = Scope::Plan(selection.plan.clone()).names();
     let staying: Vec<_> = names.into_iter().filter(|name| !selection.holds(name)).collect();
     if name::fresh(element, &staying) != element {
-        return Err(Refused::new(format!("'{element}' is already there")));
+        return Err(Refused::new(format!("'{element}' already exists")));
     }
     Ok(())
 }

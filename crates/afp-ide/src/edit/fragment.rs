@@ -82,7 +82,7 @@ pub(super) fn items(text: &str, in_element: bool) -> Result<(String, Vec<Node>),
     };
     let formatted = canonical(&format!("{before}{text}{after}"))?;
     let root = without_errors(&formatted)?;
-    let several = || Refused::new("the text is more than items of one list");
+    let several = || Refused::new("the text has more than the items of one list");
     let plan = only(&root, Kind::Plan).ok_or_else(several)?;
     let list = match in_element {
         false => plan,
@@ -95,7 +95,7 @@ pub(super) fn items(text: &str, in_element: bool) -> Result<(String, Vec<Node>),
     let nodes: Vec<_> =
         list.children().filter(|child| !matches!(child.kind(), Kind::Ref | Kind::Args)).collect();
     if nodes.is_empty() {
-        return Err(Refused::new("the text holds no item"));
+        return Err(Refused::new("the text has no item"));
     }
     if let Some(other) = nodes.iter().find(|node| !allowed.contains(&node.kind())) {
         let text = other.text().to_string();
@@ -120,7 +120,7 @@ pub(super) fn plans(text: &str) -> Result<(String, Vec<Node>), Refused> {
         kind => kind == Kind::Plan,
     };
     if nodes.is_empty() || !nodes.iter().all(fits) {
-        return Err(Refused::new("the text holds something else than plans and computations"));
+        return Err(Refused::new("the text has items other than plans and computations"));
     }
     Ok((dedented(formatted.trim_end(), ""), nodes))
 }

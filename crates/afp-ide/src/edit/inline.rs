@@ -106,14 +106,14 @@ impl Call {
         let first = start.and_then(|start| {
             names.iter().find(|(old, _)| old == start.text()).map(|(_, new)| new.clone())
         });
-        let first = first.ok_or_else(|| Refused::new("the sub-plan's plan starts nowhere"))?;
+        let first = first.ok_or_else(|| Refused::new("the sub-plan's plan has no 'start'"))?;
         let leads = |outcome: &str| {
             let target = tree::edge(&node, outcome).and_then(|edge| target(&edge))?;
             let leads_back = project.item(home, &target).is_some_and(|(_, item)| item == node);
             Some(if leads_back { first.clone() } else { target.text().to_owned() })
         };
         let ok = leads("OK")
-            .ok_or_else(|| Refused::new(format!("'OK' of '{element}' leads nowhere")))?;
+            .ok_or_else(|| Refused::new(format!("'OK' of '{element}' is not connected")))?;
         let (interrupted, error) = (leads("Interrupted"), leads("Error"));
         Ok(Call {
             project,
@@ -170,7 +170,7 @@ fn redirect(
         seen.push(token.clone());
         if next.is_none() && is_left(&token) {
             return Err(Refused::new(format!(
-                "a scenario says what comes after '{element}' as a whole"
+                "a scenario expects something after '{element}' as a whole"
             )));
         }
         splices.push(match next {

@@ -36,7 +36,7 @@ pub(super) fn check_free(scope: &Scope, name: &str, own: Option<&str>) -> Result
         .find(|known| own != Some(known.as_str()) && key(known) == key(name));
     match taken {
         None => Ok(()),
-        Some(known) if known == name => Err(Refused::new(format!("'{name}' is already there"))),
+        Some(known) if known == name => Err(Refused::new(format!("'{name}' already exists"))),
         Some(known) => {
             Err(Refused::new(format!("'{name}' and '{known}' differ only in case or '_'")))
         }

@@ -52,7 +52,7 @@ fn rebound(text: &str, bind: &Node, sign: &str, new: &str) -> Result<Option<Spli
         let name = name_token(bind).filter(|name| name.text() != new);
         return Ok(name.map(|name| (range(&name), format!("{} {sign} {new}", name.text()))));
     }
-    let whole = "the binding is not whole";
+    let whole = "the binding is incomplete";
     let is_sign = |token: &Token| matches!(token.kind(), Kind::Equal | Kind::FatArrow);
     let tokens = bind.children_with_tokens().filter_map(|each| each.into_token());
     let old_sign = tokens.into_iter().find(is_sign).ok_or_else(|| Refused::new(whole))?;
@@ -62,7 +62,7 @@ fn rebound(text: &str, bind: &Node, sign: &str, new: &str) -> Result<Option<Spli
         return Ok(Some((range(&old_sign).start..end, format!("{sign} {new}"))));
     };
     if tree::holds_comment(&value) {
-        return Err(Refused::new("there is a comment in the formula"));
+        return Err(Refused::new("the formula contains a comment"));
     }
     if old_sign.text() != sign {
         let old = range(&old_sign).start..place.end;
@@ -146,7 +146,7 @@ pub(super) fn set_timing(
     value.map_or(Ok(()), fragment::time)?;
     let node = tree::find(&buffer.root(), supervisor)?;
     if node.kind() != Kind::Guard {
-        return Err(Refused::new(format!("'{}' is no supervisor", supervisor.name())));
+        return Err(Refused::new(format!("'{}' is not a supervisor", supervisor.name())));
     }
     let timings: Vec<_> = children(&node, Kind::Timing).collect();
     let is_meant = |timing: &&Node| tree::keyword(timing).is_some_and(|k| k.text() == keyword);

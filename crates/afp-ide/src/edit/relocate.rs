@@ -20,8 +20,8 @@ pub(super) fn reorder(
     let node = tree::find(&root, item)?;
     let list_of = |root: &Node| match item {
         Item::Plan { .. } => Ok(root.clone()),
-        Item::Enum { .. } => Err(Refused::new("the order of enums means nothing")),
-        Item::Table { .. } => Err(Refused::new("the order of tables means nothing")),
+        Item::Enum { .. } => Err(Refused::new("the order of enums has no meaning")),
+        Item::Table { .. } => Err(Refused::new("the order of tables has no meaning")),
         Item::Inner { plan, .. } => tree::plan(root, plan),
         Item::Local { plan, owner, .. } => tree::element(root, plan, owner),
     };
@@ -117,7 +117,7 @@ fn check_kind(
         return Err(Refused::new("only items of a plan can move to another plan"));
     }
     if owner.is_some() && !is_guard {
-        return Err(Refused::new(format!("'{}' is no supervisor", item.name())));
+        return Err(Refused::new(format!("'{}' is not a supervisor", item.name())));
     }
     if same_plan && is_home {
         return Err(Refused::new(format!("'{}' is already in this place", item.name())));
@@ -128,7 +128,7 @@ fn check_kind(
 fn check_unused(buffer: &TextBuffer, item: &Item) -> Result<(), Refused> {
     match refer::to(&Project::alone(buffer), 0, item).len() {
         0 | 1 => Ok(()),
-        _ => Err(Refused::new(format!("'{}' is used where it is", item.name()))),
+        _ => Err(Refused::new(format!("'{}' is used at its present place", item.name()))),
     }
 }
 

@@ -42,7 +42,6 @@ fn drop_reactions(buffer: &mut TextBuffer, item: &Item) {
     }
 }
 
-/// Removes a node from its list.
 pub(super) fn take_out(buffer: &mut TextBuffer, node: &Node) {
     let page = Page { text: buffer.text(), root: buffer.root() };
     let splice = page.remove(node);
@@ -61,7 +60,9 @@ fn check_unused_plan(project: &Project, item: &Item) -> Result<(), Refused> {
     }
     match refer::in_scenarios(project, 0, std::slice::from_ref(item), 0).is_empty() {
         true => Ok(()),
-        false => Err(Refused::new(format!("a scenario is for '{name}': remove that first"))),
+        false => {
+            Err(Refused::new(format!("a scenario is for '{name}': remove the scenario first")))
+        }
     }
 }
 

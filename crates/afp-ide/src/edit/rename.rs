@@ -126,7 +126,7 @@ fn everywhere<'n>(
         buffer
             .splice(own.iter().map(|((_, token), to)| (range(token), (*to).to_owned())).collect());
         if shape(&buffer.root()) != before {
-            return Err(Refused::new(format!("'{to}' would be read as a word of the grammar")));
+            return Err(Refused::new(format!("'{to}' is a keyword at this place")));
         }
     }
     Ok(())
@@ -152,10 +152,7 @@ fn check_free_elsewhere(workspace: &Workspace, kind: Kind, to: &str) -> Result<(
     let seeing = project.sees.iter().enumerate().filter(|(_, seen)| seen.contains(&workspace.home));
     let seeing: Vec<_> = seeing.map(|(file, _)| file).collect();
     if let Some((file, _)) = seeing.iter().find_map(|file| project.find(*file, kind, to)) {
-        return Err(Refused::new(format!(
-            "'{to}' is already there in '{}'",
-            workspace.paths[file]
-        )));
+        return Err(Refused::new(format!("'{to}' already exists in '{}'", workspace.paths[file])));
     }
     let toolboxes = &workspace.buffers[workspace.home].toolboxes;
     let used = seeing.iter().flat_map(|file| tree::children(&project.roots[*file], Kind::Use));

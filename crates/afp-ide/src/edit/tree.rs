@@ -90,7 +90,7 @@ pub(super) fn component(root: &Node, item: &Item) -> Result<Node, Refused> {
     let node = find(root, item)?;
     match node.kind() {
         Kind::Element | Kind::Guard | Kind::Reactions => Ok(node),
-        _ => Err(Refused::new(format!("'{}' is no element or supervisor", item.name()))),
+        _ => Err(Refused::new(format!("'{}' is not an element or supervisor", item.name()))),
     }
 }
 

@@ -66,6 +66,6 @@ impl Workspace {
         let mut others = found.iter().filter(|(file, name)| *file != self.home && counts(name));
         let Some((file, _)) = others.next() else { return Ok(()) };
         let (name, path) = (item.name(), &self.paths[*file]);
-        Err(Refused::new(format!("'{name}' is named in '{path}': take it out of there first")))
+        Err(Refused::new(format!("'{path}' uses '{name}': remove that use first")))
     }
 }

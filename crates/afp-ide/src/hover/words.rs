@@ -6,7 +6,7 @@ use afp_syntax::kind::Kind;
 pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
     let in_toolbox = matches!(within, Kind::Template | Kind::InPort | Kind::OutPort);
     Some(match word {
-        "use" => "Brings a toolbox, or the plans of another file, into view.",
+        "use" => "Imports a toolbox, or the plans of another file.",
         "plan" => "A robot's behaviour: elements, one of which is active, and their supervisors.",
         "scenario" => "A test of a plan: stimuli and expected behaviour.",
         "enum" => "A type whose values are listed.",
@@ -24,37 +24,33 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
             "Targets of a plan supervisor's events while this element is active; unlisted events keep their edges."
         }
         "supervisor" => "A template that watches and reports events.",
-        "in" if in_toolbox => "A port that takes a value.",
+        "in" if in_toolbox => "An input of a template.",
         "in" => "An entry that is set from outside; a port where the plan is used as a sub-plan.",
-        "out" if in_toolbox => "A port that gives a value.",
+        "out" if in_toolbox => "An output of a template.",
         "out" => "An entry that is a result; a port where the plan is used as a sub-plan.",
-        "var" => "An entry of the plan's own.",
+        "var" => "A variable of the plan.",
         "const" => "An entry that never changes.",
-        "forever" => "The plan is meant to run on until something happens to it.",
-        "from" | "to" if within == Kind::Range => {
-            "The least and the greatest value that it takes; both belong to the range."
-        }
+        "forever" => "The plan never ends by itself.",
+        "from" | "to" if within == Kind::Range => "The range of the value, with both bounds.",
         "from" if within == Kind::Moment => {
-            "Times in its braces count from the first moment when this holds or happens."
+            "Times in its braces count from the first moment when this condition holds or this event happens."
         }
         "live" if within == Kind::Entry => "A sub-plan reads it again before each of its steps.",
         "live" => "Read again at every poll.",
-        "every" => "How often it is polled.",
-        "deadline" => "How long after each release its poll must be over.",
-        "budget" => "How long one poll takes at most.",
-        "stop" if within == Kind::Timing => {
-            "How long the robot takes from an interruption to standstill."
-        }
+        "every" => "The period of its polls.",
+        "deadline" => "The time from a release to the latest end of its poll.",
+        "budget" => "The longest time of one poll.",
+        "stop" if within == Kind::Timing => "The longest time from an interruption to standstill.",
         "uses" => "A part of the robot that it controls; only one element at a time may.",
-        "state" => "A way in which it ends.",
+        "state" => "One of its endings.",
         "and" if within == Kind::When => "Both comparisons must hold.",
         "event" => "A report that may interrupt the active element.",
         "exclusive" => "Two events that never hold at the same time.",
-        "when" => "It holds, or is reached, only if all comparisons hold.",
+        "when" => "The state is reached, or the event holds, only if all comparisons hold.",
         "after" if within == Kind::After => "The time from the start to the event.",
         "expect" => "A claim that must hold.",
         "never" => "A claim that must never hold.",
-        "until" => "When the run ends at the latest.",
+        "until" => "The latest end of the run.",
         "at" if within == Kind::Stimulus => "An action from outside, and its time.",
         _ => return None,
     })

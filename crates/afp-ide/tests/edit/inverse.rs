@@ -164,7 +164,7 @@ fn of_start(text: &str, plan: &Plan) {
 }
 
 #[test]
-fn a_change_and_its_inverse_give_the_first_bytes() {
+fn a_change_and_its_inverse_restore_the_bytes() {
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let mut tried = 0;
     for path in shipped() {

@@ -81,7 +81,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn the_text_says_exactly_the_change(
+    fn the_text_has_exactly_the_change(
         base in any::<prop::sample::Index>(),
         seeds in prop::collection::vec(any::<u8>(), 1..300),
         pick in any::<Pick>(),
@@ -219,7 +219,7 @@ proptest! {
 
     /// A text with errors is changed, or the change is refused; a valid text stays valid.
     #[test]
-    fn any_change_of_any_patchwork_is_answered(
+    fn any_edit_of_any_patchwork_has_a_result(
         base in any::<prop::sample::Index>(),
         cuts in prop::collection::vec((any::<u16>(), 0..20_usize, 0..WORDS.len()), 0..4),
         which in any::<u8>(),

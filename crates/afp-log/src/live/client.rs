@@ -161,7 +161,7 @@ impl Client<'_> {
             }
         };
         if self.role == Role::Watcher {
-            let why = "this address is for watching: open the other one to write".to_owned();
+            let why = "this address is for watching: open the other address to write".to_owned();
             return answer(vec![Err(why)]);
         }
         let answer = Box::new(answer);
@@ -184,10 +184,10 @@ impl Client<'_> {
         let service = self.hub.service(call.service).ok_or("there is no such service")?;
         // Every client may stop a robot.
         if self.role == Role::Watcher && *service != Service::Stop {
-            return Err("this address is for watching: open the other one to press".to_owned());
+            return Err("this address is for watching: open the other address to press".to_owned());
         }
         if call.encoding != "json" {
-            return Err(format!("'{}' is not read: write JSON", call.encoding));
+            return Err(format!("'{}' is not JSON: write JSON", call.encoding));
         }
         let said: Value = match call.payload {
             [] => Value::Null,

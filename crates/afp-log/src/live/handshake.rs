@@ -56,7 +56,7 @@ pub(crate) fn handshake(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens) -> O
     Some(Admitted { socket, role, place })
 }
 
-const FULL: Refusal = (503, "too many clients watch already\n");
+const FULL: Refusal = (503, "too many clients are connected\n");
 
 /// The protocol's name that both sides support.
 fn name(request: &Request) -> Result<&'static str, Refusal> {

@@ -26,7 +26,7 @@ const CONFIGURATION: &str = "/plan/configuration";
 pub(crate) enum Question {
     /// A stimulus for the robot or the plan.
     Do { what: Stimulus, answer: Box<dyn FnOnce(Result<(), String>) + Send> },
-    /// Writes entries from names and texts. For each entry the answer gets its new value or an
+    /// Writes entries from names and strings. For each entry the answer gets its new value or an
     /// error.
     Write { entries: Vec<(String, String)>, answer: Box<dyn FnOnce(Vec<Written>) + Send> },
 }

@@ -112,7 +112,7 @@ impl Canvas {
         let (x, y) = self.view.point(middle);
         let needed = name.chars().count() as f64 * 6.5;
         let room = width * self.view.scale;
-        // A narrow obstacle has its name beside it.
+        // A narrow obstacle has its name next to it.
         let (x, anchor) =
             if needed <= room { (x, "middle") } else { (x + room / 2.0 + 6.0, "start") };
         let anchor = if x + needed > self.view.end().0 { "end" } else { anchor };
@@ -151,7 +151,7 @@ impl Canvas {
         ));
     }
 
-    /// An actor that acts on the spot: the `number`-th dot beside a point.
+    /// An actor that acts on the spot: the `number`-th dot next to a point.
     pub(super) fn dot(&mut self, at: [f64; 2], number: usize, color: &str) {
         let (x, y) = self.view.point(at);
         let x = x + 3.0 + 11.0 * number as f64;

@@ -1,4 +1,4 @@
-//! The legend of colours and symbols, and the run's figures, beside the room.
+//! The legend of colours and symbols, and the run's results, next to the room.
 
 use std::fmt::Write;
 
@@ -70,15 +70,15 @@ impl Legend {
         };
         let (x, y) = (self.x + 10.0, |legend: &Self| legend.y - 4.5);
         let symbol = circle("true", x, y(self));
-        self.entry(&symbol, "echo, from where the robot was");
+        self.entry(&symbol, "echo, from the robot's position");
         let symbol = arc(x, y(self));
-        self.entry(&symbol, "the cone that it may come from");
+        self.entry(&symbol, "the cone of its possible sources");
         let symbol = circle("believed", x, y(self));
         self.entry(&symbol, "the same, by odometry");
         let symbol = line("true", x, y(self));
         self.entry(&symbol, "way");
         let symbol = line("believed", x, y(self));
-        self.entry(&symbol, "way by odometry");
+        self.entry(&symbol, "path by odometry");
     }
 
     fn entry(&mut self, symbol: &str, text: &str) {

@@ -134,7 +134,7 @@ fn a_file_without_a_run_is_reported() {
     writer.finish().unwrap();
     drop(writer);
     let why = read(&path).err().unwrap().to_string();
-    assert!(why.ends_with("foreign.mcap' is not the log of a run of AFP"), "{why}");
+    assert!(why.ends_with("foreign.mcap' is not the log of an AFP run"), "{why}");
     assert_eq!(read_any(&path).unwrap().topics["/foo"].messages, 1);
     assert!(doctor(&path).unwrap()[0].contains("'afp.run'"));
     assert_eq!(recover(&path, &dir.path().join("saved.mcap")).unwrap().messages, 1);

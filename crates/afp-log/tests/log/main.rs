@@ -274,7 +274,7 @@ fn foreign_data_in_a_log_is_found() {
         doctor(&bad).unwrap_or_else(|why| vec![why.to_string()])
     };
     for (rest, told) in [
-        (&b"rubbish"[..], "7 bytes that are not part of it follow its end"),
+        (&b"rubbish"[..], "7 extra bytes follow its end"),
         (b"\n", "1 bytes"),
         (&sound, "another log follows its end"),
         (mcap::MAGIC, "another log"),

@@ -51,8 +51,7 @@ fn changed(
     let analysis = server.analysis(&document.uri).map_err(|_| no_file())?;
     let files = server.sources(&analysis, &home_path, changes);
     let home = files.iter().position(|file| file.name == home_path);
-    let home =
-        home.ok_or_else(|| Failure::Refused("a toolbox has no plans to change".to_owned()))?;
+    let home = home.ok_or_else(|| Failure::Refused("a toolbox has no plans".to_owned()))?;
     let made = edit_all(&files, &analysis.set.toolboxes, home, changes)?;
     let Made { edits, changes: done, given, added } = made;
     let mut all = by_file(|file| files.get(usize::from(file)), edits);
@@ -130,8 +129,8 @@ fn label(changes: &[Change]) -> String {
         | Change::SetEntryValue { entry: item, .. }
         | Change::SetDoc { item, .. }
         | Change::SetNote { item, .. } => format!("change '{}'", item.name()),
-        Change::Extract { new_plan, .. } => format!("make the plan '{new_plan}'"),
-        Change::Inline { element, .. } => format!("put the elements in place of '{element}'"),
+        Change::Extract { new_plan, .. } => format!("extract the plan '{new_plan}'"),
+        Change::Inline { element, .. } => format!("replace '{element}' by its elements"),
     }
 }
 

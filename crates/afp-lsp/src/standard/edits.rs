@@ -33,7 +33,7 @@ fn renamed(analysis: &Analysis, offset: u32, to: String) -> Result<(Change, Stri
     let id = name.meaning.definition().ok_or_else(|| refused("nothing declares this name"))?;
     let definition = index.definition(id);
     if usize::from(definition.name.file) < analysis.compiled.plan_files.start {
-        return Err(refused("a toolbox declares this name, and Rust code knows it"));
+        return Err(refused("a toolbox declares this name, and Rust code uses it"));
     }
     let source = analysis.compiled.sources.get(definition.name.file);
     let path = source.map(|source| source.name.clone()).unwrap_or_default();

@@ -11,7 +11,7 @@ pub(crate) const MOST: usize = 1024;
 const NEAR: f64 = 1.5;
 /// An object on the map within this distance explains an echo, in metres.
 const EXPLAINED: f64 = 0.25;
-/// The angles and the number of an echo's possible places beside the sensor's direction, in
+/// The angles and the number of an echo's possible places next to the sensor's direction, in
 /// radians.
 const ASIDE: f64 = 0.1;
 const PLACES: i32 = 2;
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn objects_on_the_map_and_far_away_are_ignored() {
+    fn mapped_and_distant_objects_are_ignored() {
         let (mut finds, field) = (Finds::new(&carbot()), field());
         let wall = Heard { sensor: [3.0, 2.0], direction: 0.0, distance: 0.85 };
         for heard in [wall, ahead(1.8)] {
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_behind_which_echoes_come_is_free_unless_it_was_felt() {
+    fn a_place_in_front_of_an_echo_is_free_unless_the_bumper_touched_it() {
         let (mut finds, field) = (Finds::new(&carbot()), field());
         for n in 0..3 {
             finds.on_echo(&ahead(1.0), &field, ping(n));

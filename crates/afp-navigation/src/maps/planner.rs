@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn found_obstacles_are_only_doubted_if_no_path_is_left_and_by_their_error() {
+    fn found_obstacles_shrink_by_their_error_only_if_no_path_is_left() {
         assert!(leads_past(&[]));
         // At these distances, half a metre and 30 cm, from wall to wall; the robot needs 56 cm.
         let row = |count: i32, apart: f64| -> Vec<_> {

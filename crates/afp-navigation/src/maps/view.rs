@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn three_looks_see_three_rooms() {
+    fn three_views_show_three_rooms() {
         let grid = rooms([1.0, 1.0]);
         for first in [[1.5, 1.5], [4.5, 1.5], [7.5, 3.0]] {
             let looks = looks(&grid, first, 4);

@@ -1,8 +1,9 @@
 //! The line to the controller of a Waveshare UGV: one JSON object a line.
 //!
 //! The controller drives with `{"T":13,"X":m/s,"Z":rad/s}` and reports with `T` 1001: the speeds of
-//! its wheels and their ways in centimetres. It stops by itself after the time of `{"T":136,"cmd":ms}`
-//! without a command, 3 s by default. Its lines have no checksum, so only possible numbers count.
+//! its wheels and their distances in centimetres. It stops by itself after the time of
+//! `{"T":136,"cmd":ms}` without a command, 3 s by default. Its lines have no checksum, so only
+//! possible numbers count.
 
 use std::io::{self, Write};
 
@@ -40,7 +41,7 @@ struct Feedback {
     left: f32,
     #[serde(rename = "R")]
     right: f32,
-    /// The ways of the wheels in centimetres.
+    /// The distances of the wheels in centimetres.
     odl: f64,
     odr: f64,
 }
@@ -51,7 +52,7 @@ pub struct JsonLine {
     port: Port,
     line: [u8; LONGEST],
     length: usize,
-    /// The ways of both wheels in the last report, in metres.
+    /// The distances of both wheels in the last report, in metres.
     ways: Option<[f64; 2]>,
     report: Report,
     restarted: bool,

@@ -40,7 +40,7 @@ fn an_error_is_shown_at_its_place() {
         let text = format!("Hall\ncell 25 cm\n{rows}");
         let wrong = Grid::read(&text, "").unwrap_err();
         assert!(text[wrong.span.clone().unwrap()].ends_with(&wide), "{wrong}");
-        assert!(wrong.message.contains("there may be 4194304 of them"), "{wrong}");
+        assert!(wrong.message.contains("at most 4194304 cells"), "{wrong}");
     }
     for text in ["Hall\ncell 25 cm\n###", "Hall\ncell 25 cm\n#>v#"] {
         assert!(Grid::read(text, "").unwrap_err().message.contains("one of '>^<v'"));
@@ -51,7 +51,7 @@ fn an_error_is_shown_at_its_place() {
 }
 
 #[test]
-fn a_place_that_is_none_touches_nothing() {
+fn a_place_that_is_not_a_number_touches_nothing() {
     let hall = Grid::read(HALL, "*o").unwrap();
     for (x, y) in [(f64::NAN, 1.0), (1.0, f64::NAN), (f64::INFINITY, 1.0)] {
         assert_eq!(hall.contacts(x, y, 0.25).count(), 0);
@@ -77,7 +77,7 @@ fn walls_push_a_disc_out() {
 }
 
 #[test]
-fn floors_made_up_can_be_started_on() {
+fn the_robot_can_start_on_random_floors() {
     for seed in 0..200 {
         let text = Grid::made_up(seed, 20, 12, &[('#', 8), ('*', 5)]);
         let floor = Grid::read(&text, "*").unwrap();

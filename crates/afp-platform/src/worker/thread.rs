@@ -26,7 +26,7 @@ pub struct ThreadWorker<J> {
     overruns: u64,
 }
 
-/// A job on its way to the thread, or back with its result.
+/// A job that is sent to the thread, or its result.
 #[derive(Debug)]
 struct Task<J> {
     slot: u16,

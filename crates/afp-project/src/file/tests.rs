@@ -19,7 +19,7 @@ fn find(folder: &Path) -> ProjectFile {
 }
 
 #[test]
-fn the_nearest_file_above_counts() {
+fn the_nearest_file_in_a_parent_folder_counts() {
     let folder = project(&[("afp.toml", "[run]\nworld = 'a'"), ("b/c/plan.afp", "")]);
     let found = ProjectFile::of_plan(&folder.path().join("b/c/plan.afp")).unwrap();
     assert_eq!(found.project.world.as_deref(), Some("a"));
@@ -27,7 +27,7 @@ fn the_nearest_file_above_counts() {
 }
 
 #[test]
-fn mistakes_are_shown_at_their_lines() {
+fn errors_are_shown_at_their_lines() {
     let folder = project(&[("afp.toml", "[run]\nwordl = 'a'\n[afp]\npath = 3\n")]);
     let text = ProjectFile::find(folder.path()).unwrap_err().to_string();
     assert!(text.contains("error: '[run]' has no 'wordl'\n"), "{text}");
@@ -40,7 +40,7 @@ fn mistakes_are_shown_at_their_lines() {
 fn a_key_above_its_table_is_reported_with_its_place() {
     let folder = project(&[("afp.toml", "world = 'a'\nruns = 3\n")]);
     let text = ProjectFile::find(folder.path()).unwrap_err().to_string();
-    assert!(text.contains("error: 'world' stands above the tables\n"), "{text}");
+    assert!(text.contains("error: 'world' is above the tables\n"), "{text}");
     assert!(text.contains("help: write it below '[run]'"), "{text}");
     assert!(text.contains("error: a project has no 'runs'\n"), "{text}");
     assert!(text.contains("help: write 'run'"), "{text}");
@@ -110,10 +110,10 @@ fn a_missing_crate_is_reported_at_the_toolbox() {
     };
     let plain = "[toolboxes]\na = { path = 'a/a.afp' }";
     let workspace = ("a/Cargo.toml", "[workspace]\n");
-    assert!(said(plain, &[workspace]).contains("holds no package"));
+    assert!(said(plain, &[workspace]).contains("has no package"));
     let named = "[toolboxes]\na = { path = 'a/a.afp', crate = 'b' }";
     let other = ("a/Cargo.toml", "[package]\nname = \"c\"");
-    assert!(said(named, &[other]).contains("is that of 'c', not of 'b'"));
+    assert!(said(named, &[other]).contains("belongs to 'c', not to 'b'"));
     let elsewhere = "[toolboxes]\na = { path = 'a/a.afp', crate = { path = 'z' } }";
     assert!(said(elsewhere, &[]).contains("cannot read the manifest"));
 }
@@ -127,7 +127,7 @@ fn a_folder_as_a_toolbox_is_reported_with_the_meaning_of_path() {
 }
 
 #[test]
-fn the_crate_of_a_robot_is_named_or_that_of_its_toolbox_or_around_the_project_file() {
+fn the_crate_of_a_robot_is_named_or_its_toolboxes_or_the_projects() {
     let toolbox = "[toolboxes]\nv = { path = 'kit/v.afp' }\n";
     let manifest = |name: &str| format!("[package]\nname = \"{name}\"\n");
     let robot_of = |text: &str| {

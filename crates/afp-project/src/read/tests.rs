@@ -86,7 +86,7 @@ fn an_error_of_a_target_is_reported_at_its_place() {
 }
 
 #[test]
-fn no_text_is_too_strange() {
+fn any_text_is_read_without_a_panic() {
     for text in ["[", "a = ", "[a]\n[a]", "\u{0}", "run.world.x = 1", "[[toolboxes]]\na = 1"] {
         let (_, mistakes) = read(text);
         assert!(!mistakes.is_empty(), "{text:?}");
@@ -115,7 +115,7 @@ fn a_robot_is_read_with_its_toolbox_above_or_below() {
 }
 
 #[test]
-fn the_robot_itself_is_read_in_one_line_or_in_a_table() {
+fn the_real_robot_is_read_in_one_line_or_in_a_table() {
     let of = |text: &str| {
         let (project, mistakes) = read(text);
         assert_eq!(mistakes, []);
@@ -169,7 +169,7 @@ fn an_error_of_a_robot_type_is_reported_at_its_place() {
 }
 
 #[test]
-fn characters_that_hide_something_are_named() {
+fn hidden_characters_are_reported() {
     let separator = '\u{2028}';
     assert_eq!(wrong("# a comment\u{2028}[run]\n"), [separator.to_string()]);
     assert_eq!(wrong("[run]\nworld = 'a\u{202e}b'\n"), ["\u{202e}"]);

@@ -31,7 +31,7 @@ impl Carbot {
     #[pyo3(signature = (world, seed=None), text_signature = "(world, seed=0)")]
     fn new(world: &World, seed: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let seed = seed.map_or(Ok(0), seed_of)?;
-        let other = || error("the world is that of another robot");
+        let other = || error("the world is for another robot");
         let room = world.loaded.world.as_any().downcast_ref::<Room>().ok_or_else(other)?;
         let sim = Simulation::new(room, seed).map_err(|why| error(why.message))?;
         let obstacles = room.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();

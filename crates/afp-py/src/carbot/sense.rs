@@ -56,7 +56,7 @@ fn said<T>(name: &str, reading: Reading<T>, take: impl FnOnce(T) -> Sensed) -> P
         Err(Invalid::NotYet | Invalid::OutOfRange) => Ok(Sensed::Nothing),
         Err(Invalid::NoAnswer) => Err(error(format!("the sensor of '{name}' does not answer"))),
         Err(Invalid::Frozen) => {
-            Err(error(format!("the sensor of '{name}' says the same for ever")))
+            Err(error(format!("the sensor of '{name}' repeats its last value")))
         }
         Err(Invalid::NotFinite) => {
             Err(error(format!("the sensor of '{name}' returns a value that is not a number")))

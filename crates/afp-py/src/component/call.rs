@@ -303,7 +303,7 @@ fn outputs_of(
         if !carried().any(|(_, port)| port.name == key) {
             let (name, state) = (&template.name, &template.outcomes[usize::from(outcome)].name);
             return Err(PyValueError::new_err(format!(
-                "'{state}' of '{name}' carries no output '{key}'"
+                "'{state}' of '{name}' has no output '{key}'"
             )));
         }
     }

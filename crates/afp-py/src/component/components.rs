@@ -110,6 +110,6 @@ pub fn interruption(
 /// The error for a toolbox that has changed since the compilation.
 fn changed(name: &str) -> PyErr {
     error(format!(
-        "the toolbox '{name}' declares something else than it did for this scenario or sweep\n  help: take plan.scenarios again, or sweep again"
+        "the toolbox '{name}' has changed since this scenario or sweep was created\n  help: take plan.scenarios again, or sweep again"
     ))
 }

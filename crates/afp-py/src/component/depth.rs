@@ -41,7 +41,7 @@ pub fn may_run() -> PyResult<()> {
     match DEPTH.get() < MOST {
         true => Ok(()),
         false => Err(PyRuntimeError::new_err(format!(
-            "{MOST} simulations run inside one another's components already"
+            "{MOST} simulations already run inside one another's components"
         ))),
     }
 }

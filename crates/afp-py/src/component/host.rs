@@ -26,7 +26,7 @@ pub const RAISED: Fault = Fault::new(&Reason {
 /// The reason for a run that a component ended by Ctrl-C or similar; the scheduler sees a panic.
 pub const ENDED_ALL: Reason = Reason {
     code: "python-ended",
-    text: "Ctrl-C, or another exception that is no Exception, in a component written in Python",
+    text: "Ctrl-C, or another BaseException, in a component written in Python",
 };
 
 /// An exception of a component.

@@ -73,7 +73,7 @@ impl Parts<'_, '_> {
             [name] => Ok(Item::inner(plan, name)),
             [owner, name] => Ok(Item::local(plan, owner, name)),
             _ => Err(PyValueError::new_err(format!(
-                "'{path}' names nothing of a plan: write 'element' or 'element.supervisor'"
+                "'{path}' is not the path of an item: write 'element' or 'element.supervisor'"
             ))),
         }
     }
@@ -83,7 +83,7 @@ impl Parts<'_, '_> {
 fn text(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     let text = value.extract();
     let repr = |_| match value.repr() {
-        Ok(shown) => PyTypeError::new_err(format!("{key} is a text, not {shown}")),
+        Ok(shown) => PyTypeError::new_err(format!("{key} must be a string, not {shown}")),
         Err(why) => why,
     };
     text.map_err(repr)

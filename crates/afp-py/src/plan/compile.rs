@@ -184,7 +184,7 @@ fn add_all(known: &mut Toolboxes, toolboxes: &[Py<Toolbox>]) -> Result<(), RunEr
             return Err(RunError::usage(what, "give one of them another name"));
         }
         if known.get(&name).is_some() && !is_same {
-            let what = format!("there is another toolbox '{name}', built in or of the project");
+            let what = format!("another toolbox is called '{name}', built in or in the project");
             return Err(RunError::usage(what, "give this one another name"));
         }
         names.push(name);

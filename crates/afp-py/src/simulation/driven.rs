@@ -33,7 +33,9 @@ impl Driven {
     #[setter(_runner)]
     fn set_run(&self, runner: Py<Runner>) -> PyResult<()> {
         let set = self.runner.set(runner);
-        set.map_err(|_| PyRuntimeError::new_err("a simulation is made once; make a new one"))
+        set.map_err(|_| {
+            PyRuntimeError::new_err("a simulation cannot be initialized twice; make a new one")
+        })
     }
 
     /// Make the next step of the plan, which may be later; return whether it is still running.

@@ -61,7 +61,7 @@ impl Run {
 pub fn unknown_entry(name: &str, known: &[String]) -> PyErr {
     let none = format!("the plan has no entry '{name}'");
     PyKeyError::new_err(match known.is_empty() {
-        true => format!("{none}; it has none at all"),
+        true => format!("{none}; it has no entries"),
         false => format!("{none}; there are: {}", known.join(", ")),
     })
 }

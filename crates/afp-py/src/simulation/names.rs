@@ -23,7 +23,7 @@ pub struct Names(pub(super) PlanNames);
 impl Names {
     /// The path of a run over its world, as SVG: rows of time, x, y, heading, the events, and the
     /// last outlines of moving things.
-    #[expect(clippy::too_many_arguments, reason = "what a result has")]
+    #[expect(clippy::too_many_arguments, reason = "a part of a result")]
     fn draw(
         &self,
         py: Python<'_>,

@@ -72,7 +72,7 @@ impl Run {
             return Err(os_error("cannot write the log", folder, &why));
         }
         if setting.camera && setting.log.is_none() {
-            let text = "what the camera sees goes into the log, and there is none: give log=\"run.mcap\", too";
+            let text = "the log has the camera's pictures, and there is no log: also give log=\"run.mcap\"";
             return Err(PyValueError::new_err(text));
         }
         setting.log.map_or(Ok(()), |log| setting.check_log(log)).map_err(|why| run_error(&why))?;
@@ -314,7 +314,7 @@ impl Run {
         self.is_open()?;
         match self.is_running() {
             true => Ok(at.unwrap_or(self.session.now())),
-            false => Err(PyRuntimeError::new_err("the plan has ended; nothing happens any more")),
+            false => Err(PyRuntimeError::new_err("the plan has ended")),
         }
     }
 
@@ -393,7 +393,7 @@ impl Run {
 
 /// The error for a robot without a pose.
 pub fn no_pose() -> PyErr {
-    error("the robot does not say where it is: it declares no 'robot.pose'")
+    error("the robot has no position: it does not declare 'robot.pose'")
 }
 
 impl Drop for Run {

@@ -16,7 +16,7 @@ use crate::value::to_port;
 pub fn control(name: Option<&str>) -> PyResult<ControlId> {
     let Some(name) = name else {
         let none =
-            || PyValueError::new_err("the robot has no control that ends what runs; name one");
+            || PyValueError::new_err("the robot has no control that ends plans; name a control");
         return find_stop(devices()).ok_or_else(none);
     };
     let none = || PyValueError::new_err(no_control(devices(), name));
@@ -37,7 +37,7 @@ pub fn fault(
     for (given, unit, what) in [(delay, "s", "delay"), (share, "", "share")] {
         let Some(amount) = given else { continue };
         let Some(of) = of(unit) else {
-            let text = format!("a {what} says nothing of '{kind}'");
+            let text = format!("a {what} has no amount '{kind}'");
             return Err(PyValueError::new_err(text));
         };
         if of.checked(Some(amount)).is_none() {
@@ -61,13 +61,13 @@ pub fn outputs(
     for name in given.keys() {
         let name: String = name.extract()?;
         if !wanted.iter().any(|(_, known, _)| *known == name) {
-            let text = format!("'{component}.{outcome}' brings no connected output '{name}'");
+            let text = format!("'{component}.{outcome}' has no connected output '{name}'");
             return Err(PyValueError::new_err(text));
         }
     }
     let value = |(port, name, ty): &(u16, String, Type)| {
         let missing = || {
-            let what = format!("'{component}.{outcome}' also brings '{name}'");
+            let what = format!("'{component}.{outcome}' also has the output '{name}'");
             let help = format!("give outputs={{\"{name}\": ...}}");
             PyValueError::new_err(format!("{what}, which has no value here: {help}"))
         };

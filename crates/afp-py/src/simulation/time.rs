@@ -13,7 +13,7 @@ pub fn instant(seconds: f64) -> PyResult<Instant> {
 pub fn some(what: &str, seconds: f64) -> PyResult<Duration> {
     match duration(seconds)? {
         Duration::ZERO => {
-            let text = format!("{what} is {seconds} s, and it would end as it begins; give more");
+            let text = format!("{what} is {seconds} s, which takes no time; give more");
             Err(PyValueError::new_err(text))
         }
         time => Ok(time),

@@ -111,7 +111,7 @@ pub fn check_metrics(names: &[String], sweep: &Sweep) -> PyResult<()> {
     let Some(name) = names.iter().find(|name| columns.iter().any(|it| it.name == **name)) else {
         return Ok(());
     };
-    let text = format!("there is a column '{name}' of every run; choose another name");
+    let text = format!("every run has a column '{name}'; choose another name");
     Err(PyValueError::new_err(text))
 }
 

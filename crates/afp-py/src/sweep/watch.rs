@@ -77,7 +77,7 @@ impl Judging<'_> {
         let figures = callout::call(self.judge.bind(py), (runner, World::new(loaded), row.seed))?;
         let figures: BTreeMap<String, Option<f64>> = figures.extract()?;
         if let Some(name) = figures.keys().find(|name| outcome.figures.contains_key(*name)) {
-            let text = format!("there is a figure '{name}' of every run; choose another name");
+            let text = format!("every run has a result '{name}'; choose another name");
             return Err(PyValueError::new_err(text));
         }
         outcome.figures.extend(figures);

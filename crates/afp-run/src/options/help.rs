@@ -33,8 +33,8 @@ pub(crate) fn words(devices: &[DeviceRow]) -> Vec<(String, &'static str)> {
 fn measures(names: &[&str]) -> String {
     let names: Vec<_> = names.iter().map(|name| format!("--measure {name}")).collect();
     match names.is_empty() {
-        true => "Judges the run by a measure, too; this robot has none".to_owned(),
-        false => format!("Judges the run by this measure of the robot, too: {}", names.join(", ")),
+        true => "Also judge the run by a measure; this robot has no measures".to_owned(),
+        false => format!("Also judge the run by this measure: {}", names.join(", ")),
     }
 }
 
@@ -42,12 +42,12 @@ fn measures(names: &[&str]) -> String {
 fn press(devices: &[DeviceRow]) -> (String, String) {
     let words = words(devices);
     let Some((first, _)) = words.first() else {
-        let none = "Presses a control; this robot has none".to_owned();
+        let none = "Press a control; this robot has no controls".to_owned();
         return (none.clone(), none);
     };
     let examples: Vec<_> =
         words.iter().take(2).map(|(word, _)| format!("--press {word}@3s")).collect();
-    let short = format!("Presses a control of the robot for 200 ms: {}", examples.join(", "));
+    let short = format!("Press a control of the robot for 200 ms: {}", examples.join(", "));
     let width = words.iter().map(|(word, _)| word.len()).max().unwrap_or(first.len());
     let rows = words.iter().map(|(word, help)| format!("  {word:width$}  {help}"));
     let rows: Vec<_> = rows.map(|row| row.trim_end().to_owned()).collect();
@@ -67,10 +67,10 @@ fn fail(devices: &[DeviceRow]) -> (String, String) {
     });
     let examples: Vec<_> = plain.into_iter().chain(measured).collect();
     if faults(devices).next().is_none() {
-        let none = "Breaks something; nothing of this robot can fail".to_owned();
+        let none = "Inject a fault; this robot has no faults".to_owned();
         return (none.clone(), none);
     }
-    let short = format!("Breaks something, temporarily or permanently: {}", examples.join(", "));
+    let short = format!("Inject a temporary or permanent fault: {}", examples.join(", "));
     let long = format!("{short}\n\n{}", groups(devices).join("\n"));
     (short, long)
 }
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_help_has_the_words_of_the_robot() {
+    fn the_help_lists_the_controls_and_faults_of_the_robot() {
         let (short, long) = press(TABLE);
         assert!(short.ends_with("--press touch@3s, --press escape@3s"), "{short}");
         assert!(long.contains("  escape  the button that ends plans"), "{long}");
@@ -131,9 +131,9 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_without_devices_says_so() {
-        assert_eq!(press(&[]).0, "Presses a control; this robot has none");
-        assert_eq!(fail(&[]).0, "Breaks something; nothing of this robot can fail");
-        assert_eq!(measures(&[]), "Judges the run by a measure, too; this robot has none");
+    fn the_help_of_a_robot_without_devices_has_no_examples() {
+        assert_eq!(press(&[]).0, "Press a control; this robot has no controls");
+        assert_eq!(fail(&[]).0, "Inject a fault; this robot has no faults");
+        assert_eq!(measures(&[]), "Also judge the run by a measure; this robot has no measures");
     }
 }

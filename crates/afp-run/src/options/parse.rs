@@ -108,7 +108,7 @@ pub fn press(text: &str) -> Result<Press, String> {
 pub fn failure(text: &str) -> Result<Failure, String> {
     let (what, when) = text
         .split_once('@')
-        .ok_or("expected what fails, how and when, DEVICE.FAULT@5s or DEVICE.FAULT@5s..7s")?;
+        .ok_or("expected a fault and its time, DEVICE.FAULT@5s or DEVICE.FAULT@5s..7s")?;
     let (what, amount) = match what.split_once('=') {
         Some((what, amount)) => (what, Some(amount.to_owned())),
         None => (what, None),
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn addresses_are_those_of_this_machine_unless_told() {
+    fn addresses_are_local_by_default() {
         assert_eq!(address("8765"), Ok(([127, 0, 0, 1], 8765).into()));
         assert_eq!(address("0.0.0.0:80"), Ok(([0, 0, 0, 0], 80).into()));
         assert!(address("[::1]:80").is_ok_and(|at| at.ip().is_loopback()));

@@ -52,7 +52,7 @@ impl BackgroundWriter {
         }
     }
 
-    /// Waits until all text is written. Called when the robot stands still.
+    /// Waits until all text is written. Called when the robot has stopped.
     fn finish(&mut self) -> io::Result<()> {
         self.pieces = None;
         let gone = || io::Error::other("the thread that writes standard output has ended");
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_waiting_reader_blocks_nobody_and_loses_only_the_last_lines() {
+    fn a_waiting_reader_does_not_block_and_loses_only_the_last_lines() {
         let (go, word) = channel();
         let (out, written) = channel();
         let mut writer = BackgroundWriter::new(Box::new(Slow(word, out)), Arc::default()).unwrap();

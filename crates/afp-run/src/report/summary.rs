@@ -1,4 +1,4 @@
-//! The end of a run in figures.
+//! The results of a run in numbers.
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -28,7 +28,7 @@ pub(crate) enum StoppedBy {
     Signal,
 }
 
-/// Figures that are the same on every machine.
+/// Results that are equal on every machine.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct RunFigures {
     pub plan: String,
@@ -40,7 +40,6 @@ pub(crate) struct RunFigures {
     /// The fault as text: port, value and place.
     #[serde(skip_serializing_if = "Option::is_none")]
     fault_text: Option<String>,
-    /// The component of the fault.
     #[serde(skip_serializing_if = "Option::is_none")]
     fault_component: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,7 +70,7 @@ pub(crate) struct RunFigures {
     loop_steps: Option<String>,
 }
 
-/// The figures, and the places of things.
+/// The results, and the places of objects.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Summary {
     #[serde(flatten)]
@@ -171,7 +170,6 @@ impl Ran<'_> {
 }
 
 impl RunFigures {
-    /// The figures that a picture shows.
     pub(crate) fn for_picture(&self) -> Vec<(String, String)> {
         let of = |key: &str, value: String| (key.to_owned(), value);
         let mut lines = vec![of("time", format!("{:.1} s", self.time_s))];
@@ -192,7 +190,7 @@ impl RunFigures {
     }
 }
 
-/// The name of a figure with blanks.
+/// The name of a result with spaces.
 fn spaced(figure: &Figure) -> String {
     figure.name.replace('_', " ")
 }
@@ -273,7 +271,7 @@ fn is_zero(count: &u64) -> bool {
 }
 
 impl Summary {
-    /// The last line: complete, or only the figures that are the same on every machine.
+    /// The last line: complete, or only the results that are equal on every machine.
     pub(crate) fn json(&self, same_everywhere: bool) -> String {
         #[derive(Serialize)]
         struct Line<T> {
@@ -283,7 +281,7 @@ impl Summary {
             true => serde_json::to_string(&Line { summary: &self.figures }),
             false => serde_json::to_string(&Line { summary: self }),
         };
-        // JSON fails only for keys that are not texts and for faulty `Serialize` implementations.
+        // JSON fails only for keys that are not strings and for faulty `Serialize` implementations.
         text.unwrap_or_default()
     }
 

@@ -71,7 +71,7 @@ pub(super) fn line(event: &RunEvent, template: &str, logs: bool) -> Option<Strin
             format!("{EVENT}↪ {component} does not start, {why} looked first{EVENT:#}")
         }
         Kind::Resumed { supervisor } => {
-            format!("{QUIET}↩ {component} goes on after {}{QUIET:#}", supervisor.path)
+            format!("{QUIET}↩ {component} continues after {}{QUIET:#}", supervisor.path)
         }
         Kind::Suspended { supervisor, started } => {
             let (by, early) = (&supervisor.path, if *started { "" } else { " before its start" });

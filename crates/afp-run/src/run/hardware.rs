@@ -85,11 +85,10 @@ fn settings(
     Ok((Settings::new(of_driver), realtime))
 }
 
-/// The error for an unknown setting.
 fn unknown(name: &str, known: &[&str]) -> RunError {
     let all: Vec<_> = known.iter().map(|name| format!("'{PREFIX}{name}'")).collect();
     let help = match all.is_empty() {
-        true => "'settings' in '[robot.hardware]' of afp.toml has those that can be set".to_owned(),
+        true => "'settings' in '[robot.hardware]' of afp.toml lists the settings".to_owned(),
         false => format!("it has {}", all.join(", ")),
     };
     RunError::usage(format!("the robot has no setting '{PREFIX}{name}'"), help)

@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pixels_take_a_program_that_can_make_them() {
+    fn png_pictures_need_a_program_with_png_support() {
         let raster: Rasterizer<'_> = &|_| Ok(Vec::new());
         let of = |name: &str, raster| {
             let made = Paths { log: None, svg: Some(name.into()) }.raster(raster);

@@ -18,14 +18,12 @@ pub(super) fn apply(realtime: Realtime) {
     let Some(priority) = realtime.priority else { return };
     if let Err(why) = system::lock_memory() {
         warn(&format!(
-            "the memory of the control loop is not locked: {why} (help: 'LimitMEMLOCK=infinity' permits it to a \
-             service, 'sudo prlimit --memlock=unlimited --pid $$' to the programs of a shell)"
+            "the memory of the control loop is not locked: {why} (help: for a service, set 'LimitMEMLOCK=infinity'; in a shell, run 'sudo prlimit --memlock=unlimited --pid $$')"
         ));
     }
     if let Err(why) = raise(priority) {
         warn(&format!(
-            "the control loop has no FIFO priority {priority}: {why} (help: 'LimitRTPRIO=99' permits it to a service, \
-             'sudo prlimit --rtprio=99 --pid $$' to the programs of a shell)"
+            "the control loop has no FIFO priority {priority}: {why} (help: for a service, set 'LimitRTPRIO=99'; in a shell, run 'sudo prlimit --rtprio=99 --pid $$')"
         ));
     }
 }
@@ -77,7 +75,7 @@ mod system {
     use std::io;
 
     pub(super) fn raise(_: u8) -> Result<(), String> {
-        Err("only Linux has it".to_owned())
+        Err("it needs Linux".to_owned())
     }
 
     pub(super) fn lock_memory() -> io::Result<()> {

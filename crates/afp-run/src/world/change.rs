@@ -10,7 +10,6 @@ use super::place::Place;
 use super::{LoadedWorld, Measure};
 use crate::error::RunError;
 
-/// The prefix of settings of the world.
 const PREFIX: &str = "world.";
 
 /// The key of a setting of the world; `None` for an entry of the plan.
@@ -55,7 +54,7 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
     let refused = |why: &str| refused(key, text, why);
     let mut document: DocumentMut = world
         .parse()
-        .map_err(|_| refused("worlds of this robot are no TOML: no value can be set"))?;
+        .map_err(|_| refused("worlds of this robot are not TOML: no value can be set"))?;
     let parts: Vec<&str> = key.split('.').collect();
     let Place { item, listed } =
         Place::find(document.as_item_mut(), &parts).map_err(|why| refused(&why))?;
@@ -84,7 +83,7 @@ fn with_changes(error: RunError, changes: &[(&str, &str)]) -> RunError {
 fn refused(key: &str, text: &str, why: &str) -> RunError {
     RunError::usage(
         format!("'{PREFIX}{key}={text}': {why}"),
-        "the way to a value of the world's file, such as 'world.robot.charge=0.5' or \
+        "the path of a value in the world's file, such as 'world.robot.charge=0.5' or \
          'world.box.sofa.height_m=50cm'",
     )
 }
@@ -160,7 +159,7 @@ mod tests {
             assert_eq!(changed(text, key, value).unwrap().0, text.replace(was, is), "{key}");
         }
         for (key, why) in [
-            ("wall.0.points_m.1", "'1' is a list; name what is meant in it, too"),
+            ("wall.0.points_m.1", "'1' is a list; also name its item"),
             ("wall.0.points_m.2.0", "'points_m' has 2 values, from 0 on, and no number 2"),
             ("wall.0.points_m.x.0", "'points_m' has 2 values, from 0 on, and no 'x'"),
             ("box.1.by_m.0.1", "'box' has 1 value, from 0 on, and no number 1"),
@@ -171,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_and_comments_of_a_file_stay_where_they_are() {
+    fn lines_and_comments_of_a_file_do_not_move() {
         let text = "version = 1\n# Where it begins.\nrobot.pose_m_deg = [\n  1,  # along x\n  1, 0\n]\n\n# Half.\nrobot.charge = 0.5 # of it\n";
         for (key, value, was, is) in [
             ("version", "1", "version = 1", "version = 1"),
@@ -197,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn missing_and_unfit_settings_are_refused() {
+    fn missing_and_invalid_settings_are_refused() {
         let set = "'robot' is a table";
         for (key, text, why) in [
             ("robot", "3", set),
@@ -208,11 +207,11 @@ mod tests {
             ("robot.charg", "0.5", "charg"),
             ("robot.charge", "2", "charge"),
             ("box.height_m", "1m", "no 'height_m' among 'closet'"),
-            ("box.0.height_m.1", "1m", "'height_m' is no list, so that it has no number 1"),
-            ("box.closet", "3", "'closet' is a table; name a key of it, too"),
+            ("box.0.height_m.1", "1m", "'height_m' is not a list, so it has no number 1"),
+            ("box.closet", "3", "'closet' is a table; also name its key"),
             ("robot.pose.1", "4.5m", "there is no 'pose' among 'pose_m_deg'"),
             ("robot.pose_m_deg.3", "1m", "'pose_m_deg' has 3 values, from 0 on, and no number 3"),
-            ("name.1", "4.5", "'name' is no list, so that it has no number 1"),
+            ("name.1", "4.5", "'name' is not a list, so it has no number 1"),
         ] {
             let refused = room().with(&[(key, text)], &ROBOT).err().map(|error| error.to_string());
             let error = refused.unwrap_or_default();

@@ -2,7 +2,6 @@
 
 use toml_edit::{Item, Table};
 
-/// The place of a value.
 pub struct Place<'a> {
     /// The value; empty if a table is about to get it.
     pub item: &'a mut Item,
@@ -28,10 +27,10 @@ impl<'a> Place<'a> {
         }
         match place.item {
             item if item.is_table_like() => {
-                Err(format!("'{holder}' is a table; name a key of it, too"))
+                Err(format!("'{holder}' is a table; also name its key"))
             }
             item if item.is_array() || item.is_array_of_tables() => {
-                Err(format!("'{holder}' is a list; name what is meant in it, too"))
+                Err(format!("'{holder}' is a list; also name its item"))
             }
             item => Ok(Place { item, ..place }),
         }
@@ -56,7 +55,7 @@ impl<'a> Place<'a> {
         let number = part.parse::<usize>().ok();
         let shown = number.map_or_else(|| format!("'{part}'"), |number| format!("number {number}"));
         let Some(names) = names(self.item) else {
-            return Err(format!("'{holder}' is no list, so that it has no {shown}"));
+            return Err(format!("'{holder}' is not a list, so it has no {shown}"));
         };
         let by_number = number.filter(|number| *number < names.len());
         let by_name = names.iter().position(|name| name.as_deref() == Some(part));

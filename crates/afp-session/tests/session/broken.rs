@@ -29,7 +29,7 @@ fn fault(session: &Loaded) -> Fault {
 }
 
 #[test]
-fn a_robot_whose_time_stands_still_ends_the_run() {
+fn a_stopped_clock_ends_the_run() {
     let mut session = stuck_from(200);
     let stops = session.robot().stops.clone();
     session.set_rest(Duration::from_secs(1));
@@ -42,7 +42,7 @@ fn a_robot_whose_time_stands_still_ends_the_run() {
 }
 
 #[test]
-fn a_robot_whose_time_stands_still_once_its_plan_has_ended_ends_the_run_too() {
+fn a_stopped_clock_after_the_plans_end_ends_the_run() {
     let mut session = stuck_from(200);
     session.set_rest(Duration::from_secs(1));
     session.run(at(100), &mut Open, &mut []).unwrap();
@@ -52,7 +52,7 @@ fn a_robot_whose_time_stands_still_once_its_plan_has_ended_ends_the_run_too() {
 }
 
 #[test]
-fn a_control_loop_that_is_late_ends_the_run_of_a_real_robot_and_does_not_drive_on() {
+fn a_late_control_loop_ends_the_run_of_a_real_robot() {
     let held_up = |millis| {
         let mut toy = Toy::new();
         toy.held_up = Some((at(500), Duration::from_millis(millis)));
@@ -101,7 +101,7 @@ impl Observer for Faults {
 }
 
 #[test]
-fn a_sample_of_another_type_than_is_declared_ends_the_run() {
+fn a_sample_with_an_undeclared_type_ends_the_run() {
     for sampling in
         [Sampling::Every(Duration::from_millis(20)), Sampling::Following(Duration::from_millis(5))]
     {
@@ -111,15 +111,14 @@ fn a_sample_of_another_type_than_is_declared_ends_the_run() {
         session.run(at(3000), &mut Open, &mut [&mut notes, &mut faults]).unwrap();
         let fault = fault(&session);
         assert_eq!(fault.code(), "signal-type");
-        let said =
-            "the robot gives its signal 'bumper.touched' as string, but it is declared as bool";
+        let said = "the robot returns its signal 'bumper.touched' as string, but the toolbox declares bool";
         assert_eq!((fault.text(), faults.0), (said, 1));
         assert_eq!(session.robot().now(), at(200));
     }
 }
 
 #[test]
-fn a_signal_of_another_type_than_is_declared_has_no_value() {
+fn a_signal_with_an_undeclared_type_has_no_value() {
     let session = wordy_from(0);
     let mut heard = 0;
     session.read(afp_core::devices::SignalId(1), &mut |_| heard += 1);

@@ -9,7 +9,7 @@ use super::{FRONT, at, session};
 type Case<'a> = (&'a [(u64, Request)], &'a [(u64, bool)]);
 
 #[test]
-fn a_control_is_held_down_until_the_last_who_presses_it_lets_go() {
+fn a_control_is_pressed_until_its_last_holder_releases_it() {
     let hold = |lasting| Request::Hold(FRONT, Duration::from_millis(lasting));
     let (press, release) = (Request::Press(FRONT, true), Request::Press(FRONT, false));
     let cases: [Case<'_>; 5] = [

@@ -102,7 +102,7 @@ impl Observer for Count {
 }
 
 #[test]
-fn a_full_queue_blocks_nobody_and_reports_its_losses_and_the_current_values() {
+fn a_full_queue_does_not_block_and_reports_losses_and_current_values() {
     let mut kept = Kept::default();
     let mut session = Session::loaded(plan(ROUNDS), Toy::new());
     let (mut writer, mut reader) = queue_for(&session, &mut kept);

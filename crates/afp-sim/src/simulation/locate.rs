@@ -28,8 +28,8 @@ const THIN: f64 = 0.01;
 const CORNERS: u32 = 16;
 
 impl Simulation {
-    /// The localisation, created on first use. It knows the map and the start, like a robot that
-    /// somebody puts down, and no other ground truth.
+    /// The localisation, created on first use. It knows the map and the start, like a robot that a
+    /// user puts down, and no other ground truth.
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
         let beam = self.beam();
         let Simulation { locator, audible, stage, start, seed, .. } = self;
@@ -56,7 +56,7 @@ impl Simulation {
         self.located.last()
     }
 
-    /// Moves the robot to another place, as if somebody carried it. The wheels do not turn.
+    /// Moves the robot to another place, as if a user carried it. The wheels do not turn.
     pub fn carry_to(&mut self, place: Pose) {
         self.set_down(self.stage.body, isometry(place));
     }

@@ -88,7 +88,7 @@ impl Robot for Simulation {
         let contacts = Figure { name: "contacts", value, text: String::new() };
         let left_map = self.truth().left_map().map(|at| {
             let at = at.as_secs_f64();
-            let text = format!("at {at:.2} s; nothing stands beyond its edge");
+            let text = format!("at {at:.2} s; the space beyond its edge is empty");
             Figure { name: "left_map", value: FigureValue::Numbers(vec![("at_s", at)]), text }
         });
         [contacts].into_iter().chain(left_map).chain(self.located.figure()).collect()

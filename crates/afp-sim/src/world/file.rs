@@ -43,8 +43,8 @@ pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
     }
     let document = Document::parse(text).map_err(|error| {
         let help = match error.message().starts_with("duplicate key") {
-            true => "leave one of them out",
-            false => "a world is TOML: 'key = value', texts in quotes",
+            true => "remove one of them",
+            false => "a world is TOML: 'key = value', strings in quotes",
         };
         wrong(&error.into()).with_help(help)
     })?;
@@ -156,8 +156,8 @@ impl Check<'_> {
         let name = wall.name.unwrap_or_else(|| format!("wall {}", i + 1));
         for ends in points.windows(2) {
             let Some(outline) = side(ends[0], ends[1], thickness) else {
-                let message = "two points of the wall that follow each other are the same";
-                return Err(self.error(&at_points, message, "leave one of them out"));
+                let message = "two consecutive points of the wall are equal";
+                return Err(self.error(&at_points, message, "remove one of them"));
             };
             let (name, mobility) = (name.clone(), Mobility::Fixed);
             into.push(Obstacle { name, outline, height, mobility, look, echo, mapped });
@@ -214,7 +214,7 @@ impl Check<'_> {
             (None, Some(path)) => self.path(&key.at("path"), path).map(Mobility::Scripted),
             (Some(_), Some(_)) => {
                 let message = "an object with a path cannot be pushed";
-                Err(self.error(&key.at("mass_kg"), message, "leave 'mass_kg' or 'path' out"))
+                Err(self.error(&key.at("mass_kg"), message, "leave out 'mass_kg' or 'path'"))
             }
         }
     }
@@ -228,7 +228,7 @@ impl Check<'_> {
     ) -> Result<bool, WorldError> {
         let stands = *mobility == Mobility::Fixed;
         if mapped == Some(true) && !stands {
-            let help = "leave 'mapped' out";
+            let help = "leave out 'mapped'";
             return Err(self.error(
                 &key.at("mapped"),
                 "a moving object cannot be on the map",
@@ -249,8 +249,8 @@ impl Check<'_> {
         self.not_negative(&key.at("wait_s"), path.wait_s)?;
         self.not_negative(&key.at("start_s"), path.start_s)?;
         let made = Path::new(&path.by_m, path.closed, path.speed_m_s, path.wait_s, path.start_s);
-        let help = "write places away from where it stands: 'by_m = [[1, 0]]'";
-        made.ok_or_else(|| self.error(&key.at("by_m"), "the way leads nowhere", help))
+        let help = "write places relative to its start: 'by_m = [[1, 0]]'";
+        made.ok_or_else(|| self.error(&key.at("by_m"), "the path has no length", help))
     }
 
     fn patch(&self, key: &Key, i: usize, patch: tables::Patch) -> Result<Patch, WorldError> {
@@ -284,7 +284,7 @@ impl Check<'_> {
     }
 
     fn color(&self, key: &Key, text: &str) -> Result<Rgb, WorldError> {
-        let wrong = || self.error(key, &format!("'{text}' is no colour"), "write '#rrggbb'");
+        let wrong = || self.error(key, &format!("'{text}' is not a colour"), "write '#rrggbb'");
         parse_color(text).ok_or_else(wrong)
     }
 
@@ -296,7 +296,7 @@ impl Check<'_> {
                 Some(meant) => format!("write '{meant}'"),
                 None => format!("there are {}", list(names(), "and")),
             };
-            self.error(key, &format!("'{name}' is no texture"), help)
+            self.error(key, &format!("'{name}' is not a texture"), help)
         })
     }
 }

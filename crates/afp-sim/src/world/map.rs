@@ -45,12 +45,11 @@ impl World {
         let cells = Cells::new(&known, |cell| settings.is_wall(cell));
         if cells.is_empty() {
             let message =
-                "no cell of the map is occupied: look at 'mode', 'negate' and 'occupied_thresh'";
+                "no cell of the map is occupied: check 'mode', 'negate' and 'occupied_thresh'";
             return Err(WorldError::new(None, message));
         }
-        let start = start(&settings, &cells, &known).ok_or_else(|| {
-            WorldError::new(None, "the map has no free place that is large enough for the robot")
-        })?;
+        let start = start(&settings, &cells, &known)
+            .ok_or_else(|| WorldError::new(None, "the map has no free place for the robot"))?;
         let boxes = cells.boxes();
         if boxes.len() > MOST {
             let message = format!("the map has {} separate parts, more than {MOST}", boxes.len());

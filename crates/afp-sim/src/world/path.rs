@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_without_a_length_is_none() {
+    fn a_path_without_a_length_is_rejected() {
         assert_eq!(Path::new(&[], false, 1.0, 0.0, 0.0), None);
         assert_eq!(Path::new(&[[0.0, 0.0]], true, 1.0, 0.0, 0.0), None);
     }

@@ -1,4 +1,4 @@
-//! The vehicle against closed-form results; docs/simulator.md has the figures.
+//! The vehicle against closed-form results; docs/simulator.md has the numbers.
 
 use crate::{among, drive, wait};
 use afp_carbot::devices::Odometry;
@@ -11,7 +11,7 @@ const GRIP: f64 = 0.7 * 9.81 / 2.0;
 /// The braking of the castors: the other half with a rolling resistance of 0.02.
 const ROLLING: f64 = 0.02 * 9.81 / 2.0;
 
-/// The error of `is` against `expected`, as a share; printed for the figures in docs/simulator.md.
+/// The error of `is` against `expected`, as a share; printed for the numbers in docs/simulator.md.
 fn off(what: &str, is: f64, expected: f64) -> f64 {
     let off = is / expected - 1.0;
     println!("{what}: {is:.4}, computed {expected:.4}, {:+.2} %", off * 100.0);

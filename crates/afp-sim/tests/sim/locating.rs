@@ -28,7 +28,7 @@ fn p95(errors: &[[f64; 2]], of: usize) -> f64 {
     all[all.len() * 95 / 100]
 }
 
-/// `AFP_ROOMS` additional rooms, from number 1000 on; the figures in the book are from a hundred
+/// `AFP_ROOMS` additional rooms, from number 1000 on; the numbers in the book are from a hundred
 /// rooms.
 fn rooms(few: u64) -> std::ops::Range<u64> {
     match std::env::var("AFP_ROOMS").ok().and_then(|text| text.parse::<u64>().ok()) {
@@ -50,7 +50,7 @@ fn a_wandering_robot_knows_its_place() {
 }
 
 #[test]
-fn a_robot_that_was_carried_finds_itself_again() {
+fn a_carried_robot_finds_its_position_again() {
     let (mut slow, mut times) = (Vec::new(), Vec::new());
     for seed in rooms(12) {
         let world = World::random(seed);

@@ -1,4 +1,4 @@
-//! The range sensor against the geometry of its surroundings; docs/simulator.md has the figures.
+//! The range sensor against the geometry of its surroundings; docs/simulator.md has the numbers.
 //!
 //! The expected range is that of the nearest place within the cone that returns sound to the
 //! sensor. The cone consists of nine rays, so the echo comes from up to half a gap of rays next to

@@ -43,7 +43,7 @@ fn a_plane_wall_reads_its_perpendicular_distance_while_its_normal_is_in_the_beam
 }
 
 #[test]
-fn next_to_the_beam_a_wall_reads_farther_and_at_a_slant_nothing() {
+fn a_wall_next_to_the_beam_reads_farther_and_a_slanted_wall_is_silent() {
     let mut sim = among(&wall_ahead());
     let (mean, _) = ranges(&mut sim, 30.0, 100);
     assert!((1.0..1.08).contains(&mean), "{mean}");

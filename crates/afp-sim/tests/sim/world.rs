@@ -89,7 +89,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "version = 1",
         "version = ",
-        "line 1, column 11: string values must be quoted, expected literal string; a world is TOML: 'key = value', texts in quotes",
+        "line 1, column 11: string values must be quoted, expected literal string; a world is TOML: 'key = value', strings in quotes",
     ),
     ("[robot]", "[[robot]]", "line 4, column 3: 'robot' is a table; write '[robot]'"),
     (
@@ -125,7 +125,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[2.0, 0.5], [2.0, 0.9], [2.5, 0.5]",
         "[900.0, 0.0], [900.00001, 0.0], [900.0, 0.001]",
-        "line 18, column 12: points_m: the corner [900.00001, 0] is on the line between its neighbours; leave it out",
+        "line 18, column 12: points_m: the corner [900.00001, 0] is on the line between its neighbours; remove it",
     ),
     (
         "[1.0, 0.5]",
@@ -155,33 +155,33 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "height_m = 0.7",
         "height_m = 0.7\ntexture = \"brick\"",
-        "line 16, column 11: texture: 'brick' is no texture; write 'bricks'",
+        "line 16, column 11: texture: 'brick' is not a texture; write 'bricks'",
     ),
     (
         "closed = true",
         "closed = true\nclosed = true",
-        "line 10, column 1: duplicate key; leave one of them out",
+        "line 10, column 1: duplicate key; remove one of them",
     ),
     ("1.0, 90.0]", "inf, 90.0]", "line 5, column 14: pose_m_deg: inf is not within"),
     (
         "[4.0, 0.0], [4.0, 3.0]",
         "[0.0, 0.0], [4.0, 3.0]",
-        "line 8, column 12: points_m: two points of the wall that follow each other are the same; leave one of them out",
+        "line 8, column 12: points_m: two consecutive points of the wall are equal; remove one of them",
     ),
     (
         ", [2.5, 0.5]",
         "",
-        "line 18, column 12: points_m: a polygon has three corners or more, not 2; add the others",
+        "line 18, column 12: points_m: a polygon has three corners or more, not 2; add the other corners",
     ),
     (
         "[2.5, 0.5]]",
         "[2.0, 1.0]]",
-        "line 18, column 12: points_m: the corner [2, 0.9] is on the line between its neighbours; leave it out",
+        "line 18, column 12: points_m: the corner [2, 0.9] is on the line between its neighbours; remove it",
     ),
     (
         "[2.5, 0.5]]",
         "[2.1, 0.6], [2.5, 0.5]]",
-        "line 18, column 12: points_m: the polygon is not convex; draw it as several",
+        "line 18, column 12: points_m: the polygon is not convex; split it into convex polygons",
     ),
     (
         "[1.0, 1.0, 90.0]",
@@ -196,7 +196,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[2.0, 0.5], [2.0, 0.9], [2.5, 0.5]",
         "[900.0, 900.0], [901.0, 900.00001], [902.0, 900.0]",
-        "points_m: the corner [901, 900.00001] is on the line between its neighbours; leave it out",
+        "points_m: the corner [901, 900.00001] is on the line between its neighbours; remove it",
     ),
     (
         "[robot]",

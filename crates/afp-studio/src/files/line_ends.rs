@@ -7,7 +7,6 @@ use std::collections::VecDeque;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum LineEnds {
     All(&'static str),
-    /// Mixed ends, by line.
     Each(Vec<&'static str>),
 }
 

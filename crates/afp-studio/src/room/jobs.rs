@@ -13,7 +13,6 @@ use serde_json::{Value, json};
 use super::{ClientId, Out, Room, notification};
 use arguments::{arguments, file_of};
 
-/// The most concurrent jobs.
 const MOST: usize = 4;
 /// The most lines of a job sent and kept for its end.
 const MOST_LINES: usize = 2_000;
@@ -215,13 +214,13 @@ impl Job {
                 self.bytes = bytes;
                 self.results.push(result);
             } else if !std::mem::replace(&mut self.is_cut, true) {
-                self.said.push("(it has more results than are kept)".to_owned());
+                self.said.push("(more results were dropped)".to_owned());
             }
             return;
         }
         match self.said.len() {
             ..MOST_LINES => self.said.push(line.chars().take(MOST_LETTERS).collect()),
-            MOST_LINES => self.said.push("(it says more than is shown here)".to_owned()),
+            MOST_LINES => self.said.push("(more output was dropped)".to_owned()),
             _ => {}
         }
     }
@@ -322,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn ending_a_finished_job_is_no_error() {
+    fn ending_a_finished_job_is_not_an_error() {
         let folder = tempfile::tempdir().unwrap();
         let mut room = begun(&folder);
         room.job_done(1, Some(0));
@@ -354,7 +353,7 @@ mod tests {
         assert_eq!(text(600).unwrap(), vec!["x".repeat(MOST_LETTERS); 600]);
         let rest = text(5_000).unwrap();
         assert_eq!(rest.len(), MOST_LINES - 600 + 1);
-        assert_eq!(rest.last().unwrap(), "(it says more than is shown here)");
+        assert_eq!(rest.last().unwrap(), "(more output was dropped)");
         assert_eq!(text(10), None);
         assert_eq!(job.results.len(), 4);
     }

@@ -75,7 +75,7 @@ pub(super) fn answer(
             out = room.settled(&path);
             Value::Null
         }),
-        _ => Err(format!("there is no '{method}'")),
+        _ => Err(format!("unknown request '{method}'")),
     };
     if matches!(method, "afp/create" | "afp/newWorld" | "afp/rename" | "afp/remove")
         && answer.is_ok()
@@ -135,7 +135,7 @@ fn read(room: &mut Room, path: &str) -> Result<Value, String> {
 fn create(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, String> {
     let path = path(params, "uri")?;
     if Path::new(&path).exists() {
-        return Err(format!("there is a file '{}' already", room.folder.name(&path)));
+        return Err(format!("the file '{}' already exists", room.folder.name(&path)));
     }
     unless_unsaved(room, &path)?;
     match params["example"].as_str() {
@@ -201,7 +201,7 @@ fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Resu
     let (from, to) = (path(params, "uri")?, path(params, "to")?);
     let (old, new) = (room.folder.inside(&from)?, room.folder.inside(&to)?);
     if new.exists() {
-        return Err(format!("there is a file '{}' already", room.folder.name(&to)));
+        return Err(format!("the file '{}' already exists", room.folder.name(&to)));
     }
     settled(room, &from, now, out)?;
     if !room.document(&from)?.is_saved() {
@@ -234,7 +234,9 @@ fn settled(room: &mut Room, path: &str, now: Duration, out: &mut Out) -> Result<
     out.extend(room.look_at(path, now));
     let document = room.document(path)?;
     if document.is_disputed() {
-        return Err("another program has changed it: choose between the two texts first".to_owned());
+        return Err(
+            "another program has changed it: choose one of the two versions first".to_owned()
+        );
     }
     if document.is_unreadable() {
         return Err(

@@ -66,7 +66,7 @@ impl Room {
         for path in &paths {
             let is_written = (0..TRIES).any(|_| self.save_one(path, now, &wanted, &mut out));
             if !is_written {
-                let why = "another program writes it over and over".to_owned();
+                let why = "another program keeps writing it".to_owned();
                 out.extend(self.tell_saved(path, Err(why)));
             }
         }
@@ -122,7 +122,6 @@ impl Room {
         out
     }
 
-    /// Tells a client that its current text is saved.
     pub(super) fn tell_if_saved(&self, id: ClientId, path: &str) -> Out {
         let Some(document) = self.documents.get(path).filter(|it| it.is_saved()) else {
             return Vec::new();

@@ -14,7 +14,7 @@ fn files_are_created_renamed_and_removed_only_in_the_folder() {
     let made = place.ask(1, "afp/create", json!({ "uri": new, "example": "first.afp" })).unwrap();
     assert!(made["text"].as_str().unwrap().starts_with("/// Wait."));
     let again = place.ask(1, "afp/create", json!({ "uri": new })).unwrap_err();
-    assert_eq!(again, "there is a file 'n.afp' already");
+    assert_eq!(again, "the file 'n.afp' already exists");
     for wrong in ["../n.afp", "n.sh"] {
         let uri = format!("{}/{wrong}", place.uri(""));
         assert!(place.ask(1, "afp/create", json!({ "uri": uri })).is_err(), "{wrong}");

@@ -24,7 +24,7 @@ pub enum Bind {
         sign: Span,
         /// The entry that takes the value.
         entry: Option<Name>,
-        /// An invalid formula in place of the entry.
+        /// An invalid formula instead of the entry.
         formula: Option<Formula>,
     },
 }

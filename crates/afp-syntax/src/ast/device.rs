@@ -10,11 +10,8 @@ views! {
     Device
     /// `press left right` or `stop escape`
     Press
-    /// A control of a device.
     Control
-    /// A fault of a device.
     Fault
-    /// The amount of a fault.
     Amount
     Signal
 }
@@ -26,11 +23,9 @@ pub enum DeviceKind {
     Device,
     /// A sensor, which also has the faults of all sensors.
     Sensor,
-    /// The robot as a whole.
     Robot,
 }
 
-/// A part of a device.
 #[derive(Clone, Debug)]
 pub enum DevicePart {
     Press(Press),

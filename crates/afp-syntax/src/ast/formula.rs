@@ -33,7 +33,7 @@ pub enum FormulaKind {
         /// Whether an invalid unit follows.
         broken: bool,
     },
-    /// A text, quotes included.
+    /// A string with its quotes.
     Text(Name),
     /// `true` or `false`
     Bool(bool),

@@ -1,6 +1,6 @@
 use crate::Node;
 
-/// The text of a node on one line: blanks replace other separators.
+/// The text of a node on one line: spaces replace other separators.
 pub(crate) fn in_one_line(node: &Node) -> String {
     let all = node.text().to_string();
     let trimmed = all.trim();

@@ -24,7 +24,6 @@ views! {
 
 named! { Plan Entry Element Guard Reactions }
 
-/// The kind of an element, from its keyword.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
     Actor,
@@ -183,7 +182,6 @@ impl Element {
         guards(&self.node, self.file)
     }
 
-    /// Its reactions to supervisors of the plan.
     pub fn reactions(&self) -> Vec<Reactions> {
         children(&self.node, Kind::Reactions).map(|node| Reactions::new(node, self.file)).collect()
     }

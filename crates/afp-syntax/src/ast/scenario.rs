@@ -15,7 +15,6 @@ views! {
     Path
 }
 
-/// The kind and content of a line.
 #[derive(Clone, Debug)]
 pub enum LineKind {
     /// `world "file"`, quotes included.

@@ -13,7 +13,6 @@ use crate::source::Span;
 /// The limit for the text of an edit that covers several places, in bytes.
 const LONGEST_EDIT: usize = 64 << 10;
 
-/// Adds the number of places to a sentence.
 pub fn places(sentence: &Message, count: usize) -> Message {
     message!("{}, at {} places", sentence.clone(), Words(thousands(count)))
 }

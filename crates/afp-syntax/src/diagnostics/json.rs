@@ -28,7 +28,7 @@ const MOST_WRITTEN: usize = 1000;
 impl Diagnostic {
     /// The diagnostic as one JSON object without line breaks.
     ///
-    /// Its keys are those of [`afp_excerpt::Report::json`] and, with an edit, `fix` (`place` and
+    /// It has the keys of [`afp_excerpt::Report::json`] and, with an edit, `fix` (`place` and
     /// `text`).
     pub fn json(&self, sources: &Sources) -> String {
         self.json_by(&Tables::new(sources))

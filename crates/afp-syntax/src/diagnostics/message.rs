@@ -26,7 +26,7 @@ pub enum Arg {
     Part(Message),
 }
 
-/// Makes a message from a text with `{}` for each of the following arguments.
+/// Creates a message from a format string with `{}` for each argument.
 ///
 /// Strings are names of the plan; words of the compiler are wrapped in
 /// [`Words`](crate::diagnostics::Words).
@@ -49,7 +49,7 @@ pub const fn holes(template: &str) -> usize {
                 2
             }
             (b'{', b'{') | (b'}', b'}') => 2,
-            (b'{' | b'}', _) => panic!("a hole has nothing in it"),
+            (b'{' | b'}', _) => panic!("a placeholder is empty"),
             _ => 1,
         };
     }

@@ -56,7 +56,7 @@ impl Diagnostic {
         self.report(tables, |report| report.render(colour))
     }
 
-    /// Calls `show` with a report of the diagnostic and its texts.
+    /// Calls `show` with a report of the diagnostic.
     pub(super) fn report<T>(&self, tables: &Tables<'_>, show: impl FnOnce(Report<'_>) -> T) -> T {
         let mark = |span: Span, label: String| {
             let source = tables.sources.get(span.file)?;

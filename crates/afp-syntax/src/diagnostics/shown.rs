@@ -1,4 +1,4 @@
-//! The texts of a diagnostic, made only for display.
+//! The messages of a diagnostic, created only for display.
 
 use std::cell::Cell;
 
@@ -10,8 +10,8 @@ thread_local! {
     static ONLY_CODES: Cell<bool> = Cell::new(std::env::var_os("AFP_ONLY_CODES").is_some());
 }
 
-/// Shows codes in place of all texts on this thread, so that a test fails if any code depends on
-/// the wording.
+/// Shows codes instead of messages on this thread, so that a test fails if code depends on the
+/// wording.
 ///
 /// The variable `AFP_ONLY_CODES` does the same for a whole program. Builds without debug assertions
 /// ignore both.
@@ -45,7 +45,7 @@ impl Diagnostic {
         self.shown(&self.help)
     }
 
-    /// Related places with their texts.
+    /// Related places with their notes.
     pub fn note_texts(&self) -> impl Iterator<Item = (Span, String)> {
         self.notes.iter().map(|note| (note.span, self.shown(&note.text)))
     }

@@ -8,7 +8,7 @@ fn span(start: u32, end: u32) -> Span {
 }
 
 #[test]
-fn errors_are_found_by_their_surroundings() {
+fn errors_are_identified_by_their_surroundings() {
     let mut all = Diagnostics::default();
     let places = [(Code::E0102, span(4, 9)), (Code::E0201, span(2, 3)), (Code::E0103, span(9, 9))];
     for (code, place) in places {

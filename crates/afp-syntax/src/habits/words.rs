@@ -1,6 +1,6 @@
-//! Words of other languages that stand for ours: of the grammar, of ends, states, types and units.
+//! Words of other languages with our equivalents: keywords, ends, states, types and units.
 
-/// Words that stand for ours elsewhere, by the role that ours have.
+/// Equivalents of our keywords in other languages, by the role of our keyword.
 pub(crate) const WORDS: &[(&str, &[&str])] = &[
     (
         "plan",
@@ -79,7 +79,7 @@ pub(crate) const WORDS: &[(&str, &[&str])] = &[
     ("expect", &["assert", "require", "erwarte"]),
 ];
 
-/// Words that stand behind `->` elsewhere: for the ends of plans, and for reactions to events.
+/// Words after `->` in other languages: for ends of plans, and for reactions to events.
 pub const ENDS: &[(&str, &[&str])] = &[
     (
         "terminate",
@@ -167,7 +167,7 @@ pub const TYPES: &[(&str, &[&str])] = &[
     ("angular_speed", &["angular_velocity", "angularVelocity"]),
 ];
 
-/// Units that the language does not have: so many of another one.
+/// Units that the language does not have, as multiples of another unit.
 const UNITS: &[(&[&str], f64, &str)] = &[
     (&["in", "inch", "inches"], 2.54, "cm"),
     (&["ft", "foot", "feet"], 30.48, "cm"),

@@ -37,7 +37,7 @@ const QUOTES: (&str, &str) = ("'`“”„‟‘’‚«»", "'`“”‟‘’�
 /// Signs that begin a comment line in other languages.
 const COMMENTS: [&str; 3] = ["--", ";", "%"];
 
-/// The beginnings of lines that separate two versions of a text.
+/// The beginnings of conflict markers.
 const VERSION_MARKS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
 impl<'t> Lexer<'t, '_> {
@@ -73,7 +73,7 @@ impl<'t> Lexer<'t, '_> {
         }
         if let Some((length, inner)) = self.foreign_text() {
             let text = format!("\"{}\"", inner.replace('\\', "\\\\").replace('"', "\\\""));
-            return self.instead(Kind::Text, length, "put the text in '\"'", &text);
+            return self.instead(Kind::Text, length, "write the string in '\"'", &text);
         }
         let length = rest.find(is_known).unwrap_or(rest.len());
         let length = length.max(rest.chars().next().map_or(1, char::len_utf8));
@@ -88,7 +88,7 @@ impl<'t> Lexer<'t, '_> {
             "?" if behind_word => self.instead(Kind::Unknown, length, "remove it", ""),
             "!" if let Some(start) = self.only_word_of_line("expect") => {
                 let place = self.span(start, self.at + length);
-                let error = self.error(Kind::Unknown, length, "write 'never' in place of 'expect'");
+                let error = self.error(Kind::Unknown, length, "write 'never' instead of 'expect'");
                 self.diags.push(error.fix(place, "never "));
             }
             "&&" | "&" if self.begins_claim() => {
@@ -180,8 +180,7 @@ impl<'t> Lexer<'t, '_> {
         self.diags.push(Diagnostic::new(Code::E0101, span, message).help(help).replace(better));
     }
 
-    /// Whether a line is one of the marks with which version control, and the studio, separate two
-    /// versions of a text.
+    /// Whether a line is a conflict marker, as version control and the studio write them.
     pub(super) fn is_version_mark(&self) -> bool {
         let rest = &self.text[self.at..];
         let mut tails = VERSION_MARKS.iter().filter_map(|mark| rest.strip_prefix(mark));
@@ -189,16 +188,16 @@ impl<'t> Lexer<'t, '_> {
             && (self.at == 0 || self.text[..self.at].ends_with('\n'))
     }
 
-    /// Reads a line that separates two versions.
+    /// Reads a conflict marker.
     pub(super) fn version_mark(&mut self) {
         let length = line_length(&self.text[self.at..]);
         let span = self.push(Kind::Comment, length);
         let error = Diagnostic::new(
             Code::E0101,
             span,
-            "this line is a mark between two versions of the text",
+            "this line is a conflict marker of a version control system",
         );
-        let help = "keep one of the versions between '<<<<<<<' and '>>>>>>>', and remove the other one and the marks";
+        let help = "keep one of the versions between '<<<<<<<' and '>>>>>>>', and remove the other version and the markers";
         self.diags.push(error.elsewhere(help));
     }
 
@@ -239,7 +238,7 @@ impl<'t> Lexer<'t, '_> {
     fn error(&mut self, kind: Kind, length: usize, help: impl Into<Message>) -> Diagnostic {
         let shown: String = self.text[self.at..self.at + length].chars().take(20).collect();
         let message = match kind {
-            Kind::Text => "a text stands in double quotes".into(),
+            Kind::Text => "a string needs double quotes".into(),
             _ => message!("'{}' has no meaning here", shown.escape_debug().to_string()),
         };
         let span = self.push(kind, length);

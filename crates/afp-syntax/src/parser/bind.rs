@@ -52,7 +52,7 @@ impl Parser<'_, '_> {
                 && self.nth(2) == Kind::Colon)
     }
 
-    /// Whether the next name stands alone between commas. Otherwise a value next to it on its line
+    /// Whether commas surround the next name. Otherwise a value next to it on its line
     /// may lack its `=` or its sign.
     fn stands_alone(&self) -> bool {
         self.at(Kind::Name)
@@ -92,7 +92,7 @@ impl Parser<'_, '_> {
                 self.pass(2);
             } else {
                 let assigns = self.at(Kind::Colon) && self.nth(1) == Kind::Equal;
-                let message = "'=' carries data in to a port";
+                let message = "'=' passes a value to an input";
                 match assigns && self.may_take_value(2) {
                     true => {
                         let error = Diagnostic::new(Code::E0108, self.ahead(2), message);
@@ -110,7 +110,7 @@ impl Parser<'_, '_> {
             return;
         }
         if !self.eat(Kind::FatArrow) {
-            let message = "'=>' carries data out to an entry; '->' is the flow of action";
+            let message = "'=>' writes an output to an entry; '->' leads to the next element";
             self.wrong_arrow(1, message, "=>");
         }
         // A formula here is reported where outputs are checked.
@@ -138,7 +138,7 @@ impl Parser<'_, '_> {
     fn no_type_before_value(&mut self) {
         let is_type = self.at(Kind::Colon) && self.nth(1) == Kind::Name;
         if is_type && self.nth(2) == Kind::Equal && self.on_same_line() && !self.begins_line(1) {
-            let message = "a port has its type already";
+            let message = "the port already has a type";
             self.instead(2, message, "remove the ':' and the type", "");
         }
     }
@@ -159,11 +159,11 @@ impl Parser<'_, '_> {
         let is_arrow = matches!(self.nth(0), Kind::FatArrow | Kind::Arrow);
         match self.word(0) {
             _ if self.follows_value() && is_arrow && self.nth(1) != Kind::Name => {
-                ("',' or ')' behind a value", "remove it".into())
+                ("',' or ')' after a value", "remove it".into())
             }
             _ if self.follows_value() => {
                 let help = "write ',' and a port before it, or a sign such as '*'";
-                ("',' or ')' behind a value", help.into())
+                ("',' or ')' after a value", help.into())
             }
             port if !port.is_empty() && is_value => {
                 ("a port and '='", message!("write '{} = ' and the value", port))

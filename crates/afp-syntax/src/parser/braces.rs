@@ -36,14 +36,12 @@ struct Line {
     indent: usize,
     /// Whether it begins the head of a body.
     is_head: bool,
-    /// Whether a brace was opened on it.
     opens: bool,
     /// Its first and last token.
     first: usize,
     last: usize,
 }
 
-/// An open brace.
 #[derive(Clone, Copy)]
 struct Opened {
     /// Its token.
@@ -136,8 +134,8 @@ fn report_strays(mut strays: Vec<(Span, &str)>, diags: &mut Diagnostics) {
         let [(first, brace), ..] = *group else { continue };
         let place = group.last().map_or(first, |(last, _)| first.to(*last));
         let (message, help) = match group.len() {
-            1 => (message!("this '{}' is too much", brace), "remove it"),
-            many => (message!("these {} '{}' are too much", many, brace), "remove them"),
+            1 => (message!("unmatched '{}'", brace), "remove it"),
+            many => (message!("{} unmatched '{}'", many, brace), "remove them"),
         };
         diags.push(Diagnostic::new(Code::E0102, place, message).help(help).replace(""));
     }
@@ -239,9 +237,8 @@ fn find(tokens: &[Token<'_>]) -> Option<Wrong> {
 
 struct Reader<'t, 's> {
     tokens: &'s [Token<'t>],
-    /// Whether there are surplus braces, not missing ones.
+    /// Whether there are surplus braces instead of missing braces.
     too_many: bool,
-    /// The open braces.
     open: Vec<Opened>,
     lines: Vec<Line>,
 }

@@ -35,7 +35,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// Whether a device begins here; its brace tells it from a name.
+    /// Whether a device begins here; its brace distinguishes it from a name.
     pub(super) fn at_device(&self) -> bool {
         match self.word(0) {
             "device" | "sensor" => self.nth(1) == Kind::Name && self.nth(2) == Kind::OpenBrace,
@@ -92,7 +92,7 @@ impl Parser<'_, '_> {
                 named = self.at(Kind::Name) && !self.ends_controls() && !self.at_tool();
             }
         } else {
-            self.expected_name("name what can be pressed, such as 'press left right'");
+            self.expected_name("name the controls that can be pressed, such as 'press left right'");
         }
         self.close_item();
     }
@@ -104,7 +104,7 @@ impl Parser<'_, '_> {
         let opened = self.here();
         if self.eat(Kind::OpenParen) {
             self.open(Kind::Amount);
-            self.port("name how much there is of it, such as '(share: float = 0.5 from 0 to 1)'");
+            self.port("name the amount of the fault, such as '(share: float = 0.5 from 0 to 1)'");
             self.value_and_range();
             self.close();
             self.close_bracket(Kind::CloseParen, opened);

@@ -61,7 +61,7 @@ impl Parser<'_, '_> {
         self.edge_at(0)
     }
 
-    /// The same from the token so many ahead on.
+    /// The same, from a token ahead.
     pub(super) fn edge_at(&self, ahead: usize) -> bool {
         let last = self.last_name(ahead);
         self.nth(last) == Kind::Name && self.arrow_at(last + 1).is_some()
@@ -121,11 +121,11 @@ impl Parser<'_, '_> {
         match self.arrow_at(0) {
             Some(1) if self.at(Kind::Arrow) => self.bump(),
             Some(tokens) => {
-                let message = "'->' leads from a state or event to what comes next";
+                let message = "'->' leads from a state or event to its target";
                 self.wrong_arrow(tokens, message, "->");
             }
             None if self.at_arrow_word() => {
-                let message = "'->' leads from a state or event to what comes next";
+                let message = "'->' leads from a state or event to its target";
                 self.wrong_arrow(1, message, "->");
             }
             // Only the arrow is missing.
@@ -140,7 +140,7 @@ impl Parser<'_, '_> {
             None => {
                 let here = self.behind();
                 self.error(
-                    Diagnostic::new(Code::E0109, here, "the edge leads nowhere")
+                    Diagnostic::new(Code::E0109, here, "the edge has no target")
                         .help("write '->' and the name of an element, or 'terminate'"),
                 );
                 return false;

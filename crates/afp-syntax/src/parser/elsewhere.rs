@@ -324,7 +324,6 @@ impl<'t> Parser<'t, '_> {
         "State".to_owned()
     }
 
-    /// The operand before the pattern.
     fn operand_before(&self) -> String {
         let has_unit = self.before().is_some_and(|token| token.kind == Kind::Unit);
         self.text_between(self.at.saturating_sub(1 + usize::from(has_unit)), self.at)

@@ -76,7 +76,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// The words of the items of a file that have behind them what stands there.
+    /// The keywords of file items that fit the next tokens.
     fn possible_items(&self) -> Vec<&'static str> {
         let with_braces =
             ["plan", "enum", "device", "sensor", "robot", "actor", "supervisor", "computation"];
@@ -90,21 +90,22 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `node Main { start go`: whether a word that stands for 'plan' is written before a name and items of a plan.
+    /// Whether a word instead of 'plan' precedes a name and items of a plan: `node Main { start
+    /// go`.
     fn at_plan_elsewhere(&self) -> bool {
         let is_head = (self.nth(1), self.nth(2)) == (Kind::Name, Kind::OpenBrace);
         is_head && keywords::has(self.word(3), PLAN) && self.meant(&["plan"]).is_some()
     }
 
-    /// Parses an item of a plan that stands outside of one.
+    /// Parses an item of a plan outside of all plans.
     fn misplaced(&mut self) {
         let word = self.word(0);
         let here = self.next_span();
-        // Behind a brace too much everything is outside; that is one mistake.
+        // After a surplus brace everything is outside; report only one error.
         if !std::mem::replace(&mut self.misplaced, true) {
             self.error(
-                Diagnostic::new(Code::E0114, here, message!("'{}' stands outside of a plan", word))
-                    .help("move it between the braces of a plan; perhaps a '}' above is too much"),
+                Diagnostic::new(Code::E0114, here, message!("'{}' is outside of a plan", word))
+                    .help("move it between the braces of a plan; perhaps a '}' above is unmatched"),
             );
         }
         self.open(Kind::Error);

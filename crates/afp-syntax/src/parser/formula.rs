@@ -69,7 +69,7 @@ impl Parser<'_, '_> {
             Kind::Name if self.text_with_a_letter() => {}
             Kind::Name if self.at_function_of_a_library() => {
                 let function = self.word(2);
-                let message = "functions belong to no library";
+                let message = "functions have no library prefix";
                 self.instead(2, message, message!("write '{}'", function), "");
                 self.call();
             }
@@ -82,7 +82,7 @@ impl Parser<'_, '_> {
             Kind::Plus => {
                 let here = self.here();
                 self.error(
-                    Diagnostic::new(Code::E0102, here, "a formula has no '+' in front of it")
+                    Diagnostic::new(Code::E0102, here, "a formula does not begin with '+'")
                         .help("remove the '+'")
                         .replace(""),
                 );
@@ -97,7 +97,7 @@ impl Parser<'_, '_> {
     }
 
     fn no_formula(&mut self) {
-        self.expected("a formula", "write a number, a quantity, a text or an entry");
+        self.expected("a formula", "write a number, a quantity, a string or an entry");
     }
 
     fn literal(&mut self) {
@@ -188,7 +188,7 @@ impl Parser<'_, '_> {
         if let Some(number) = self.before().filter(|_| is_unit) {
             let place = self.span_of(number).to(self.next_span());
             let error =
-                Diagnostic::new(Code::E0236, place, "a unit follows its number on one line");
+                Diagnostic::new(Code::E0236, place, "a unit follows its number on the same line");
             self.error(error.write(format!("{} {word}", number.text)));
             self.bump_as(Kind::Unit);
         }
@@ -270,7 +270,7 @@ impl Parser<'_, '_> {
         let error = Diagnostic::new(Code::E0115, here, "a number begins with a digit");
         self.error(match self.token_index(1) == self.token_index(0) + 1 {
             true => error.help("write '0' before the point").fix(here.before(), "0"),
-            false => error.help("write '0' before the point, and its digits right behind it"),
+            false => error.help("write '0' before the point, and its digits directly after it"),
         });
         self.open(Kind::Error);
         self.bump();
@@ -287,7 +287,7 @@ impl Parser<'_, '_> {
                 here,
                 message!("more than {} brackets or signs around this", Words(MAX_DEPTH)),
             )
-            .help("compute a part of it in an entry of its own"),
+            .help("compute a part of it in a separate entry"),
         );
         self.open(Kind::Error);
         let mut depth = 0_usize;
@@ -319,7 +319,7 @@ impl Parser<'_, '_> {
             if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {
                 self.bump();
             } else {
-                self.expected_name("write a name behind the '.'");
+                self.expected_name("write a name after the '.'");
             }
         }
         self.close();
@@ -342,10 +342,10 @@ impl Parser<'_, '_> {
         self.name("write the name of an element or entry");
         while self.eat(Kind::Dot) {
             if !self.on_same_line() && self.at_line() {
-                self.expected_name("write a name behind the '.'");
+                self.expected_name("write a name after the '.'");
                 break;
             }
-            self.name("write a name behind the '.'");
+            self.name("write a name after the '.'");
         }
         self.close();
     }
@@ -379,7 +379,7 @@ impl Parser<'_, '_> {
         }
         if self.eat(Kind::Caret) {
             self.eat(Kind::Minus);
-            self.whole_number("write a whole number behind the '^'");
+            self.whole_number("write a whole number after the '^'");
         }
         self.close();
     }

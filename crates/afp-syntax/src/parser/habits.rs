@@ -29,12 +29,11 @@ fn with_small_first(name: &str) -> String {
     first.to_ascii_lowercase() + rest
 }
 
-/// Whether formulas elsewhere have the word between operands.
+/// Whether other languages use the word between operands.
 pub(super) fn is_operator(word: &str) -> bool {
     matches!(word, "and" | "or" | "xor" | "is" | "if" | "mod" | "div" | "in")
 }
 
-/// Whether a word is a type that every file knows.
 fn is_type(word: &str) -> bool {
     matches!(word, "int" | "bool" | "float" | "string") || Dimension::named(word).is_some()
 }
@@ -60,7 +59,7 @@ impl Parser<'_, '_> {
         });
         let more = 2 * more.count();
         if more > 0 && self.on_same_line() {
-            self.instead(more, "a plan starts with one element", "remove what follows", "");
+            self.instead(more, "a plan starts with a single element", "remove what follows", "");
         }
     }
 
@@ -78,7 +77,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether two words with small letters stand here, neither of which is a word of the grammar.
+    /// Whether two lower-case words follow that are not keywords.
     fn is_small_pair(&self) -> bool {
         let is_small = |word: &str| word.starts_with(|first: char| first.is_ascii_lowercase());
         let is_free = |word: &str| {
@@ -120,7 +119,8 @@ impl Parser<'_, '_> {
         self.expect(Kind::Colon, "write ':' and the template")
     }
 
-    /// `actor Forward(...)`: reports that the name before a template is missing. Returns whether it is.
+    /// Reports a missing name before a template, as in `actor Forward(...)`. Returns whether it
+    /// did.
     pub(super) fn template_without_name(&mut self) -> bool {
         let template = self.word(0);
         let is_large = template.starts_with(|first: char| first.is_ascii_uppercase());
@@ -165,7 +165,7 @@ impl Parser<'_, '_> {
         while self.at_timing() {
             let (here, word) = (self.next_span(), self.word(0));
             let message = message!("only supervisors have '{}'", word);
-            let help = "remove it, or write it behind the template of a supervisor";
+            let help = "remove it, or write it after the template of a supervisor";
             self.error(Diagnostic::new(Code::E0102, here, message).help(help));
             self.open(Kind::Error);
             self.timing();
@@ -173,14 +173,14 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether what begins the next line can only be the target; reports it.
+    /// Whether the next line can only begin with the target; reports it.
     pub(super) fn target_of_another_line(&mut self) -> bool {
         let ends = matches!(self.nth(1), Kind::CloseBrace) || self.begins_line(1);
         let is_target = ends && !self.names_something(0) && !self.begins_item();
         if is_target && !self.at_word("supervise") {
             let (here, target) = (self.behind(), self.word(0));
             let message = "no target on the line of its '->'";
-            let help = message!("write '{}' behind the '->'", target);
+            let help = message!("write '{}' after the '->'", target);
             self.error(Diagnostic::new(Code::E0109, here, message).help(help));
             // The rest of that line belongs to the target.
             return true;
@@ -188,7 +188,7 @@ impl Parser<'_, '_> {
         false
     }
 
-    /// How many tokens stand there that are an arrow of an edge, or were meant as one.
+    /// The number of tokens of an arrow of an edge, or of its substitute.
     pub(super) fn arrow_at(&self, ahead: usize) -> Option<usize> {
         let same_line = |many: usize| (1..=many).all(|more| !self.begins_line(ahead + more));
         match (self.nth(ahead), self.nth(ahead + 1), self.nth(ahead + 2)) {
@@ -213,7 +213,7 @@ impl Parser<'_, '_> {
         called && !(1..=3).any(|ahead| self.begins_line(ahead))
     }
 
-    /// `Side::left`: reports the sign between the names, and reads past it.
+    /// Reports and skips the sign between two names, as in `Side::left`.
     pub(super) fn double_colon(&mut self) -> bool {
         let stands = self.at(Kind::Colon) && self.nth(1) == Kind::Colon && self.is_adjacent();
         let named = self.nth(2) == Kind::Name && !self.begins_line(2);
@@ -223,12 +223,12 @@ impl Parser<'_, '_> {
         stands && named
     }
 
-    /// Whether a word stands here that is written for an arrow.
+    /// Whether the next word is a substitute for an arrow.
     pub(super) fn at_arrow_word(&self) -> bool {
         ARROW_WORDS.contains(&self.word(0)) && self.nth(1) == Kind::Name && !self.begins_line(1)
     }
 
-    /// Reports what formulas elsewhere have behind their operands, and reads past it.
+    /// Reports and skips signs of other languages after an operand.
     pub(super) fn no_operators(&mut self) {
         while !self.habit_of_operator()
             && let Some(help) = self.operator_help()
@@ -252,8 +252,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `not x`, `x ** 2`, `i++`: reports and passes over what stands before an operand, or in its place. Returns whether
-    /// the operand is still to come.
+    /// `not x`, `x ** 2`, `i++`: reports and skips the text before or instead of an operand.
+    /// Returns whether the operand follows.
     pub(super) fn no_prefix(&mut self) -> Option<bool> {
         let before = self.before();
         let doubled = self.is_adjacent() && before.is_some_and(|token| token.kind == self.nth(0));
@@ -279,7 +279,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `(value = n // 2)`: the place of the slashes, where what closes the brackets stands behind them in a comment.
+    /// `(value = n // 2)`: the place of the slashes, if the closing bracket is in their comment.
     pub(super) fn divided_by_a_comment(&self) -> Option<Span> {
         let before = self.at.checked_sub(1).and_then(|at| self.solid.get(at)).copied()? as usize;
         let between = self.tokens.get(before + 1..self.token_index(0))?;
@@ -295,7 +295,7 @@ impl Parser<'_, '_> {
         divides.then(|| Span { end: comment.start + 2, ..self.span_of(*comment) })
     }
 
-    /// `50 %`: reports the sign behind a number that nothing is divided by, and reads past it.
+    /// `50 %`: reports and skips a '%' after a number without a divisor.
     pub(super) fn percent(&mut self) -> bool {
         let before = self.before();
         let number = before.filter(|token| matches!(token.kind, Kind::Int | Kind::Float));
@@ -313,13 +313,13 @@ impl Parser<'_, '_> {
         }
         let better = hundredth(number.text);
         let place = self.span_of(number).to(self.next_span());
-        let error = Diagnostic::new(Code::E0102, place, "formulas have no percent");
+        let error = Diagnostic::new(Code::E0102, place, "formulas have no '%'");
         self.error(error.write(better));
         self.pass(1);
         true
     }
 
-    /// How many tokens the number is that is next: three where it has a decimal comma, or two numbers a comma between them.
+    /// The number of tokens of the next number: three with a decimal comma.
     pub(super) fn tokens_of_number(&self) -> usize {
         let adjacent = self.token_index(2) == self.token_index(0) + 2;
         let is_fraction = |token: Token<'_>| token.text.bytes().all(|byte| byte != b'.');
@@ -334,7 +334,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `2,5`: reports the comma and takes all of the number, unless a comma stands between two of them here.
+    /// `2,5`: reports the comma and takes the whole number, unless commas separate numbers here.
     pub(super) fn decimal_comma(&mut self) -> bool {
         let (Some(whole), Some(comma), Some(fraction)) =
             (self.token(0), self.token(1), self.token(2))
@@ -367,7 +367,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `1_000`, `0x10`: a number with letters in it, which has been taken up to the first of them.
+    /// `1_000`, `0x10`: a number with letters in it, which has been read up to its first letter.
     pub(super) fn number_with_letters(&mut self) -> bool {
         let Some(before) = self.before() else {
             return false;
@@ -394,7 +394,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `5.`; in `(value = 5. equals = 3)` the point was meant for a comma.
+    /// `5.`; in `(value = 5. equals = 3)` the point replaces a comma.
     pub(super) fn number_that_ends_with_a_point(&mut self) {
         if self.at(Kind::Dot) && self.is_adjacent() && !matches!(self.nth(1), Kind::Dot | Kind::Int)
         {
@@ -411,7 +411,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Reports tokens in place of which something else should stand, and passes over them.
+    /// Reports and skips tokens that something else should replace.
     pub(super) fn instead(
         &mut self,
         tokens: usize,
@@ -424,7 +424,7 @@ impl Parser<'_, '_> {
         self.pass(tokens);
     }
 
-    /// The place of so many tokens.
+    /// The place of this number of tokens.
     pub(super) fn ahead(&self, tokens: usize) -> Span {
         let last = self.token(tokens.saturating_sub(1)).map(|last| self.span_of(last));
         let first = self.next_span();

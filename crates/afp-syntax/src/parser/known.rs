@@ -67,7 +67,7 @@ pub(super) fn names<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeMap<usize, 
                     }
                     _ if sign == Kind::Arrow && at > 1 && kind(at - 1) == Kind::Name => {
                         use Kind::{CloseBrace, Comma, OpenBrace, Text};
-                        // A word before the name is that of another language.
+                        // A word before the name belongs to another language.
                         let begins = matches!(kind(at - 2), OpenBrace | CloseBrace | Comma | Text)
                             || at > 2 && kind(at - 3) == Kind::Arrow;
                         if begins {
@@ -108,7 +108,6 @@ impl<'t> Names<'t> {
     }
 }
 
-/// Whether a file uses a toolbox.
 pub(super) fn uses(tokens: &[Token<'_>], toolbox: &str) -> bool {
     let mut names = tokens.iter().filter(|token| !token.kind.is_trivia()).map(|token| token.text);
     let (mut before, mut uses) = ("", false);

@@ -9,7 +9,7 @@ use crate::kind::Kind;
 use crate::message;
 
 /// The help for a time after the braces of a supervisor.
-const TIME_BEHIND_BODY: &str = "write it behind the supervisor's template, before its '{'";
+const TIME_BEHIND_BODY: &str = "write it after the supervisor's template, before its '{'";
 /// The content of an element's body.
 pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
 const ITEMS: &str = "an item of the plan";
@@ -231,7 +231,7 @@ impl Parser<'_, '_> {
             if self.at(Kind::Name) && (self.on_same_line() || template) {
                 self.template_name();
             } else {
-                self.expected(what, "name the template behind the ':'");
+                self.expected(what, "name the template after the ':'");
             }
         }
         if self.at(Kind::OpenParen) {
@@ -280,7 +280,7 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    /// Whether a constant on the next line is the time: the text after it is that after a time.
+    /// Whether a constant on the next line is the time: the text after it fits a time.
     fn at_time_of_another_line(&self) -> bool {
         let goes_on =
             self.nth(1) == Kind::OpenBrace || matches!(self.word(1), "every" | "deadline");

@@ -59,7 +59,7 @@ impl Parser<'_, '_> {
         let error = Diagnostic::new(
             Code::E0102,
             self.ahead(arrow + 2),
-            "the edges of 'on' stand in braces",
+            "the edges of 'on' belong in braces",
         );
         let error = error.help(message!("write '{}'", better));
         self.error(if arrow == 4 { error.replace(better) } else { error });

@@ -170,7 +170,7 @@ impl Parser<'_, '_> {
                     .help("write '{' and '}'"),
             ),
             Kind::Colon if self.on_same_line() && self.begins_line(1) => {
-                self.expected("'{'", "write '{' in place of ':', and '}' at the end");
+                self.expected("'{'", "write '{' instead of ':', and '}' at the end");
             }
             _ if self.nothing_before_brace() => {}
             _ => self.expected("'{'", help),
@@ -334,7 +334,7 @@ impl Parser<'_, '_> {
         let here = self.next_span();
         match (self.nth(0), meant) {
             (Kind::CloseParen, _) => {
-                let error = Diagnostic::new(Code::E0102, here, "this ')' is too much");
+                let error = Diagnostic::new(Code::E0102, here, "unmatched ')'");
                 self.error(error.help("remove it").replace(""));
             }
             (_, Some(meant)) => {

@@ -108,7 +108,7 @@ impl Parser<'_, '_> {
         if self.eat_meant("seeds", |next| next == Kind::Int) {
             let whole = self.whole_number("write the first seed, such as '0..20'");
             if whole && self.eat(Kind::Dot) && self.expect(Kind::Dot, "write '0..20'") {
-                self.whole_number("write the seed behind the last one");
+                self.whole_number("write the number after the last seed");
             } else if whole {
                 self.expected("'..'", "write the seeds as '0..20', of which the last is 19");
             }
@@ -158,7 +158,7 @@ impl Parser<'_, '_> {
             // With several commas, one separates the coordinates.
             self.with_commas(commas < 2, |parser| {
                 parser.formula();
-                parser.expect(Kind::Comma, "write the second coordinate behind a comma");
+                parser.expect(Kind::Comma, "write the second coordinate after a comma");
                 parser.formula();
                 parser.heading_in_brackets();
             });
@@ -185,7 +185,7 @@ impl Parser<'_, '_> {
         } else {
             self.expected(
                 "an action",
-                "write what happens, such as 'idle all' or 'press' and a control",
+                "write an action, such as 'idle all' or 'press' and a control",
             );
         }
         self.close();
@@ -248,8 +248,8 @@ impl Parser<'_, '_> {
     /// Reports a misplaced word before a claim: `expect never end`.
     fn misplaced_word(&mut self) {
         let help = match self.word(0) {
-            "never" | "not" => "write 'never' in place of 'expect'",
-            "always" | "once" => "write it behind the claim",
+            "never" | "not" => "write 'never' instead of 'expect'",
+            "always" | "once" => "write it after the claim",
             "expect" => "write either 'expect' or 'never'",
             _ => return,
         };
@@ -276,7 +276,7 @@ impl Parser<'_, '_> {
     /// `always x > 1`, by analogy with `never x > 1`.
     fn always_first(&mut self) {
         self.open_item(Kind::Expect);
-        let help = "write 'expect' in place of it, and 'always' behind the claim";
+        let help = "write 'expect' instead, and 'always' after the claim";
         self.missing(self.next_span(), "'expect'", help, Subject::Other);
         self.keyword();
         self.claim_with_bounds();

@@ -1,5 +1,5 @@
-//! Words of the grammar with a slip in them, and words that other languages have in their place: said once, and read as
-//! what they were meant for.
+//! Misspelt keywords, and keywords of other languages: reported once, and read as the intended
+//! keyword.
 
 use super::Parser;
 use super::elsewhere::is_large;
@@ -9,7 +9,7 @@ use crate::kind::Kind;
 use crate::message;
 
 impl Parser<'_, '_> {
-    /// The word of a list that was meant where an item begins: on the line of the next word stands what such items have.
+    /// The intended keyword of a list at the beginning of an item, if the rest of the line fits.
     pub(super) fn meant<'a>(&self, list: &[&'a str]) -> Option<&'a str> {
         use Kind::{Float, Int, Name, OpenBrace, Text};
         let goes_on = matches!(self.nth(1), Name | Text | Int | Float | OpenBrace);
@@ -18,8 +18,8 @@ impl Parser<'_, '_> {
         (is_word && self.explains()).then(|| keywords::meant(self.word(0), list))?
     }
 
-    /// `callback hit: CheckTouchSensor {`: whether a word that stands for one of a list is written before a name and a
-    /// template.
+    /// Whether a substitute for a keyword precedes a name and a template: `callback hit:
+    /// CheckTouchSensor {`.
     pub(super) fn at_head_elsewhere(&self, list: &[&str]) -> bool {
         use Kind::{Arrow, Colon, Name, OpenBrace, OpenParen};
         let is_head = (self.nth(1), self.nth(2)) == (Name, Colon)
@@ -28,7 +28,8 @@ impl Parser<'_, '_> {
         is_head && self.meant(list).is_some()
     }
 
-    /// Reads the next word as that of a list which it was meant for, after having said so. Returns whether it was.
+    /// Reports the next word and reads it as the intended keyword of a list. Returns whether it
+    /// did.
     pub(super) fn item_meant(&mut self, what: &'static str, list: &[&'static str]) -> bool {
         let meant = self.meant(list);
         if let Some(meant) = meant {
@@ -37,14 +38,14 @@ impl Parser<'_, '_> {
         meant.is_some()
     }
 
-    /// Says that another word stands in the place of one, and reads it as that one.
+    /// Reports a word and reads it as another word.
     pub(super) fn read_as(&mut self, meant: &'static str, what: impl Into<Message>) {
         self.report_skipped(what, message!("write '{}'", meant), Some(meant));
         self.slip = Some((self.at, meant));
     }
 
-    /// Whether the next word, on the line of the one before it, is a slip of a word of the grammar. Short ones are too
-    /// near to others.
+    /// Whether the next word, on the same line as the word before it, is a misspelt keyword. Short
+    /// words are too similar to other words.
     pub(super) fn at_slip(&self, word: &str) -> bool {
         let written = self.word(0);
         self.on_same_line()
@@ -54,7 +55,7 @@ impl Parser<'_, '_> {
             && words::nearest(written, [word]).is_some()
     }
 
-    /// Takes a word of the grammar, or a slip of it before a token of which `follows` holds.
+    /// Takes a keyword, or its misspelling before a token for which `follows` holds.
     pub(super) fn eat_meant(&mut self, word: &'static str, follows: impl Fn(Kind) -> bool) -> bool {
         let is_slip = !self.at_word(word) && self.at_slip(word) && follows(self.nth(1));
         if is_slip {
@@ -63,16 +64,16 @@ impl Parser<'_, '_> {
         self.eat_word(word)
     }
 
-    /// `actor actor go`: says that a word stands there twice, and reads past the second.
+    /// Reports and skips a repeated word: `actor actor go`.
     pub(super) fn word_twice(&mut self) {
         if self.word(0) == self.word_before() && self.nth(1) == Kind::Name && self.on_same_line() {
-            let message = message!("'{}' stands here twice", self.word(0));
+            let message = message!("'{}' is repeated here", self.word(0));
             self.instead(1, message, "remove it", "");
         }
     }
 
-    /// `pub plan Main {`, `async actor go: Wait`: says that a word stands before one of a list, and reads past it. Returns
-    /// whether it does.
+    /// Reports and skips a word before a keyword of a list: `pub plan Main {`, `async actor go:
+    /// Wait`. Returns whether it did.
     pub(super) fn word_before_item(&mut self, list: &[&str]) -> bool {
         let stands = self.at(Kind::Name)
             && list.contains(&self.word(1))
@@ -85,7 +86,7 @@ impl Parser<'_, '_> {
         stands
     }
 
-    /// `out live x`: says that nothing else than an input is live, and reads past the word.
+    /// Reports and skips `live` after `out`: only inputs are live.
     pub(super) fn live_elsewhere(&mut self) {
         if self.at_word("live") && self.nth(1) == Kind::Name {
             let error = Diagnostic::new(Code::E0102, self.here(), "only an 'in' is live");
@@ -94,11 +95,11 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `live in x`: says in which order the words stand, and reads past the first. Returns whether they stand so.
+    /// Reports the order of the words in `live in x`, and skips the first. Returns whether it did.
     pub(super) fn live_before_in(&mut self) -> bool {
         let stands = self.word(0) == "live" && self.word(1) == "in" && self.nth(2) == Kind::Name;
         if stands {
-            let error = Diagnostic::new(Code::E0102, self.ahead(2), "'live' stands behind 'in'");
+            let error = Diagnostic::new(Code::E0102, self.ahead(2), "'live' comes after 'in'");
             self.error(error.help("write 'in live'").replace("in live"));
             self.pass(1);
         }

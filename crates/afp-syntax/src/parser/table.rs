@@ -113,7 +113,7 @@ impl Parser<'_, '_> {
 
     fn no_comma(&mut self) {
         if self.at(Kind::Name) && self.word(0) == self.word_before() {
-            let message = message!("{} stands twice", self.found());
+            let message = message!("{} is repeated", self.found());
             return self.instead(1, message, "remove one of them", "");
         }
         let behind = self.behind();

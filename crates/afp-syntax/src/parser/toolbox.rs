@@ -70,7 +70,7 @@ impl Parser<'_, '_> {
         self.at_named_template() && (self.opens_behind_name() || self.is_toolbox)
     }
 
-    /// Whether a brace opens behind the name of a template, or behind its `resumable`.
+    /// Whether a brace opens after the name of a template, or after its `resumable`.
     fn opens_behind_name(&self) -> bool {
         let behind = if self.word(2) == "resumable" { 3 } else { 2 };
         self.nth(behind) == Kind::OpenBrace
@@ -282,7 +282,7 @@ impl Parser<'_, '_> {
         }
         let points = (0..2).all(|at| self.nth(at) == Kind::Dot) && self.on_same_line();
         if points {
-            self.instead(2, "'to' stands between the ends of a range", "write ' to '", " to ");
+            self.instead(2, "'to' separates the bounds of a range", "write ' to '", " to ");
         }
         let is_whole = points || self.eat_word("to");
         if is_whole {

@@ -1,7 +1,7 @@
 //! Lines and columns as in editors.
 //!
 //! Protocols of editors count both from zero, and columns mostly in units of UTF-16, independent of
-//! the encoding of the text. The starts of lines are computed once for a text; a column then takes
+//! the encoding of the text. The starts of lines are computed once for a file; a column then takes
 //! time linear in its line.
 
 /// A position as in editors.
@@ -21,7 +21,7 @@ pub enum Encoding {
     Utf16,
 }
 
-/// The lines of a text. As in editors, they end with `\n`, `\r\n` or `\r`.
+/// The lines of a file. As in editors, they end with `\n`, `\r\n` or `\r`.
 #[derive(Clone, Debug)]
 pub struct Lines<'t> {
     text: &'t str,
@@ -85,7 +85,7 @@ mod tests {
     const TEXT: &str = "a°€𝄞b\r\n\n𝄞\rx\n";
 
     #[test]
-    fn columns_are_counted_in_the_units_that_are_asked_for() {
+    fn columns_are_counted_in_the_requested_units() {
         let lines = Lines::new(TEXT);
         let at = |offset, encoding| {
             let LineColumn { line, column } = lines.position(offset, encoding);

@@ -49,7 +49,7 @@ fn plans_toolboxes_and_scenarios_parse_without_an_error() {
 }
 
 #[test]
-fn an_edge_has_any_number_of_names_and_white_space() {
+fn an_edge_may_have_many_names_and_any_white_space() {
     let names: Vec<_> = (0..500).map(|at| format!("S{at}")).collect();
     let text = format!("plan P {{ actor a: A {{ {} -> b }} }}", names.join(", "));
     assert_eq!(errors(&text), []);
@@ -63,7 +63,7 @@ fn an_edge_has_any_number_of_names_and_white_space() {
 }
 
 #[test]
-fn words_of_the_grammar_are_names_where_something_is_bound_to_them() {
+fn keywords_are_names_if_a_value_is_bound_to_them() {
     let text = "plan P { in start: length = 4 m
         var in: bool
         actor a: A(live = 2 m = 3 range => start) { state -> terminate actor -> a supervise -> a } }
@@ -107,7 +107,7 @@ fn nesting_is_reported_once() {
     assert_eq!(codes, [Code::E0111]);
 }
 
-/// Fragments for broken texts.
+/// Fragments for invalid files.
 const PIECES: &[&str] = &[
     "plan",
     "P",
@@ -179,12 +179,12 @@ const PIECES: &[&str] = &[
 
 proptest! {
     #[test]
-    fn the_tree_of_any_text_is_the_text(text in any::<String>()) {
+    fn the_tree_of_any_text_has_the_same_text(text in any::<String>()) {
         errors(&text);
     }
 
     #[test]
-    fn the_tree_of_any_mix_of_tokens_is_the_text(
+    fn the_tree_of_any_mix_of_tokens_has_the_same_text(
         picks in prop::collection::vec((0..PIECES.len(), any::<bool>()), 0..200)
     ) {
         let pieces = picks.iter().map(|(pick, gap)| {

@@ -48,7 +48,7 @@ impl Pair<'_> {
             if matches!(goal, Goal::Element(to) if computes(to)) {
                 let path = self.parts.path(self.supervisor);
                 all.left_out.push(format!(
-                    "'{path}.{name}' leads to computations, whose values decide what comes next"
+                    "'{path}.{name}' leads to computations, whose values select the next element"
                 ));
                 continue;
             }
@@ -59,7 +59,7 @@ impl Pair<'_> {
             }
             let Some((_, fire)) = self.parts.injection(self.supervisor, event) else {
                 let path = self.parts.path(self.supervisor);
-                all.left_out.push(format!("'{path}.{name}' brings an object"));
+                all.left_out.push(format!("'{path}.{name}' has an object"));
                 continue;
             };
             if points.is_empty() {

@@ -210,7 +210,7 @@ impl<'a> Bench<'a> {
                 continue;
             }
             plans.push(plan.name.clone());
-            let name = format!("{} as it goes", plan.name);
+            let name = format!("{} undisturbed", plan.name);
             let graph = scenario.graph.clone();
             all.push(Scenario::quiet(name, graph, &*self.plan_file, DEFAULT_UNTIL));
         }

@@ -106,7 +106,7 @@ impl<'a> Expected<'a> {
             }
             Wanted::Once if self.held.is_some() => return None,
             Wanted::Once => (window.to.min(end), self.missing(state)),
-            Wanted::Never => (self.held?, "it was so".to_owned()),
+            Wanted::Never => (self.held?, "it held".to_owned()),
             Wanted::Always => (self.failed?, self.otherwise(state)),
             Wanted::Times(wanted) if self.times.len() == wanted as usize => return None,
             Wanted::Times(wanted) => match self.times.get(wanted as usize) {
@@ -137,7 +137,7 @@ impl<'a> Expected<'a> {
             }
             (Claim::End(_), None) => match state.ending {
                 None => "the plan did not end".to_owned(),
-                Some(ending) => format!("the plan ended otherwise, as {}", state.word(ending)),
+                Some(ending) => format!("the plan ended differently, as {}", state.word(ending)),
             },
             (Claim::Compare { left, right, .. }, None) => compared(left, right, state),
             _ => "it did not happen".to_owned(),
@@ -147,7 +147,7 @@ impl<'a> Expected<'a> {
     fn otherwise(&self, state: &State) -> String {
         match &self.expectation.claim {
             Claim::Compare { left, right, .. } => compared(left, right, state),
-            _ => "it was otherwise".to_owned(),
+            _ => "it did not hold".to_owned(),
         }
     }
 }
@@ -158,17 +158,17 @@ fn compared(left: &Subject, right: &Operand, state: &State) -> String {
     let shown = match (left, state.shown(left, other.as_ref())) {
         (Subject::Entry(_), None) => return "it was never written".to_owned(),
         (Subject::Signal(signal, _), None) => {
-            return format!("the robot never said what '{signal}' is");
+            return format!("the robot never returned a value of '{signal}'");
         }
         (_, Some(shown)) => shown,
     };
     match right {
         // For a boolean this is the complete reason.
-        Operand::Value(Value::Bool(_)) => "it was not so".to_owned(),
-        Operand::Value(_) => format!("it was otherwise; in the end it is {shown}"),
+        Operand::Value(Value::Bool(_)) => "it did not hold".to_owned(),
+        Operand::Value(_) => format!("it did not hold; in the end it is {shown}"),
         Operand::Subject(other) => {
             let other = state.shown(other, is.as_ref()).unwrap_or_else(|| "nothing".to_owned());
-            format!("it was otherwise; in the end it is {shown}, compared with {other}")
+            format!("it did not hold; in the end it is {shown}, compared with {other}")
         }
     }
 }

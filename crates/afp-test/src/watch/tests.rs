@@ -75,7 +75,7 @@ fn a_valid_trace_passes() {
 }
 
 #[test]
-fn a_second_commit_and_a_second_interruption_are_noticed() {
+fn a_second_commit_and_a_second_interruption_are_reported() {
     let mut twice = sound();
     twice.extend([commit(GONE, 1), commit(BACK, 1)]);
     assert_eq!(
@@ -100,7 +100,7 @@ fn a_second_commit_and_a_second_interruption_are_noticed() {
 fn a_commit_by_the_wrong_component_is_noticed() {
     let mut foreign = sound();
     foreign.push(commit(BACK, 2));
-    assert_eq!(broken(&foreign), ["never commit by home: it was so"]);
+    assert_eq!(broken(&foreign), ["never commit by home: it held"]);
 }
 
 #[test]

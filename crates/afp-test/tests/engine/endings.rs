@@ -65,6 +65,6 @@ fn a_wrong_value_never_looks_like_the_expected_one() {
     ] {
         let broken = run_of(plan, &format!("expect {claim}\n until 1 s")).broken;
         let whys: Vec<_> = broken.iter().map(|broken| broken.why.as_str()).collect();
-        assert_eq!(whys, [format!("it was otherwise; in the end it is {is}")], "{claim}");
+        assert_eq!(whys, [format!("it did not hold; in the end it is {is}")], "{claim}");
     }
 }

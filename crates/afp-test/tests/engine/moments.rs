@@ -55,10 +55,10 @@ fn a_missing_moment_is_reported_once() {
 }
 
 #[test]
-fn actions_after_the_end_are_not_done() {
+fn actions_after_the_end_are_not_performed() {
     breaks(
         "from end { at 3 s: press touch }  at 500 ms: press escape  expect end",
-        "this was not done: the run was over",
+        "this did not happen: the run was over",
         1.5,
     );
 }

@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_is_named_behind_a_colon() {
+    fn a_plan_is_selected_after_a_colon() {
         assert_eq!(split("errand.afp:Search".as_ref()), ("errand.afp".as_ref(), Some("Search")));
         assert_eq!(split("errand.afp".as_ref()), ("errand.afp".as_ref(), None));
         assert_eq!(split("C:/errand".as_ref()), ("C:/errand".as_ref(), None));

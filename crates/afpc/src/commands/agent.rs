@@ -41,9 +41,9 @@ pub struct Arguments {
 
 pub const EXAMPLES: &str = "\
 Examples:
-  ssh robot.local afpc agent       what 'afpc deploy --to robot.local' starts
-  afpc agent --unit                the unit for systemd
-  afpc agent --serve               the service of the robot, in the foreground";
+  ssh robot.local afpc agent       run the command that 'afpc deploy' starts
+  afpc agent --unit                print the unit for systemd
+  afpc agent --serve               run the robot's service in the foreground";
 
 /// Serves one connection on standard input and output, or runs releases.
 ///

@@ -99,7 +99,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
 
 fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), NoPlan> {
     if arguments.target == Machine::Mcu {
-        let message = "'--target mcu' is not in this release";
+        let message = "'--target mcu' is not available yet";
         let help = "name 'host', 'pi' or 'pi32'; 'mcu' comes with the microcontroller drivers";
         return Err(RunError::usage(message, help).into());
     }
@@ -115,10 +115,9 @@ fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), N
     let files = generate(&file, &graph, &toolboxes, arguments, &folder)?;
     made.folder = Some(whole(folder.clone()));
     let no_cargo = RunError::Missing {
-        message: "there is no cargo to build the crate with".to_owned(),
+        message: "cargo, which builds the crate, is not installed".to_owned(),
         help:
-            "install Rust from https://rustup.rs; with built-in toolboxes alone, 'afpc run' works \
-               without it"
+            "install Rust from https://rustup.rs; with only built-in toolboxes, 'afpc run' works without it"
                 .to_owned(),
     };
     let generated = Generated { folder: &folder, files: &files, sources: &file.compiled.sources };

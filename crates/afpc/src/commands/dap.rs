@@ -79,8 +79,8 @@ fn opened(folder: &Path) -> Result<PathBuf, RunError> {
     match path.is_dir() {
         true => Ok(path),
         false => Err(RunError::usage(
-            format!("'{}' is no folder", folder.display()),
-            "name the folder of the plans",
+            format!("'{}' is not a folder", folder.display()),
+            "name the folder with the plans",
         )),
     }
 }

@@ -131,6 +131,6 @@ fn trace(arguments: &Arguments) -> Result<String, RunError> {
     command.args(["run", &arguments.plan.plan]);
     command.args(arguments.set.iter().map(|(name, value)| format!("--set={name}={value}")));
     trace_of(command).map_err(|why| {
-        RunError::usage(format!("the plan does not run here: {why}"), "'afpc run' shows more")
+        RunError::usage(format!("the plan does not run here: {why}"), "run 'afpc run' for details")
     })
 }

@@ -64,7 +64,7 @@ fn one(name: &str, check: bool) -> Result<u8, NoPlan> {
             print(&difference(shown, &text, &formatted))?;
             if without_returns(&text) == without_returns(&formatted) {
                 say(format_args!(
-                    "{shown}: mixed line ends: 'afpc fmt' uses those of the first line"
+                    "{shown}: mixed line endings: 'afpc fmt' uses the line ending of the first line"
                 ));
             }
             Ok(EXIT_FAILED)

@@ -191,7 +191,7 @@ fn write(path: &Path, drawing: &[u8]) -> Result<u8, NoPlan> {
 
 fn pixels(arguments: &Arguments, outline: &Outline, options: &Options) -> Result<u8, NoPlan> {
     if arguments.output.is_none() && std::io::stdout().is_terminal() {
-        let error = "a picture cannot be shown in a terminal";
+        let error = "a terminal cannot show a picture";
         return Err(RunError::usage(error, "name a file: -o plan.png").into());
     }
     let scale = arguments.scale.unwrap_or(picture::DEFAULT_SCALE);
@@ -247,7 +247,7 @@ impl Arguments {
         let formats: Vec<_> = formats.iter().map(name_of).collect();
         Err(RunError::usage(
             format!("'{option}' has no effect on '--format {}'", name_of(&format)),
-            format!("it is for {}", formats.join(", ")),
+            format!("use it with {}", formats.join(", ")),
         ))
     }
 }

@@ -9,7 +9,7 @@ const LATER: &[(&str, &str, &str)] = &[
     ("replay", "replay of logs", "'afpc run --again RUN.mcap' repeats the run of a log"),
     (
         "attach",
-        "the robot's side of the debugger",
+        "the debugger for real robots",
         "'afpc dap --port 4711' serves a simulated run that editors join with 'attach'; from another machine through 'ssh -L 4711:localhost:4711 HOST'",
     ),
 ];
@@ -34,7 +34,7 @@ impl Listen {
             None => Ok(()),
             Some(_) => Err(RunError::usage(
                 "'--listen' is not available: the connection would not be encrypted",
-                "start it with '--port 4711'; 'ssh -L 4711:localhost:4711 HOST' on the other machine then brings it there",
+                "start it with '--port 4711'; then run 'ssh -L 4711:localhost:4711 HOST' on the other machine",
             )),
         }
     }

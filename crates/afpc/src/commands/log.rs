@@ -66,7 +66,7 @@ Examples:
   afpc log run.mcap --sonar map.svg --film film.png --coverage cover.png
   afpc log run.mcap.part recover
 
-Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong usage";
+Exit codes: 0 done or intact, 1 the file cannot be read or is damaged, 2 wrong usage";
 
 /// The message for an action before the log's name.
 pub fn swapped(first: &str, second: &str) -> Option<RunError> {
@@ -117,7 +117,7 @@ fn save(arguments: &Arguments) -> Result<u8, NoPlan> {
     let saved = recover(&arguments.file, &to).map_err(RunError::from)?;
     match &saved.damage {
         Some(damage) => say(format_args!("the log is incomplete: {damage}")),
-        None => say("nothing was wrong with the log"),
+        None => say("the log has no errors"),
     }
     for missing in &saved.missing {
         say(format_args!("missing: {missing}"));

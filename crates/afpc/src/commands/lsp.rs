@@ -70,7 +70,6 @@ fn converse(
     }
 }
 
-/// Answers the text of a message.
 fn answer(server: &mut Server, text: &str, to: &mut impl Write) -> io::Result<()> {
     match read_message(text) {
         Ok(message) => send(&server.handle(message), to),
@@ -141,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn no_bytes_abort_the_server_or_keep_it() {
+    fn no_input_aborts_or_blocks_the_server() {
         let mut state = 1_u64;
         let mut below = |most: usize| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);

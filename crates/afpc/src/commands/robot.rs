@@ -118,7 +118,7 @@ pub(super) fn ran(ran: Ran) -> Result<u8, NoPlan> {
     match instead {
         None => Ok(EXIT_OK),
         Some(why) => {
-            let help = "the release before it runs; mend the plan and deploy it again";
+            let help = "the previous release runs; fix the plan and deploy it again";
             say(RunError::usage(why, help).styled());
             Ok(EXIT_FAILED)
         }

@@ -32,12 +32,12 @@ fn of_log(log: &Path) -> Result<PlanFile, RunError> {
     let Some(name) = file.foreign.first() else {
         let Some(robot) = file.robot.as_ref().and_then(Robot::rust_type) else { return Ok(file) };
         return Err(RunError::usage(
-            format!("the run of '{path}' drove the robot '{robot}', whose Rust is not here"),
+            format!("the run of '{path}' drove the robot '{robot}', whose Rust code is not here"),
             "repeat it in the folder of its project, or with the built program: '--again'",
         ));
     };
     Err(RunError::usage(
-        format!("the run of '{path}' used the toolbox '{name}', whose Rust is not here"),
+        format!("the run of '{path}' used the toolbox '{name}', whose Rust code is not here"),
         format!(
             "where it is written in Python, Python repeats the run: \
              afp.Log(\"{path}\").simulation(toolboxes=[{name}]).run(); where it is of a project, name it in '[toolboxes]' of afp.toml"

@@ -117,7 +117,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let studio = match opened.map_err(RunError::file("cannot listen on", name.as_ref()))? {
         Opened::Here(studio) => studio,
         Opened::Elsewhere(address) => {
-            say("a studio already serves this folder and opens its page again\n");
+            say("a studio already serves this folder; it opens its page again\n");
             show(&address, arguments.no_open)?;
             return Ok(EXIT_OK);
         }

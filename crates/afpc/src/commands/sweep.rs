@@ -88,7 +88,7 @@ Exit codes: 0 done, 1 a file is invalid, 2 wrong usage, 3 a run ended in Error o
 struct Worlds(Vec<String>);
 
 fn jobs(text: &str) -> Result<NonZero<usize>, String> {
-    text.parse().map_err(|_| "expected a whole number from 1 on".to_owned())
+    text.parse().map_err(|_| "expected a whole number of at least 1".to_owned())
 }
 
 fn worlds(text: &str) -> Result<Worlds, String> {

@@ -30,7 +30,7 @@ Examples:
   afpc templates carbot
   afpc templates Forward
 
-Toolboxes are the built-in ones and those of the project in this folder.";
+The list has the built-in toolboxes and the toolboxes of the project in this folder.";
 
 /// The width of kind and name together.
 const COLUMN: usize = 32;

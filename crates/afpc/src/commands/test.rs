@@ -248,7 +248,7 @@ fn matches(case: &Case<'_>, filters: &[String]) -> bool {
     filters.is_empty() || filters.iter().any(|filter| name.contains(&filter.to_lowercase()))
 }
 
-/// Runs the cases on all cores until somebody stops the command. Returns the exit code, `code` if
+/// Runs the cases on all cores until the command is stopped. Returns the exit code, `code` if
 /// all cases passed.
 fn run_all(
     cases: &[Case<'_>],

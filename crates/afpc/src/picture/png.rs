@@ -22,7 +22,6 @@ pub const MOST_PIXELS: f64 = 250e6;
 
 /// The reasons for a missing picture.
 pub enum Failure {
-    /// The number of pixels is too large.
     TooLarge(f64, f64),
     /// The renderer failed.
     Renderer(String),

@@ -105,7 +105,7 @@ fn a_log_is_enough_in_an_empty_folder() {
 }
 
 #[test]
-fn programs_say_what_they_are_and_check_themselves() {
+fn programs_print_their_version_and_check_themselves() {
     let place = Place::with_plan();
     let version = place.afpc("--version");
     for part in [concat!("afpc ", env!("CARGO_PKG_VERSION")), " for ", "\nrobot    Carbot\n"] {
@@ -119,7 +119,7 @@ fn programs_say_what_they_are_and_check_themselves() {
     assert_eq!(place.files(), ["wall_following.afp"], "it writes nothing");
     check("--world random:1").fails(2, &["--world"]);
     let stop = place.afpc("run wall_following.afp --stop-only");
-    stop.fails(2, &["'--stop-only' stops the robot itself", "add '--robot hardware'"]);
+    stop.fails(2, &["'--stop-only' stops the real robot", "add '--robot hardware'"]);
 }
 
 #[test]

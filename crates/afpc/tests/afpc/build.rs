@@ -11,7 +11,7 @@ fn without_cargo_the_crate_is_written_and_the_error_is_clear() {
     let mut command = place.command();
     command.args(["build", "wall_following.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
     let said = said(command.output().unwrap());
-    said.fails(1, &["there is no cargo", "help: install Rust"]);
+    said.fails(1, &["is not installed", "help: install Rust"]);
     let folder = "target/afp/wall_following";
     for name in ["Cargo.toml", "Cargo.lock", "src/main.rs", "src/lib.rs"] {
         assert!(place.exists(&format!("{folder}/{name}")), "{name}");
@@ -44,7 +44,7 @@ fn other_files_are_not_changed_if_there_is_no_crate() {
     // The plan itself is in the place of its copy.
     let mut command = place.command();
     command.args(["build", "wall_following.afp", "-o", "."]).env("CARGO", "no-such-cargo");
-    said(command.output().unwrap()).fails(1, &["there is no cargo"]);
+    said(command.output().unwrap()).fails(1, &["is not installed"]);
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn a_build_of_an_earlier_release_is_replaced() {
     place.write(&format!("{old}/src/gone.rs"), "");
     let mut command = place.command();
     command.args(["build", "wall_following.afp"]).env("CARGO", "no-such-cargo");
-    said(command.output().unwrap()).fails(1, &["there is no cargo"]);
+    said(command.output().unwrap()).fails(1, &["is not installed"]);
     assert!(place.read(&format!("{old}/src/lib.rs")).contains("WallFollowing"));
     assert!(!place.exists(&format!("{old}/src/gone.rs")));
 }
@@ -65,7 +65,7 @@ fn a_build_of_an_earlier_release_is_replaced() {
 fn targets_of_later_releases_and_wrong_project_files_are_refused() {
     let place = Place::with_plan();
     let mcu = place.afpc("build wall_following.afp --target mcu");
-    mcu.fails(2, &["'--target mcu' is not in this release", "name 'host', 'pi' or 'pi32'"]);
+    mcu.fails(2, &["'--target mcu' is not available yet", "name 'host', 'pi' or 'pi32'"]);
     place.write("afp.toml", "[afp]\npath = \"x\"\nversion = \"1\"\n");
     place.afpc("build wall_following.afp").fails(1, &["exactly one of", "afp.toml:1:2"]);
 }

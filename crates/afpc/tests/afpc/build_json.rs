@@ -102,7 +102,7 @@ const OF_BUILDS: &[(&str, &str, i32, &str, &str)] = &[
     ("[target.host]\ncapacity = 0.0001\n", "p.afp", 1, "'host'", "p.afp"),
     ("[afp]\npath = \"x\"\nversion = \"1\"\n", "p.afp", 1, "exactly one of", "afp.toml"),
     ("[robot]\ncrate = 1\n", "p.afp", 1, "", "afp.toml"),
-    ("", "p.afp --target mcu", 2, "is not in this release", "name 'host'"),
+    ("", "p.afp --target mcu", 2, "is not available yet", "name 'host'"),
     ("", "missing.afp", 1, "cannot read the plan 'missing.afp'", ""),
     ("", "p.afp -o mine", 2, "'mine' contains a crate that 'afpc' did not generate", "'-o DIR'"),
 ];

@@ -3,7 +3,7 @@
 use crate::common::{Place, WALL_FOLLOWING};
 
 #[test]
-fn a_good_plan_has_no_errors() {
+fn a_valid_plan_has_no_errors() {
     let place = Place::with_plan();
     let said = place.afpc("check wall_following.afp");
     said.succeeds();
@@ -136,7 +136,7 @@ fn positions_come_from_the_side_file_and_broken_lines_are_warnings() {
     for warning in [
         "2:7: expected a whole number, found 'far'",
         "3:1: expected a line such as 'Plan.element 300 120', found 'nonsense'",
-        "4:1: nothing in the plan's file is called 'WallFolowing.followWall': write 'WallFollowing.followWall'",
+        "4:1: unknown item 'WallFolowing.followWall': write 'WallFollowing.followWall'",
     ] {
         let warning = format!("warning: wall_following.afp.layout:{warning}\n");
         assert!(said.err.contains(&warning), "{}", said.err);
@@ -179,7 +179,7 @@ fn pictures_have_the_requested_size_and_colours() {
 }
 
 #[test]
-fn a_wrong_plan_is_not_charted_run_or_built() {
+fn an_invalid_plan_is_not_charted_run_or_built() {
     let place = Place::new();
     place.write("a.afp", "plan A { start b }");
     for command in ["graph a.afp -o a.scxml", "run a.afp", "build a.afp"] {

@@ -83,7 +83,7 @@ fn a_log_is_shown_with_the_text_that_ran() {
     let same = told_in(&place, talk(9999).as_bytes());
     assert!(same.succeeds().out.contains(r#""name":"WallFollowing""#), "{same:?}");
     assert!(!same.out.contains("sourceReference"), "{same:?}");
-    assert!(same.out.contains("its text is that of the file"), "{same:?}");
+    assert!(same.out.contains("the file has its text"), "{same:?}");
     place.write("wall_following.afp", "use carbot\n");
     let other = told_in(&place, talk(9999).as_bytes());
     let reference = other.out.split(r#""sourceReference":"#).nth(1).unwrap();
@@ -152,7 +152,7 @@ fn a_folder_is_found_by_each_of_its_names() {
     let said = told_at(&place, "", &["dap", "--inside", "nope"], b"");
     said.fails(1, &["cannot open the folder 'nope'"]);
     let said = told_at(&place, "", &["dap", "--inside", "other.afp"], b"");
-    said.fails(2, &["'other.afp' is no folder"]);
+    said.fails(2, &["'other.afp' is not a folder"]);
 }
 
 #[test]
@@ -163,7 +163,7 @@ fn invalid_arguments_of_a_launch_are_reported() {
             format!(r#"{{"program":"wall_following.afp","start":{start},"stopOnEntry":true}}"#);
         let bytes = [framed("launch", &launch), framed("configurationDone", "{}")].concat();
         let said = told_in(&place, bytes.as_bytes());
-        let warning = "warning: the robot starts outside of all that stands in its world";
+        let warning = "warning: the robot starts outside of its world";
         assert_eq!(said.out.contains(warning), strange, "{start}: {said:?}");
     }
 }
@@ -305,10 +305,10 @@ fn several_clients_watch_one_run_and_each_can_end_it() {
         client.ask("initialize", r#"{"adapterID":"afp"}"#);
     }
     let refused = stranger.ask("attach", r#"{"token":"guessed"}"#);
-    assert!(refused.contains("'token' is the one that 'afpc dap' printed"), "{refused}");
+    assert!(refused.contains("'token' must be the token that 'afpc dap' printed"), "{refused}");
     for command in ["threads", "continue", "terminate", "setBreakpoints", "afp/world", "afp/role"] {
         let refused = stranger.ask(command, r#"{"threadId":1}"#);
-        assert!(refused.contains("'launch' or 'attach' comes first"), "{refused}");
+        assert!(refused.contains("send 'launch' or 'attach' first"), "{refused}");
     }
     let attached = other.ask("attach", &format!(r#"{{"token":"{token}"}}"#));
     assert!(attached.contains(r#""plan":"WallFollowing""#), "{attached}");
@@ -353,7 +353,7 @@ fn a_busy_client_does_not_stop_the_run() {
 }
 
 #[test]
-fn clients_without_a_token_are_sent_away() {
+fn clients_without_a_token_are_rejected() {
     let place = Place::with_plan();
     let (_server, port, token) = Server::new(&place);
     let mut strangers: Vec<_> = (0..10).map(|_| connected(port)).collect();

@@ -57,7 +57,7 @@ fn a_generated_crate_carries_all_files_and_names_them() {
     let place = place();
     let mut command = place.command();
     command.args(["build", "plans/patrol.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
-    crate::common::said(command.output().unwrap()).fails(1, &["there is no cargo"]);
+    crate::common::said(command.output().unwrap()).fails(1, &["is not installed"]);
     let folder = "target/afp/patrol";
     assert_eq!(place.read(&format!("{folder}/patrol.afp")), MAIN);
     assert_eq!(place.read(&format!("{folder}/lib/avoid.afp")), AVOID);

@@ -78,7 +78,7 @@ fn line_ends_and_byte_order_marks_stay() {
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(
         text(&output.stderr),
-        "a.afp: mixed line ends: 'afpc fmt' uses those of the first line\n"
+        "a.afp: mixed line endings: 'afpc fmt' uses the line ending of the first line\n"
     );
     fmt(&["a.afp"], folder.path(), "");
     assert_eq!(fs::read_to_string(&path).unwrap(), pretty);

@@ -159,7 +159,7 @@ fn echoes_and_camera_pictures_are_drawn() {
     place.afpc("log a.mcap --sonar map.svg --film film.svg").succeeds();
     let map = place.read("map.svg");
     assert!(map.matches("class=\"echo true\"").count() > 10, "{map}");
-    assert!(map.contains("echo, from where the robot was") && map.contains("drift"), "{map}");
+    assert!(map.contains("echo, from the robot's position") && map.contains("drift"), "{map}");
     let film = place.read("film.svg");
     // Two pictures a second.
     assert_eq!(film.matches("data:image/png;base64,iVBORw0KGgo").count(), 2);
@@ -172,17 +172,16 @@ fn echoes_and_camera_pictures_are_drawn() {
 #[test]
 fn a_log_without_camera_pictures_explains_the_camera_option() {
     let place = place();
-    place.afpc("log a.mcap --film film.svg").fails(
-        2,
-        &["the log holds no pictures of the camera", "afpc run plan.afp --camera --log run.mcap"],
-    );
+    place
+        .afpc("log a.mcap --film film.svg")
+        .fails(2, &["the log has no camera pictures", "afpc run plan.afp --camera --log run.mcap"]);
     assert!(!place.exists("film.svg"));
     let nowhere = place.afpc("run wall_following.afp --camera --log none");
-    nowhere.fails(2, &["'--camera' logs what the camera sees, and there is no log"]);
+    nowhere.fails(2, &["'--camera' logs the camera's pictures, and there is no log"]);
     place.afpc("run wall_following.afp --until 5ms --log b.mcap --svg none").succeeds();
     place
         .afpc("log b.mcap --sonar map.svg")
-        .fails(2, &["the log holds no echoes", "something in reach of the range sensor"]);
+        .fails(2, &["the log has no echoes", "something in reach of the range sensor"]);
     assert!(!place.exists("map.svg"));
 }
 
@@ -249,7 +248,7 @@ fn a_log_of_another_program_is_reported() {
         [&magic[..], &record(1, &[0; 8]), &record(15, &[0; 4]), &record(2, &[0; 20]), magic]
             .concat();
     std::fs::write(place.path("foreign.mcap"), bytes).unwrap();
-    let why = "'foreign.mcap' is not the log of a run of AFP";
+    let why = "'foreign.mcap' is not the log of an AFP run";
     for words in [
         "log foreign.mcap",
         "log foreign.mcap --svg a.svg",

@@ -187,9 +187,7 @@ fn lua(nth: usize) -> String {
 #[test]
 fn neovim_fixes_and_renames_with_its_own_client() {
     let Ok(version) = Command::new("nvim").arg("--version").output() else {
-        eprintln!(
-            "skipped: there is no 'nvim' on this machine; 'apt-get install neovim' brings it"
-        );
+        eprintln!("skipped: 'nvim' is not installed; run 'apt-get install neovim'");
         return;
     };
     let version = String::from_utf8_lossy(&version.stdout);

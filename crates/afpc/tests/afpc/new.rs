@@ -43,7 +43,7 @@ fn projects_with_rust_are_valid_and_name_the_needs_of_a_run() {
         let mut command = place.command();
         command.current_dir(place.path(name)).args(["run", &plan]);
         let said = said(command.env("PATH", "").env("CARGO", "no-such-cargo").output().unwrap());
-        said.fails(1, &[needs, "there is no cargo"]);
+        said.fails(1, &[needs, "is not installed"]);
     }
 }
 

@@ -58,7 +58,7 @@ fn unknown_names_are_reported_before_a_build() {
     for (arguments, why) in [
         ("run plans/dance.afp --press nothing@1s", "no control 'nothing'"),
         ("run plans/dance.afp --press escpe@1s", "such as 'escape@1s'"),
-        ("run plans/dance.afp --fail wheels.slip=2@1s", "'2' is no share from 0 to 1"),
+        ("run plans/dance.afp --fail wheels.slip=2@1s", "'2' is not a share from 0 to 1"),
         ("run plans/dance.afp --fail nothing.lost@1s", "unknown device 'nothing'"),
         ("run plans/dance.afp --set nothing=3", "the plan has no entry 'nothing'"),
         ("run plans/dance.afp --set robot.port=3", "add '--robot hardware'"),
@@ -119,7 +119,7 @@ fn without_cargo_a_run_explains_how_to_install_it() {
     let mut command = place.command();
     command.args(["run", "plans/dance.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
     let said = said(command.output().unwrap());
-    let texts = ["the toolbox 'gestures'", "there is no cargo", "https://rustup.rs"];
+    let texts = ["the toolbox 'gestures'", "is not installed", "https://rustup.rs"];
     said.fails(1, &texts);
     assert!(said.out.is_empty());
 }
@@ -156,7 +156,7 @@ fn one_runner_has_the_toolboxes_of_all_scenarios() {
         command.args(arguments).env("PATH", "").env("CARGO", "no-such-cargo");
         said(command.output().unwrap())
     };
-    let both = ["the toolboxes 'gestures' and 'waves'", "there is no cargo"];
+    let both = ["the toolboxes 'gestures' and 'waves'", "is not installed"];
     without_cargo(&["test"]).fails(1, &both);
     without_cargo(&["test", "plans/tests/b.afp", "plans/tests/a.afp"]).fails(1, &both);
     without_cargo(&["test", "--generate", "plans/wave.afp", "plans/dance.afp"]).fails(1, &both);

@@ -169,7 +169,7 @@ fn an_entry_without_a_value_is_requested() {
 }
 
 #[test]
-fn help_lists_the_words_of_this_program() {
+fn help_lists_the_options_of_this_program() {
     let help = Place::with_plan().afpc("run --help");
     assert_eq!(help.out.contains("--live"), cfg!(feature = "live"), "{}", help.out);
     assert!(!help.out.contains("--debug"), "{}", help.out);

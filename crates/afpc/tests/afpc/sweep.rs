@@ -18,7 +18,7 @@ fn objects(said: &Said) -> Vec<Value> {
 }
 
 #[test]
-fn every_row_can_be_repeated() {
+fn every_row_is_a_repeatable_run() {
     let place = Place::with_plan();
     let grid = "--seeds 3..5 --vary walldist=20cm..40cm:20cm --vary world.robot.charge=0.5,1";
     let sweep = format!("sweep wall_following.afp {grid} --world random:4..6 --until 8s");
@@ -226,7 +226,7 @@ fn a_stopped_sweep_keeps_its_results() {
     assert!(std::process::Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
     let said = crate::common::said(child.wait_with_output().unwrap());
     said.fails(130, &[]);
-    assert!(said.out.contains("of 60 runs, 0 failed, stopped; the same command goes on"));
+    assert!(said.out.contains("of 60 runs, 0 failed, stopped; the same command continues"));
     let done = rows(&place, "stopped.csv").len() - 1;
     assert!((2..60).contains(&done), "{done}");
     let more = place.afpc(&sweep.replace("--jobs 1", "--json"));
@@ -240,7 +240,7 @@ fn a_journal_of_another_sweep_is_not_changed() {
     let place = Place::with_plan();
     let sweep = "sweep wall_following.afp --until 1s -o a.csv";
     place.afpc(&format!("{sweep} --seeds 0..2")).succeeds();
-    let told = ["'a.csv.journal' is of another sweep", "started with seeds 0..2", "--restart"];
+    let told = ["'a.csv.journal' belongs to another sweep", "started with seeds 0..2", "--restart"];
     place.afpc(&format!("{sweep} --seeds 0..3")).fails(2, &told);
     place.afpc(&format!("{sweep} --seeds 0..3 --restart")).succeeds();
     assert_eq!(rows(&place, "a.csv").len(), 4);
@@ -273,10 +273,10 @@ fn unknown_names_to_vary_are_reported_before_the_runs() {
     for (arguments, texts) in [
         ("--vary nope=1", ["no entry 'nope'", "'walldist' (length)"]),
         ("--vary walldist=20deg..40deg", ["not a length", "a number and a unit"]),
-        ("--vary walldist=1m --vary walldist=2m", ["varied twice", "say it once"]),
+        ("--vary walldist=1m --vary walldist=2m", ["varied twice", "vary it once"]),
         ("--vary world.robot.charg=1", ["has no 'charg'", "write 'charge'"]),
         ("--vary walldist=20cm..1m", ["same unit", "--vary"]),
-        ("--seeds 0..99999999999", ["these are 99999999999 runs", "give a part of the seeds"]),
+        ("--seeds 0..99999999999", ["runs, not 99999999999", "give fewer seeds"]),
         ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),
         ("-o a.txt", ["unsupported format '.txt'", "'.csv' or '.parquet'"]),
         #[cfg(not(feature = "parquet"))]

@@ -123,10 +123,10 @@ fn generated_scenarios_find_their_plan_from_their_folder() {
 fn other_scenarios_are_not_replaced() {
     let place = place();
     let said = place.afpc("test --generate wall_following.afp -o tests/room.afp");
-    said.fails(2, &["'tests/room.afp' was not made by 'afpc test --generate'", "with '-o FILE'"]);
+    said.fails(2, &["'afpc test --generate' did not write 'tests/room.afp'", "with '-o FILE'"]);
     assert_eq!(place.read("tests/room.afp"), SCENARIOS);
     let said = place.afpc("test --generate tests/room.afp");
-    said.fails(2, &["'tests/room.afp' has no plan of its own", "plan: 'wall_following.afp'"]);
+    said.fails(2, &["'tests/room.afp' does not declare a plan", "plan: 'wall_following.afp'"]);
     assert_eq!(place.files(), ["tests/room.afp", "wall_following.afp"]);
     place.write("tests/new.afp", "\n");
     for _ in 0..2 {
@@ -187,7 +187,7 @@ fn a_file_that_is_not_utf8_does_not_hide_the_others() {
     std::fs::write(place.path("tests/bytes.afp"), [0xff, 0xfe]).unwrap();
     let said = place.afpc("test bump");
     assert_eq!(said.code, 1, "{said:#?}");
-    assert!(said.err.contains("bytes.afp': it is no text in UTF-8"), "{said:#?}");
+    assert!(said.err.contains("bytes.afp': it is not UTF-8 text"), "{said:#?}");
     assert!(said.out.contains("1 passed"), "{said:#?}");
 }
 
@@ -215,7 +215,7 @@ fn unnoticed_mutants_are_reported() {
         "the same seed, the same mutants"
     );
     let few = place.afpc("test --mutate --at-least 99");
-    few.fails(3, &["short.afp: ", " % are noticed, fewer than the 99 % of '--at-least'"]);
+    few.fails(3, &["short.afp: ", " % of the mutants are noticed; '--at-least' requires 99 %"]);
     for percent in ["nan", "inf", "101", "-1"] {
         let said = place.afpc(&format!("test --mutate --at-least {percent}"));
         said.fails(2, &["expected a number from 0 to 100"]);

@@ -46,8 +46,8 @@ const MISSING: &[(&[&str], &[&str])] = &[
     (
         &["rustc", "rustup", "apt-get", "sudo"],
         &[
-            "cannot build for a 64-bit Raspberry Pi: Rust's standard library for it and a C compiler and linker for \
-             it are missing",
+            "cannot build for a 64-bit Raspberry Pi: Rust's standard library for the target and a C compiler and linker for \
+             the target are missing",
             "run 'rustup target add aarch64-unknown-linux-gnu && sudo apt-get install -y gcc-aarch64-linux-gnu \
              libc6-dev-arm64-cross', then the same command again",
         ],
@@ -55,7 +55,7 @@ const MISSING: &[(&[&str], &[&str])] = &[
     (
         &["rustc", "rustup", "aarch64-linux-gnu-gcc"],
         &[
-            "Rust's standard library for it is missing",
+            "Rust's standard library for the target is missing",
             "run 'rustup target add aarch64-unknown-linux-gnu', then",
         ],
     ),
@@ -68,7 +68,7 @@ const MISSING: &[(&[&str], &[&str])] = &[
     (
         &["rustc with library", "apt-get"],
         &[
-            "a C compiler and linker for it is missing",
+            "a C compiler and linker for the target is missing",
             "run 'apt-get install -y gcc-aarch64-linux-gnu libc6-dev-arm64-cross', then",
         ],
     ),
@@ -81,7 +81,7 @@ const MISSING: &[(&[&str], &[&str])] = &[
         &["run 'python3 -m pip install ziglang', then"],
     ),
     // The compiler of another machine does not help.
-    (&["rustc with library", "arm-linux-gnueabihf-gcc"], &["linker for it is missing"]),
+    (&["rustc with library", "arm-linux-gnueabihf-gcc"], &["linker for the target is missing"]),
 ];
 
 #[test]

@@ -65,7 +65,7 @@ from .._afp import own_robot
 from ..tables import need
 
 if own_robot is not None:
-    raise ImportError("afp.gym is of the Carbot, and this process has another robot: start another Python for it")
+    raise ImportError("afp.gym is for the Carbot, and this process has another robot: start another Python for it")
 
 gymnasium = need("gymnasium")
 

@@ -120,7 +120,7 @@ class CarbotEnv(Specified, gymnasium.Env):  # type: ignore[misc]
         reset. The same actions then have the same results.
         """
         if not isinstance(saved, Saved):
-            raise TypeError(f"an environment is restored from what save() gave, not from {saved!r}")
+            raise TypeError(f"an environment is restored from a result of save(), not from {saved!r}")
         courses = self._open()
         seen = courses.restore(saved.moment)[0]
         (start,), (rng,) = saved.starts, saved.rngs

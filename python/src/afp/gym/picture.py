@@ -18,7 +18,7 @@ WALL = (90, 90, 90)
 MOVES = (140, 120, 90)
 
 Moving = Sequence[tuple[int, NDArray[np.float64]]]
-"""What moves: the numbers of the obstacles, and their corners as they are now."""
+"""The moving obstacles: their numbers and current corners."""
 
 
 def _frame(world: World) -> tuple[float, float, float]:

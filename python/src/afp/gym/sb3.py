@@ -81,7 +81,7 @@ class CarbotVecEnv(_VecEnv):  # type: ignore[misc]
 
     def env_method(self, method_name: str, *args: Any, indices: Any = None, **kwargs: Any) -> list[Any]:
         """Raises: the single environments have no methods."""
-        raise AttributeError(f"environments of many have no method '{method_name}' of their own")
+        raise AttributeError(f"the environments have no method '{method_name}'")
 
     def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
         """Always false."""

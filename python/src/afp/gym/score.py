@@ -34,9 +34,9 @@ class Score:
     rewards: NDArray[np.float64]
     """The reward of each episode."""
     steps: NDArray[np.int64]
-    """How many steps each took."""
+    """The number of steps of each episode."""
     ended: NDArray[np.bool_]
-    """Whether a term of the task ended it: what there was to reach was reached, or, in `Roam`, it ran into something."""
+    """Whether a term of the task ended the episode: the robot reached its target or, in `Roam`, had a collision."""
 
     @property
     def mean(self) -> float:
@@ -133,7 +133,7 @@ def plan_of(task: Task | str) -> Plan:
 
 
 def _several(seeds: Iterable[int]) -> list[int]:
-    """Check that there is at least one seed."""
+    """Check the seeds; at least one is needed."""
     if not isinstance(seeds, Iterable) or isinstance(seeds, str):
         raise TypeError(f"seeds are several whole numbers, such as range(10), not {seeds!r}")
     these = [seed_of(seed) for seed in seeds]

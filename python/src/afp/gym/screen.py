@@ -16,7 +16,7 @@ from .setting import gymnasium
 __all__ = ["Screen", "png"]
 
 ENLARGED = 2
-"""The window has so many pixels for each of the picture."""
+"""The number of window pixels for each pixel of the picture."""
 
 
 class Screen:

@@ -27,9 +27,9 @@ SPEED: float = Courses.speed
 TURN: float = Courses.turn
 """The turn rate of a full action, rad/s."""
 RANGE: float = Courses.range
-"""What silence of the range sensor is observed as, metres."""
+"""The observed distance if the range sensor hears nothing, in metres."""
 STEP: float = Courses.step_time
-"""How long an action lasts, seconds."""
+"""The duration of an action, in seconds."""
 PIXELS = 256
 """The edge of the picture from above."""
 
@@ -76,7 +76,7 @@ class Setting:
     ) -> Setting:
         """Read the arguments of an environment."""
         if isinstance(observe, str) or isinstance(ends, str):
-            raise TypeError("observe and ends are lists of names, not one text")
+            raise TypeError("observe and ends must be lists of names, not a string")
         if reward is not None and not isinstance(reward, Mapping):
             what = "reward gives terms weights, such as {'ahead': 1.0, 'crash': -10.0}"
             raise TypeError(f"{what}, not {reward!r}; gymnasium.wrappers.TransformReward takes a function")
@@ -87,9 +87,9 @@ class Setting:
         given = {name: value for name, value in changed.items() if value is not None}
         task = replace(task_of(task), **given)  # type: ignore[arg-type]
         if fan is not None and "fan" not in task.observe:
-            raise ValueError(f"the fan is not observed: say observe={['fan', *task.observe]}")
+            raise ValueError(f"the fan is not observed: set observe={['fan', *task.observe]}")
         if steps == 0:
-            raise ValueError("an episode has at least one step; give a number from 1 on")
+            raise ValueError("an episode has at least one step; give at least 1")
         if not callable(faults):
             faults = tuple(several(Fault, [Fault(**it) if isinstance(it, Mapping) else it for it in faults]))
         # Gymnasium's -1 means no limit.

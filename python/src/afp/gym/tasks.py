@@ -11,9 +11,9 @@ from typing import Any
 __all__ = ["FIND_INFRARED", "REACH_GOAL", "ROAM", "TASKS", "WALL_FOLLOW", "Task", "task_of"]
 
 FAN = tuple(math.radians(bearing) for bearing in (-90.0, -45.0, 0.0))
-"""Where the range sensor looks in turns where a wall at the right counts, radians."""
+"""The bearings of the range sensor, in turn, for tasks with a wall at the right, in radians."""
 AROUND = tuple(math.radians(bearing) for bearing in (-60.0, 0.0, 60.0))
-"""Where it looks in turns where what is ahead counts."""
+"""Its bearings, in turn, for tasks with obstacles ahead."""
 
 
 @dataclass(frozen=True)
@@ -23,19 +23,19 @@ class Task:
     name: str
     """Its name."""
     reward: Mapping[str, float]
-    """What each term weighs."""
+    """The weight of each term."""
     ends: tuple[str, ...] = ("crash",)
     """The terms that end an episode."""
     observe: tuple[str, ...] = ("distance", "odometry", "bumper")
-    """What is observed."""
+    """The observed parts."""
     reach: str | None = None
-    """What there is to reach: `light`, `goal`, or nothing."""
+    """The target: `light`, `goal`, or none."""
     fan: tuple[float, ...] = FAN
-    """Where the range sensor looks in turns if the fan is observed, radians to the left."""
+    """The bearings of the range sensor, in turn, if the fan is observed, in radians to the left."""
     seconds: float = 60.0
-    """How long an episode lasts at most."""
+    """The longest duration of an episode."""
     plan: str | None = None
-    """The plan written by hand for it, a file of the package's."""
+    """The plan written by hand for it, a file of the package."""
 
     def _facts(self) -> dict[str, Any]:
         """The arguments that make it, as JSON can store them."""
@@ -90,7 +90,7 @@ REACH_GOAL = Task(
     fan=AROUND,
     plan="reach_goal.afp",
 )
-"""Drive to a place of which the odometry says where it is, to within 30 cm."""
+"""Drive by odometry to within 30 cm of a known place."""
 
 TASKS: Mapping[str, Task] = MappingProxyType(
     {

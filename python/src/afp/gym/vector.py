@@ -125,7 +125,7 @@ class CarbotVectorEnv(Specified, gymnasium.vector.VectorEnv):  # type: ignore[mi
         reset. The same actions then have the same results.
         """
         if not isinstance(saved, Saved):
-            raise TypeError(f"environments are restored from what save() gave, not from {saved!r}")
+            raise TypeError(f"environments are restored from a result of save(), not from {saved!r}")
         seen = self._courses.restore(saved.moment)
         self._starts, self._rngs, self._over = list(saved.starts), deepcopy(saved.rngs), np.array(saved.over)
         self._backgrounds = {}
@@ -197,7 +197,7 @@ class CarbotVectorEnv(Specified, gymnasium.vector.VectorEnv):  # type: ignore[mi
         if not mask.any():
             raise ValueError("'reset_mask' names no environment")
         if any(rng is None for rng, asked in zip(self._rngs, mask, strict=True) if not asked):
-            raise gymnasium.error.ResetNeeded("the first reset() is of all environments")
+            raise gymnasium.error.ResetNeeded("the first reset() must reset all environments")
         return [int(index) for index in np.flatnonzero(mask)]
 
     def _place(self, index: int) -> dict[str, Any]:

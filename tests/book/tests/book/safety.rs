@@ -18,7 +18,7 @@ const FILES: [&str; 9] = [
 ];
 
 #[test]
-fn every_way_to_stop_has_its_test() {
+fn every_way_to_stop_has_a_test() {
     let page = fs::read_to_string(docs().join("safety.md")).unwrap();
     let read = |file| fs::read_to_string(docs().join("..").join(file)).unwrap();
     let tests = FILES.map(read).concat();

@@ -67,7 +67,7 @@ fn a_function_may_have_the_name_of_a_module() {
 }
 
 #[test]
-fn an_item_without_a_visible_definition_is_made_by_a_macro() {
+fn an_item_without_a_visible_definition_comes_from_a_macro() {
     assert_eq!(
         shown(&[ROOT, ("a.rs", "use crate::b::B;"), ("b.rs", "make!(B);")]),
         ["a.rs -> b.rs"]
@@ -86,7 +86,7 @@ fn a_child_may_use_each_module_that_contains_it() {
 }
 
 #[test]
-fn circles_have_the_files_that_reach_each_other() {
+fn files_that_reach_each_other_are_a_circle() {
     let files = [
         ("lib.rs", "mod a; mod b; mod c; mod d; mod e;"),
         ("a.rs", "use crate::b::B; pub struct A;"),

@@ -57,7 +57,7 @@ fn the_command_line_carries_no_server() {
 }
 
 #[test]
-fn not_even_the_live_server_brings_an_asynchronous_runtime() {
+fn even_the_live_server_has_no_asynchronous_runtime() {
     assert_eq!(refused("live"), BTreeSet::from(["tungstenite".to_owned()]));
 }
 

@@ -99,7 +99,7 @@ fn driving_on_without_a_usable_echo_breaks_a_rule() {
 }
 
 #[test]
-fn a_sensor_that_nobody_has_asked_since_the_start_of_the_actor_does_not_count() {
+fn a_sensor_without_a_reading_since_the_actors_start_does_not_count() {
     let (_, mut watch) = watched();
     watch.told(Sensor::Ultrasonic, false, at(0), at(0));
     watch.on_record(at(10), &Record::Started { component: ComponentId(1) }, &One);
@@ -116,7 +116,7 @@ fn a_motion_left_behind_breaks_a_rule() {
         let (_, mut watch) = watched();
         drive(&mut watch, 0, 20);
         watch.on_record(at(20), &record, &One);
-        breaks(watch, "0.2 m/s, 0 rad/s stay");
+        breaks(watch, "0.2 m/s, 0 rad/s remain");
     }
     for then in [Record::Started { component: element }, Record::StopRequested] {
         let (_, mut watch) = watched();

@@ -28,7 +28,7 @@ fn beside(distance: f64) -> Plane {
 }
 
 #[test]
-fn comes_to_the_distance_from_farther_and_from_nearer_and_ends_after_the_step() {
+fn it_reaches_the_distance_from_both_sides_and_ends_after_the_step() {
     for start in [0.475 + 0.18, 0.475, 0.475 - 0.1] {
         let mut robot = Fake::new(&[beside(start)]);
         assert_eq!(follow(&mut robot, 2.0), Ok(Some(State::ForwardSuccessful)));
@@ -39,14 +39,14 @@ fn comes_to_the_distance_from_farther_and_from_nearer_and_ends_after_the_step() 
 }
 
 #[test]
-fn follows_a_wall_that_it_was_not_quite_parallel_to() {
+fn it_follows_a_wall_that_was_not_parallel() {
     let mut robot = Fake::new(&[plane(-90.0 + 6.0, 0.475)]);
     assert_eq!(follow(&mut robot, 3.0), Ok(Some(State::ForwardSuccessful)));
     assert!((robot.motion.heading.si().to_degrees() - 6.0).abs() < 1.5, "{:?}", robot.motion);
 }
 
 #[test]
-fn stands_the_lane_distance_before_a_wall_ahead() {
+fn it_stops_at_the_lane_distance_before_a_wall_ahead() {
     let mut robot = Fake::new(&[beside(0.475), plane(0.0, 2.0)]);
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));
     let front = 2.0 - robot.motion.x.si() - 0.2;
@@ -54,7 +54,7 @@ fn stands_the_lane_distance_before_a_wall_ahead() {
 }
 
 #[test]
-fn a_missing_wall_is_awaited_for_the_given_time() {
+fn it_waits_for_a_missing_wall_for_the_given_time() {
     for absent in [0.15, 0.25] {
         let mut robot = Fake::new(&[]);
         let inputs = Inputs { absent: Length::from_si(absent), ..inputs(2.0) };
@@ -78,7 +78,7 @@ fn lost_pings_do_not_open_the_lane() {
 }
 
 #[test]
-fn a_lane_of_any_length_that_a_plan_may_ask_for_is_driven_while_it_is_free() {
+fn a_lane_of_any_valid_length_is_driven_while_it_is_free() {
     for lanedist in [0.05, 0.3, 0.9, 1.2, 2.0] {
         let inputs = |speed| Inputs {
             lanedist: Length::from_si(lanedist),
@@ -101,7 +101,7 @@ fn a_lane_of_any_length_that_a_plan_may_ask_for_is_driven_while_it_is_free() {
 }
 
 #[test]
-fn does_not_drive_into_what_stands_there_from_the_beginning() {
+fn it_does_not_drive_into_an_obstacle_at_the_start() {
     let mut robot = Fake::new(&[beside(0.475), plane(0.0, 0.45)]);
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));
     assert_eq!(robot.motion.x.si(), 0.0);
@@ -121,14 +121,14 @@ fn the_wall_is_lost_a_third_of_a_metre_after_its_end() {
 }
 
 #[test]
-fn a_wall_that_steps_back_is_lost_too() {
+fn a_wall_that_steps_back_is_also_lost() {
     let near = Plane { end: 1.0, ..beside(0.475) };
     let mut robot = Fake::new(&[near, beside(1.175)]);
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::WallLost)));
 }
 
 #[test]
-fn a_wall_that_was_never_there_is_not_waited_for() {
+fn it_does_not_wait_for_a_wall_that_never_existed() {
     let mut robot = Fake::new(&[beside(1.175)]);
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::WallLost)));
     let way = robot.motion.x.si();
@@ -136,7 +136,7 @@ fn a_wall_that_was_never_there_is_not_waited_for() {
 }
 
 #[test]
-fn a_sensor_that_dies_on_the_way_stops_the_robot_at_once_and_is_a_fault_later() {
+fn a_sensor_that_fails_while_driving_stops_the_robot_at_once_and_is_a_fault_later() {
     let mut robot = Fake::new(&[beside(0.475)]);
     robot.range_dies = 3000;
     assert_eq!(follow(&mut robot, 5.0), Err(NO_RANGE));

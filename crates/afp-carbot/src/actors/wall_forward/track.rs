@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn one_outlier_is_dropped_and_three_are_a_new_wall() {
+    fn one_outlier_is_dropped_and_three_outliers_are_a_new_wall() {
         let mut track = Track::new(0.0);
         for step in 0..10 {
             track.add(&at(f64::from(step) * 0.01, 0.0, 0.0), 0.1, 0.5);

@@ -20,14 +20,14 @@ fn drive(robot: &mut Fake, command: (f64, f64), seconds: u64) -> Result<(), (u64
 }
 
 #[test]
-fn a_robot_that_obeys_is_let_go_on() {
+fn a_robot_that_moves_as_commanded_continues() {
     for command in [(0.3, 0.0), (-0.05, 0.0), (0.0, 1.5), (0.2, -0.7), (0.01, 0.0)] {
         assert_eq!(drive(&mut Fake::new(&[]), command, 5), Ok(()), "{command:?}");
     }
 }
 
 #[test]
-fn wheels_that_stand_are_noticed_within_half_a_second() {
+fn stopped_wheels_are_noticed_within_half_a_second() {
     for command in [(0.3, 0.0), (-0.05, 0.0), (0.0, 1.5), (0.01, 0.0)] {
         let mut robot = Fake::new(&[]);
         robot.follows = (0.0, 0.0);
@@ -58,7 +58,7 @@ fn a_robot_that_turns_instead_of_driving_is_noticed() {
 }
 
 #[test]
-fn wheels_that_slip_through_now_and_then_are_noticed_and_a_weak_drive_is_let_go_on() {
+fn slipping_wheels_are_noticed_and_a_weak_drive_continues() {
     let command = (0.0, 0.8);
     let mut robot = Fake::new(&[]);
     let mut tracking = Tracking::new(robot.now);

@@ -103,7 +103,7 @@ impl Odometry for Eyes {
 }
 
 #[test]
-fn motion_is_reported_with_bearing_and_share_from_the_second_picture_on() {
+fn motion_is_reported_with_its_bearing_and_share_from_the_second_picture() {
     let mut eyes = Eyes::new();
     eyes.move_places(&[2, 3, 4], &[4, 5, 6], 2.0);
     let (seen, last) = eyes.watch(200).unwrap();
@@ -115,7 +115,7 @@ fn motion_is_reported_with_bearing_and_share_from_the_second_picture_on() {
 }
 
 #[test]
-fn nothing_is_reported_where_nothing_moves_or_slowly_or_too_little_of_it() {
+fn slow_or_small_motion_is_not_reported() {
     assert_eq!(Eyes::new().watch(500), Ok((0, None)));
     let mut eyes = Eyes::new();
     eyes.move_places(&[2, 3, 4], &[4, 5, 6], 0.5);
@@ -127,7 +127,7 @@ fn nothing_is_reported_where_nothing_moves_or_slowly_or_too_little_of_it() {
 }
 
 #[test]
-fn of_two_things_the_larger_counts() {
+fn the_larger_of_two_objects_counts() {
     let mut eyes = Eyes::new();
     eyes.move_places(&[2, 3], &[4, 5], 3.0);
     eyes.move_places(&[12, 13, 14], &[4, 5], -3.0);
@@ -136,7 +136,7 @@ fn of_two_things_the_larger_counts() {
 }
 
 #[test]
-fn a_dead_odometry_is_called_so_and_a_larger_grid_than_there_is_room_for_is_refused() {
+fn a_dead_odometry_is_named_and_a_grid_above_the_limit_is_rejected() {
     let mut eyes = Eyes::new();
     eyes.odometry_dies = 500;
     assert_eq!(eyes.watch(950), Ok((0, None)), "it is patient");
@@ -153,7 +153,7 @@ fn a_dead_odometry_is_called_so_and_a_larger_grid_than_there_is_room_for_is_refu
 }
 
 #[test]
-fn a_camera_that_is_frozen_or_covered_is_a_fault_and_not_a_room_without_motion() {
+fn a_frozen_or_covered_camera_is_a_fault() {
     let mut frozen = Eyes::new();
     frozen.frozen = true;
     assert_eq!(frozen.watch(800), Err(NO_FLOW));

@@ -59,12 +59,12 @@ pub(super) fn decide(
         }
         (Type::Number, ty) if !ty.is_numeric() => "use an int, a float or a quantity",
         (Type::Discrete, Type::Quantity(_)) => {
-            "measures are hardly ever equal: use 'Compare' of 'std'"
+            "measured values are rarely equal: use 'Compare' of 'std'"
         }
         // An output has the value that was read at the same instant.
         (Type::Any, Type::Object(_)) if !carries || is_computation => return Generic::Is(ty),
         (Type::Any, Type::Object(_)) => "copy it with 'Assign' of 'std'",
-        (_, Type::Object(_)) => "only the templates of its toolbox look into an object",
+        (_, Type::Object(_)) => "only the templates of its toolbox can read an object",
         _ => return Generic::Is(ty),
     };
     let message = message!("expected {}, found {}", Words(a_type(wanted)), Words(a_type(&ty)));

@@ -45,7 +45,7 @@ pub(super) fn check(
             let message = message!("two outputs go to '{}'", entry.text);
             diags.push(
                 Diagnostic::new(Code::E0220, entry.span, message)
-                    .note(first.span, "the other one")
+                    .note(first.span, "the other output")
                     .help("use another entry for one of them"),
             );
             scope.entry(entry);

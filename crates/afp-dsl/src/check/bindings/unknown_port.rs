@@ -13,7 +13,6 @@ use afp_syntax::message;
 const LIMITS: &[&str] =
     &["timeout", "time", "time_limit", "timelimit", "max_time", "limit", "duration", "deadline"];
 
-/// The supervisor for a time limit.
 fn time_limit(value: &str) -> Message {
     let unit = if value.parse::<f64>().is_ok() { " s" } else { "" };
     let duration = format!("{value}{unit}");
@@ -62,7 +61,7 @@ pub(super) fn report(
         if is_time && watches {
             let name = &signature.name;
             let help =
-                message!("write '{} {}' behind '{}' and its brackets", port.text, value, name);
+                message!("write '{} {}' after '{}' and its brackets", port.text, value, name);
             return error.help(help);
         }
     }
@@ -78,8 +77,8 @@ pub(super) fn of_inside(
 ) -> Option<Diagnostic> {
     let (_, kind, place) = signature.inner.iter().find(|(inner, ..)| inner == name)?;
     let kind = kind.word();
-    let note = message!("a '{}' of '{}', which others do not see", kind, signature.name);
-    let help = message!("declare '{}' with '{}' in place of '{}' there", name, word, kind);
+    let note = message!("a '{}' of '{}', which other plans cannot see", kind, signature.name);
+    let help = message!("declare '{}' with '{}' instead of '{}' there", name, word, kind);
     Some(error.bare().note(*place, note).help(help))
 }
 

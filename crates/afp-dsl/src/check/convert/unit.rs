@@ -72,7 +72,7 @@ pub(crate) fn bare(span: Span, dimension: Dimension, better: &[String]) -> Diagn
     }
 }
 
-/// Reports a bare number in place of a quantity; `range` is that of its target, or `None` for an
+/// Reports a bare number instead of a quantity; `range` is that of its target, or `None` for an
 /// operand.
 pub(crate) fn unit_missing(
     formula: &Formula,

@@ -15,7 +15,7 @@ pub(super) fn unknown_outcome(
 ) -> (Diagnostic, usize) {
     if is_rest(&name.text) {
         let message =
-            message!("edges have no '{}': each state and event has an edge of its own", name.text);
+            message!("edges have no '{}': each state and event has its own edge", name.text);
         let error = Diagnostic::new(Code::E0210, name.span, message);
         return match missing.len() {
             0 => (error.help("remove it: all of them have one"), 0),
@@ -36,8 +36,7 @@ fn of_no_outcome(origin: &Origin<'_>, name: &Name) -> Diagnostic {
     let word = if origin.supervisor { "event" } else { "state" };
     let message = message!("'{}' has no {} '{}'", origin.signature.name, Words(word), name.text);
     if origin.supervisor && name.text == ERROR {
-        let help = "remove it: where a supervisor fails, its element takes the 'Error' edge; one of the plan ends that in \
-                    'Error'";
+        let help = "remove it: if a supervisor fails, its element takes its 'Error' edge, or the plan ends in 'Error'";
         return Diagnostic::new(Code::E0210, name.span, message).help(help);
     }
     let own = &origin.signature.outcomes;

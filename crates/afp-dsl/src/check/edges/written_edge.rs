@@ -76,7 +76,7 @@ fn several_states(
     let error = |message| Diagnostic::new(Code::E0255, edge.span, message);
     match (states, &edge.target) {
         ([], _) => {
-            let message = message!("'{}' has no state that this edge could be for", signature.name);
+            let message = message!("'{}' has no state for this edge", signature.name);
             Some(error(message).help("write braces with a supervisor that ends it").replace("{}"))
         }
         ([_], _) | (_, None) => None,

@@ -59,7 +59,7 @@ pub(super) fn unknown_enum(
         return error;
     }
     if OWN.contains(&home.text.as_str()) && scope.indices.find(&name.text).is_some() {
-        let message = message!("entries have no '{}' in front of them", home.text);
+        let message = message!("entries have no prefix '{}'", home.text);
         return Diagnostic::new(Code::E0239, span, message).write(&*name.text);
     }
     if words::nearest(&home.text, known.clone()).is_none()
@@ -87,13 +87,12 @@ pub(super) fn no_entry(name: &ast::Name) -> Diagnostic {
     Diagnostic::new(Code::E0209, name.span, message).unknown(Sought::Entry, &name.text)
 }
 
-/// Reports an unknown entry.
 pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
     if let Some(table) = scope.table(name) {
         let message = message!("'{}' is a table, not a value", name.text);
         return Diagnostic::new(Code::E0209, name.span, message)
             .note(table.span, "declared here")
-            .elsewhere("read its rows with 'Row' of 'std', and use what comes out");
+            .elsewhere("read its rows with 'Row' of 'std', and use its outputs");
     }
     let error = no_entry(name);
     let home = scope.types.enums.iter().find(|(_, home)| home.variants.contains(&name.text));

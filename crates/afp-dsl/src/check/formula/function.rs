@@ -30,7 +30,7 @@ pub(super) fn named(
         None => {
             scope.record.unknown(name.span);
             let known = Function::ALL.iter().map(|function| function.name());
-            let message = message!("formulas have no function '{}'", name.text);
+            let message = message!("there is no function '{}'", name.text);
             if let Some(better) = in_terms_of_ours(scope, &name.text, operands) {
                 let error = Diagnostic::new(Code::E0243, name.span, message);
                 diags.push(error.write_at(span, better));
@@ -112,7 +112,6 @@ fn joined(function: Function, operands: Vec<Formula>, ty: Type, span: Span) -> F
     operands.fold(call(first), |value, operand| call(vec![value, operand]))
 }
 
-/// The common dimension of all operands.
 fn common(scope: &Scope<'_>, operands: &[Formula], diags: &mut Diagnostics) -> Option<Dimension> {
     let first = operands.first()?;
     let other = operands.iter().find(|operand| dimension(operand) != dimension(first));

@@ -30,8 +30,12 @@ pub(super) fn number(
     let literal = Literal::of_tokens(&number.text, unit.map(|unit| unit.text.as_str()))?;
     if inside && literal.unit.is_some_and(|unit| unit.celsius) {
         diags.push(
-            Diagnostic::new(Code::E0235, span, "a temperature in 'degC' cannot be computed with")
-                .help("use 'K' in formulas; differences are the same in both"),
+            Diagnostic::new(
+                Code::E0235,
+                span,
+                "formulas cannot compute with a temperature in 'degC'",
+            )
+            .help("use 'K' in formulas; differences are the same in both"),
         );
         return None;
     }

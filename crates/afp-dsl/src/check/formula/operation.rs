@@ -88,10 +88,10 @@ pub(super) fn to_number(formula: Formula, diags: &mut Diagnostics) -> Option<For
             Some(convert(formula, Conversion::BoolToInt, Type::Int))
         }
         _ => {
-            let message = message!("{} cannot be computed with", Words(a_value(&formula.ty)));
+            let message = message!("formulas cannot compute with {}", Words(a_value(&formula.ty)));
             let help = match formula.ty.is_generic() {
                 true => "give the port a type with values, such as 'int', 'float' or 'length'",
-                false => "use numbers or quantities; texts can be joined with '+'",
+                false => "use numbers or quantities; strings can be joined with '+'",
             };
             diags.push(Diagnostic::new(Code::E0242, formula.span, message).help(help));
             None
@@ -103,10 +103,10 @@ fn to_text(formula: Formula, diags: &mut Diagnostics) -> Option<Formula> {
     match &formula.ty {
         Type::Text => Some(formula),
         ty if ty.is_generic() || matches!(ty, Type::Object(_)) => {
-            let message = message!("{} has no text", Words(a_value(&formula.ty)));
+            let message = message!("{} cannot be part of a string", Words(a_value(&formula.ty)));
             diags.push(
                 Diagnostic::new(Code::E0242, formula.span, message)
-                    .help("join texts, numbers, quantities, bools or values of enums"),
+                    .help("join strings, numbers, quantities, bools or values of enums"),
             );
             None
         }

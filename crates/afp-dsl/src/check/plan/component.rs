@@ -27,7 +27,6 @@ pub(super) struct Checked<T> {
     /// The component for the graph; `None` if it has errors.
     pub built: Option<T>,
     pub user: Option<User>,
-    /// Its signature.
     pub signature: Option<Rc<Signature>>,
     /// Its draft for the outline.
     pub draft: Component,
@@ -350,7 +349,7 @@ fn unguarded(node: &ast::Element, diags: &mut Diagnostics) {
             Diagnostic::new(
                 Code::E0218,
                 span,
-                "a computation takes no time, so no supervisor is asked meanwhile",
+                "a computation takes no time, so no supervisor is polled meanwhile",
             )
             .help("move 'on' to an actor or a sub-plan"),
         );

@@ -15,7 +15,6 @@ use afp_syntax::ast::{self, Bind, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Subject, Words, list};
 use afp_syntax::message;
 
-/// All verbs of actions.
 pub const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
 
 /// How to control the result of a computation.
@@ -70,7 +69,7 @@ impl Checker<'_> {
             && let Some(bind) = node.binds().first()
         {
             let port = bind.port();
-            let message = message!("'{}' has nothing that is called '{}'", verb.text, port.text);
+            let message = message!("'{}' has no value '{}'", verb.text, port.text);
             diags
                 .push(Diagnostic::new(Code::E0606, port.span, message).help("remove the brackets"));
             return None;
@@ -149,8 +148,8 @@ impl Checker<'_> {
             Some(Component::Actor(_) | Component::SubPlan(_)) => {
                 return Some(Action::Idle(Some(self.paths.number(found))));
             }
-            Some(Component::Computation(_)) => "a computation does nothing to the robot anyway",
-            None => "a supervisor does nothing to the robot; name the actor that it watches over",
+            Some(Component::Computation(_)) => "a computation does not control the robot",
+            None => "a supervisor does not control the robot; name the actor that it watches",
         };
         let message = message!("'{}' is for actors and sub-plans", "idle");
         let error = Diagnostic::new(Code::E0602, path.span(), message);
@@ -175,7 +174,7 @@ impl Checker<'_> {
         let ignored = !targets.is_empty() && targets.iter().all(|to| *to == Target::Ignore);
         if ignored || (missed && targets.is_empty()) {
             let (message, note) = match missed {
-                true => ("leads nowhere, so that nothing would follow", "this has no such edge"),
+                true => ("is not connected, so it would have no effect", "this has no such edge"),
                 false => ("is ignored, so it is never reported", "ignored here"),
             };
             let message = message!("'{}' {}", path.text(), Words(message));
@@ -183,7 +182,7 @@ impl Checker<'_> {
                 Diagnostic::new(Code::E0603, path.span(), message)
                     .about(Subject::Path(path.text()))
                     .note(self.paths.edge(found, outcome), note)
-                    .help("fire an event that leads somewhere"),
+                    .help("fire an event that is connected"),
             );
             return None;
         }
@@ -220,8 +219,7 @@ impl Checker<'_> {
             let port = bind.port();
             let index = wanted.iter().position(|(_, known, _)| known.name == port.text);
             let Some(index) = index else {
-                let message =
-                    message!("'{}' brings no connected output '{}'", path.text(), port.text);
+                let message = message!("'{}' has no connected output '{}'", path.text(), port.text);
                 let known = wanted.iter().map(|(_, port, _)| port.name.as_str());
                 let none = "remove the value";
                 diags.push(unknown(Code::E0608, port.span, message, &port.text, known, none));
@@ -243,12 +241,15 @@ impl Checker<'_> {
         let missing: Vec<_> = missing.map(|((_, port, ty), _)| (port, ty)).collect();
         if valid && !missing.is_empty() {
             let names = list(missing.iter().map(|(port, _)| port.name.as_str()), "and");
-            let message =
-                message!("'{}' also brings {}, which has no value here", path.text(), names);
+            let message = message!(
+                "'{}' also has the output {}, which has no value here",
+                path.text(),
+                names
+            );
             let object = missing.iter().any(|(_, ty)| matches!(ty, Type::Object(_)));
             let help = match object {
                 true => "choose another outcome: only its component can make an object".into(),
-                false => message!("write '({} = ...)' behind it", missing[0].0.name),
+                false => message!("write '({} = ...)' after it", missing[0].0.name),
             };
             diags.push(
                 Diagnostic::new(Code::E0608, path.span(), message)

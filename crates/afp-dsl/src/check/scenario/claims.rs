@@ -54,7 +54,7 @@ impl Checker<'_> {
         if rest.is_empty() && matches!(found.part, Part::Element(_)) {
             return Some(found);
         }
-        let message = message!("'{}' is no element", path.text());
+        let message = message!("'{}' is not an element", path.text());
         let events = self.paths.outcomes(found);
         let named = rest.first().and_then(|name| events.iter().find(|event| **event == name.text));
         let help = match (rest, named.or(events.first())) {
@@ -264,7 +264,7 @@ impl Checker<'_> {
 
     fn unknown_cause(&self, from: Found, name: &Name) -> Diagnostic {
         let owner = self.paths.name(from);
-        let message = message!("nothing that can end '{}' is called '{}'", owner, name.text);
+        let message = message!("'{}' cannot end by '{}'", owner, name.text);
         let causes = self.paths.causes(from);
         let known = causes.iter().filter(|(_, outcome)| *outcome != Outcome::Special);
         let known = known.map(|(found, outcome)| match *found == from {
@@ -277,7 +277,7 @@ impl Checker<'_> {
         let error = unknown(Code::E0602, name.span, message, &name.text, known, "remove 'by'");
         match self.paths.of_another(from, &name.text) {
             Some((place, other)) => {
-                error.note(place, message!("this claim is only about '{}'", other))
+                error.note(place, message!("this claim is possible only for '{}'", other))
             }
             None => error,
         }
@@ -315,7 +315,7 @@ impl Checker<'_> {
             [_, more, ..] => {
                 diags.push(
                     Diagnostic::new(Code::E0210, more.span, "a state or event has no parts")
-                        .help("remove what stands behind it"),
+                        .help("remove the part after it"),
                 );
                 None
             }
@@ -372,7 +372,7 @@ impl Checker<'_> {
                 Diagnostic::new(Code::E0603, path.span(), message)
                     .about(Subject::Path(path.text()))
                     .note(self.paths.edge(found, outcome), "ignored here")
-                    .help("expect an event that leads somewhere"),
+                    .help("expect an event that is connected"),
             );
             return None;
         }
@@ -380,7 +380,6 @@ impl Checker<'_> {
     }
 }
 
-/// The spelling of a target in a claim.
 fn written(target: &ClaimTarget) -> String {
     target.text(Path::text).to_string()
 }

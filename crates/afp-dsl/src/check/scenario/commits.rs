@@ -37,7 +37,7 @@ impl Checker<'_> {
                 Diagnostic::new(Code::E0603, path.span(), message)
                     .about(Subject::Path(path.text()))
                     .note(entry.span, "declared here")
-                    .help("name an entry that is no 'const'"),
+                    .help("name an entry that is not a 'const'"),
             );
             return None;
         }

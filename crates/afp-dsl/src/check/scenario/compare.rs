@@ -60,7 +60,7 @@ impl Checker<'_> {
         if let Type::Object(_) = left.ty {
             let message = message!("'{}' is an object, which only components can read", named.text);
             let error = Diagnostic::new(Code::E0604, named.span, message);
-            diags.push(at(error).help("expect what the plan makes of it"));
+            diags.push(at(error).help("expect a value that the plan computes from it"));
             return None;
         }
         if comparison.is_order() && !left.ty.is_numeric() {
@@ -86,7 +86,7 @@ impl Checker<'_> {
         let Some(better) = self.end_compared(&left.text, &sign.text, &right.names) else {
             return error;
         };
-        let message = "how the plan ends is no value";
+        let message = "the end of the plan is not a value";
         let place = left.span.to(right.span);
         let error = Diagnostic::new(Code::E0604, place, message);
         match sign.text.as_str() {

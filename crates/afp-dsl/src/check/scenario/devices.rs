@@ -73,7 +73,7 @@ impl Checker<'_> {
             let known = fault.amount.as_ref().filter(|known| known.name == port.text);
             let (Some(known), Bind::In { formula: Some(formula), .. }) = (known, bind) else {
                 let message =
-                    message!("'{}' says nothing of the fault '{}'", port.text, fault.name);
+                    message!("'{}' is not an amount of the fault '{}'", port.text, fault.name);
                 let known = fault.amount.iter().map(|known| known.name.as_str());
                 let none = "remove the brackets";
                 diags.push(unknown(Code::E0606, port.span, message, &port.text, known, none));
@@ -96,7 +96,6 @@ impl Checker<'_> {
 /// The help for a robot without such parts.
 const NOTHING: &str = "remove the line";
 
-/// The device and the fault of a path.
 fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault), Box<Diagnostic>> {
     let (names, written) = (path.names(), path.text());
     let error = match (robot.find::<Fault>(&names), names.as_slice()) {

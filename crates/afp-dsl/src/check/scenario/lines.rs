@@ -35,7 +35,7 @@ impl Checker<'_> {
             if let Some(key) = key {
                 if let Some((known, first)) = once.iter().find(|(known, _)| excludes(known, &key)) {
                     let message = match *known == key {
-                        true => message!("'{}' stands twice", key),
+                        true => message!("'{}' is repeated", key),
                         false => message!("'{}' does not go with '{}'", key, known),
                     };
                     diags.push(
@@ -184,7 +184,6 @@ fn not_here(line: &Line) -> Diagnostic {
         .help("write it in the scenario's own braces, outside of those of 'from'")
 }
 
-/// Whether two lines exclude each other.
 fn excludes(one: &str, other: &str) -> bool {
     let both = |a, b| [(a, b), (b, a)].contains(&(one, other));
     one == other || both("seed", "over seeds") || both("world", "over worlds")

@@ -41,7 +41,7 @@ fn count(bound: &Bound, diags: &mut Diagnostics) -> Option<u32> {
             Ok(_) => "write 'never' if it must not happen",
             Err(_) => "write a smaller number",
         };
-        let message = message!("nothing can be expected {} times", Words(number.text));
+        let message = message!("an event cannot be expected {} times", Words(number.text));
         diags.push(Diagnostic::new(Code::E0604, number.span, message).help(help));
     }
     count

@@ -58,9 +58,8 @@ impl Over {
         if let (Some(span), false) = (span, fits) {
             let message = message!("the scenario would be run more than {} times", MOST);
             diags.push(
-                Diagnostic::new(Code::E0224, span, message).help(
-                    "take fewer seeds or worlds; 'afpc sweep' makes as many runs as you like",
-                ),
+                Diagnostic::new(Code::E0224, span, message)
+                    .help("take fewer seeds or worlds; 'afpc sweep' makes more runs"),
             );
         }
         fits
@@ -109,7 +108,7 @@ fn range(first: &Name, behind: &Name, diags: &mut Diagnostics) -> Option<Range<u
 fn empty(what: &str, range: &Range<u64>, before: &str, place: Span) -> Diagnostic {
     let message = message!("no {} is in '{}{}..{}'", Words(what), before, range.start, range.end);
     Diagnostic::new(Code::E0224, place, message).help(message!(
-        "write the first {} and the one behind the last, such as '{}0..20'",
+        "write the first {} and the number after the last, such as '{}0..20'",
         Words(what),
         before
     ))

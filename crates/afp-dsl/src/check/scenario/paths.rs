@@ -228,7 +228,6 @@ impl<'a> Paths<'a> {
         here.or(own)
     }
 
-    /// All possible targets of an outcome.
     pub fn targets(&self, found: Found, outcome: Outcome) -> Vec<Target> {
         let own = self.target(found, outcome);
         let Part::Supervisor(id) = found.part else { return own.into_iter().collect() };

@@ -18,7 +18,6 @@ impl Checker<'_> {
         known || !matches!(self.robot.find::<Signal>(names), Found::Nothing)
     }
 
-    /// Whether names are a signal.
     pub(super) fn is_signal(&self, names: &[Name]) -> bool {
         matches!(self.robot.find::<Signal>(names), Found::Row(..))
     }
@@ -32,7 +31,7 @@ impl Checker<'_> {
     pub(super) fn fact_of_robot(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
         let Compared { subject, ty, .. } = self.measured(&Named::of_path(path), diags)?;
         if ty != Type::Bool {
-            let message = message!("'{}' is neither true nor false", path.text());
+            let message = message!("'{}' is not a truth value", path.text());
             let sign = if ty.is_numeric() { ">" } else { "==" };
             diags.push(Diagnostic::new(Code::E0604, path.span(), message).help(message!(
                 "compare it: '{} {} ...'",

@@ -18,7 +18,6 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// The stretch of some lines.
     pub fn of(lines: &[Line], from: Option<MomentId>, diags: &mut Diagnostics) -> Stretch {
         let written = lines.iter().find_map(|line| match line.kind() {
             LineKind::Until(time) => time,
@@ -53,7 +52,7 @@ impl Stretch {
         match self.until_span {
             Some(until) => error
                 .note(until, "it ends here")
-                .help("write an earlier time, or let it last longer"),
+                .help("write an earlier time, or make the scenario longer"),
             None => error.help("write an earlier time, or 'until' with a later one"),
         }
     }
@@ -75,12 +74,12 @@ impl Stretch {
             };
             if let Some((first, place)) = seen.iter().find(|(known, _)| clash(known)) {
                 let message = match *first == word {
-                    true => message!("'{}' stands twice", word),
+                    true => message!("'{}' is repeated", word),
                     false => message!("'{}' does not go with '{}'", word, first),
                 };
                 diags.push(
                     Diagnostic::new(Code::E0605, bound.span(), message)
-                        .note(*place, "the other one")
+                        .note(*place, "the other time")
                         .help("keep one of them"),
                 );
                 return None;

@@ -100,7 +100,7 @@ fn named<'c>(
     let Some(name) = name else {
         scope.names_only(formula);
         diags.push(
-            Diagnostic::new(Code::E0253, formula.span(), "this is no table")
+            Diagnostic::new(Code::E0253, formula.span(), "this is not a table")
                 .help(message!("write {}", some_table(context))),
         );
         return None;

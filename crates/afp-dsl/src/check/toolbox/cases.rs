@@ -17,7 +17,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
-/// So many parts of formulas are computed in a microsecond, on the slowest target that plans are made for.
+/// The number of formula nodes per microsecond on the slowest supported target.
 const PARTS_PER_MICROSECOND: u64 = 16;
 
 /// Reads the bodies of the states, or the facts of the events, if there are any.

@@ -45,7 +45,7 @@ pub(super) fn reads_no_text(formula: &Formula, diags: &mut Diagnostics) -> bool 
     let is_read = |op: &Op<Conversion>| matches!(op, Op::Convert(Conversion::FromText(_)));
     let Some(node) = formula.nodes().find(|node| is_read(&node.op)) else { return true };
     let ty = &node.note.ty;
-    let message = message!("a formula here cannot convert a text to {}", Words(a_type(ty)));
+    let message = message!("a formula here cannot convert a string to {}", Words(a_type(ty)));
     let error = Diagnostic::new(Code::E0519, node.note.span, message);
     diags.push(error.help(message!("declare the input as '{}'; the plan converts the text", ty)));
     false

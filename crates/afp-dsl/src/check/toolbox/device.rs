@@ -78,7 +78,7 @@ impl Devices {
             let Some(name) = control.name() else { continue };
             names.declare(&name, diags);
             if let (true, Some(first)) = (stops, self.stop) {
-                let message = "a robot has one control that stops what runs";
+                let message = "a robot has only one control that stops the plan";
                 diags.push(
                     Diagnostic::new(Code::E0511, name.span, message)
                         .note(first, "the first one")
@@ -111,7 +111,7 @@ fn name(node: &ast::Device, site: &Site<'_>, diags: &mut Diagnostics) -> Option<
         (DeviceKind::Robot, named) => {
             if let Some(name) = named {
                 site.record.unknown(name.span);
-                let message = "the robot as a whole has no name of its own";
+                let message = "the robot as a whole has no name";
                 diags.push(
                     Diagnostic::new(Code::E0515, name.span, message)
                         .help("write 'robot { ... }'")
@@ -121,7 +121,7 @@ fn name(node: &ast::Device, site: &Site<'_>, diags: &mut Diagnostics) -> Option<
             node.keyword()
         }
         (_, Some(name)) if name.text == ROBOT => {
-            let message = "'robot' is the robot as a whole";
+            let message = "'robot' is the name of the robot as a whole";
             diags.push(
                 Diagnostic::new(Code::E0515, name.span, message)
                     .help("write 'robot { ... }', or choose another name"),

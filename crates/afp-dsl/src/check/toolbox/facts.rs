@@ -57,10 +57,7 @@ fn fits(node: &ast::Outcome, name: &Name, diags: &mut Diagnostics) -> bool {
     let (span, message, help) = match (first, second) {
         (Some(first), _) if node.once() => (
             first,
-            message!(
-                "'{}' comes once, so it does not last as a condition or a time says",
-                name.text
-            ),
+            message!("'{}' occurs once, so it cannot have a condition or a time", name.text),
             "remove 'once', or remove the condition or time",
         ),
         (_, Some(second)) => {

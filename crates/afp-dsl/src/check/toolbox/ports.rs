@@ -196,8 +196,8 @@ impl Values<'_> {
     ) -> Option<Constant> {
         let span = formula.span();
         let refused = match self.ty {
-            Type::Object(_) => Some("objects cannot be written down"),
-            ty if ty.is_generic() => Some("the type differs from use to use"),
+            Type::Object(_) => Some("objects have no literals"),
+            ty if ty.is_generic() => Some("the type depends on the use"),
             _ => None,
         };
         if let Some(why) = refused {

@@ -159,9 +159,9 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
         let Part::Outcome(node) = part else { continue };
         if let Some(keyword) = node.keyword().filter(|keyword| keyword.text == wrong) {
             let message = match template.kind {
-                TemplateKind::Supervisor => "a supervisor has events, no states",
-                TemplateKind::Actor => "an actor has states, no events",
-                TemplateKind::Computation => "a computation has states, no events",
+                TemplateKind::Supervisor => "a supervisor has events, not states",
+                TemplateKind::Actor => "an actor has states, not events",
+                TemplateKind::Computation => "a computation has states, not events",
             };
             diags.push(Diagnostic::new(Code::E0510, keyword.span, message).write(right));
         }

@@ -64,14 +64,14 @@ impl<'a, 'b> Report<'a, 'b> {
         found = found.note(declared.span, "it has no value when the plan starts");
         if let Some(node) = first.node {
             let (path, blamed) = self.path(node, writes);
-            found = found.note(self.view.plan.start_span, message!("one way: {}", Words(&path)));
+            found = found.note(self.view.plan.start_span, message!("one path: {}", Words(&path)));
             found = blamed.into_iter().fold(found, |found, at| self.blame(found, at, entry));
         }
         for other in early.take(MAX_READS) {
-            found = found.note(other.span, "this reads it too early as well");
+            found = found.note(other.span, "this also reads it too early");
         }
         let otherwise = match first.node {
-            Some(_) => "write it on every way to here",
+            Some(_) => "write it on every path to this place",
             None => "watch with a supervisor of an element that runs later",
         };
         self.diags.push(found.help(remedy(declared, otherwise)));
@@ -88,7 +88,7 @@ impl<'a, 'b> Report<'a, 'b> {
         match ways.next() {
             Some(path) => found.note(
                 element.span,
-                message!("'{}' may end without a value for it: {}", element.name, Words(&path)),
+                message!("'{}' may end without writing it: {}", element.name, Words(&path)),
             ),
             None => found,
         }
@@ -113,8 +113,8 @@ impl<'a, 'b> Report<'a, 'b> {
         let message = message!("'{}' may have no value when the plan ends", declared.name);
         self.diags.push(
             Diagnostic::new(Code::E0310, declared.span, message)
-                .note(self.view.plan.start_span, message!("one way: {}", Words(&path)))
-                .help(remedy(declared, "write it on every way to 'terminate'")),
+                .note(self.view.plan.start_span, message!("one path: {}", Words(&path)))
+                .help(remedy(declared, "write it on every path to 'terminate'")),
         );
     }
 
@@ -122,7 +122,7 @@ impl<'a, 'b> Report<'a, 'b> {
     fn path(&mut self, goal: Node, writes: &[u32]) -> (String, Vec<usize>) {
         self.ways += 1;
         if self.ways > MAX_WAYS {
-            return ("not looked for, since there are so many".to_owned(), Vec::new());
+            return ("not searched, because there are too many".to_owned(), Vec::new());
         }
         let passes = |at: usize| writes.binary_search(&(at as u32)).is_err();
         let edges = dataflow::path(self.view, goal, passes).unwrap_or_default();

@@ -19,7 +19,6 @@ const MOST: i64 = MAX_TRANSITIONS_PER_STEP as i64;
 
 pub(super) struct Loops<'a, 'b> {
     view: &'a View<'b>,
-    /// The constant values.
     constants: &'a Known,
     /// Remaining edges of the search, so that its cost is linear in the plan.
     room: usize,
@@ -101,7 +100,7 @@ impl<'a, 'b> Loops<'a, 'b> {
             let others = ways.through(component[node], std::iter::once((node, 0)));
             if taken.saturating_add(others) > MOST {
                 let message = message!(
-                    "'{}' takes {} edges within one step, which may take at most {}, and {} more lead to it and on from it",
+                    "'{}' takes {} edges within one step, which may take at most {}, and {} more come before and after it",
                     element.name,
                     taken,
                     MOST,
@@ -143,7 +142,7 @@ impl<'a, 'b> Loops<'a, 'b> {
             if all > MOST && of_each.len() > 1 && reported.insert(*span) {
                 let names = list(of_each.values().map(|(.., label)| label.as_str()), "and");
                 let message = message!(
-                    "{} may come in one step and take {} edges together, of {} at most",
+                    "{} may come in one step and take {} edges together; the limit is {}",
                     names,
                     all,
                     MOST
@@ -195,9 +194,9 @@ impl Loop {
             let all = std::iter::once(&self.id).chain(&self.others);
             let names = all.map(|id| view.plan.elements[id.index()].name.as_str());
             let names = list(names, "and");
-            let go = if self.others.is_empty() { "goes" } else { "go" };
+            let go = if self.others.is_empty() { "repeats" } else { "repeat" };
             let message = message!(
-                "{} {} round more often within one step than {} edges allow",
+                "{} {} more often within one step than {} edges allow",
                 names,
                 Words(go),
                 MOST
@@ -215,7 +214,6 @@ impl Loop {
         Some((message, better))
     }
 
-    /// The number of rounds with this many edges each.
     fn goes_round(&self, view: &View<'_>, edges: usize, others: i64) -> Message {
         let name = &view.plan.elements[self.id.index()].name;
         let rounds = rounds(view, self.id, &self.counter);
@@ -226,14 +224,14 @@ impl Loop {
         };
         match self.taken >= MOST {
             true => message!(
-                "'{}' goes round {} times{} within one step, which may take at most {} edges",
+                "'{}' repeats {} times{} within one step, which may take at most {} edges",
                 name,
                 rounds,
                 each,
                 MOST
             ),
             false => message!(
-                "'{}' goes round {} times{} within one step, which may take at most {} edges, and {} more lead to the loop and on from it",
+                "'{}' repeats {} times{} within one step, which may take at most {} edges, and {} more come before and after the loop",
                 name,
                 rounds,
                 each,
@@ -244,7 +242,6 @@ impl Loop {
     }
 }
 
-/// The number of rounds of a counter.
 fn rounds(view: &View<'_>, id: ElementId, counter: &Counter) -> i64 {
     counter.limit.saturating_sub(counters::entered(view, id, counter.entry))
 }

@@ -101,7 +101,6 @@ impl Counters {
     }
 }
 
-/// The entry of a counter, and its counting.
 fn count_of(view: &View<'_>, element: &Element) -> Option<(EntryId, Counting)> {
     let counting = counting(view.cases(element)?)?;
     match element.inputs.get(usize::from(counting.value))?.op() {

@@ -12,7 +12,6 @@ use crate::table::Table;
 use crate::toolbox::case::reached;
 use crate::types::Constant;
 
-/// Known values of entries.
 pub(super) type Known = BTreeMap<EntryId, Constant>;
 
 /// Maximum number of tracked entries; beyond it none is tracked.
@@ -72,7 +71,6 @@ pub(super) fn excludes(view: &View<'_>, cause: Cause, known: &Known) -> bool {
     outcome(view, &view.plan.elements[id.index()], known).is_some_and(|decided| decided != state)
 }
 
-/// Known values after an edge.
 pub(super) fn after(view: &View<'_>, cause: Cause, known: &mut Known) {
     let values: Vec<_> =
         view.writes(cause).map(|output| written(view, cause, output, known)).collect();

@@ -65,7 +65,7 @@ fn is_plain(view: &View<'_>, formula: &Formula) -> bool {
     matches!(part.map(Part::op), Some(Op::Entry(_))) || view.constant(formula).is_some()
 }
 
-/// Whether a conversion takes every value. A number has texts of more than a text's length.
+/// Whether a conversion takes every value. A number may need more characters than a string holds.
 fn always_converts(conversion: &Conversion) -> bool {
     match conversion {
         Conversion::FloatToInt | Conversion::FromText(_) => false,

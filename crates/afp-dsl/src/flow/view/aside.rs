@@ -103,7 +103,7 @@ impl View<'_> {
         own.map(|aside| aside.element).collect()
     }
 
-    /// Whether a state, a fault or an event of an element, or a computation behind it, returns.
+    /// Whether a state, a fault or an event of an element, or a computation after it, returns.
     pub fn can_return(&self, node: Node) -> bool {
         let (mut open, mut seen) = (vec![node], BTreeSet::new());
         while let Some(node) = open.pop() {
@@ -119,7 +119,6 @@ impl View<'_> {
         false
     }
 
-    /// Whether a node is a computation that can return.
     pub fn computation_returns(&self, node: Node) -> bool {
         is_computation(self, node) && self.can_return(node)
     }

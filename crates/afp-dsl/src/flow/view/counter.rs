@@ -9,7 +9,6 @@ use crate::toolbox::Case;
 /// A `Count` with a known limit.
 #[derive(Clone, Copy)]
 pub(crate) struct Counter {
-    /// Its entry.
     pub entry: EntryId,
     pub limit: i64,
     /// Least value of its entry before any count: zero, which `Done` writes, or less.

@@ -65,7 +65,7 @@ impl Data {
                 (true, false) => None,
             };
             let ty = type_of(&entry).ok_or_else(|| {
-                Refused::new(format!("'{name}' has no written type, which the new plan needs"))
+                Refused::new(format!("'{name}' needs a written type for the new plan"))
             })?;
             let range = children(&entry, Kind::Range).next();
             let range = range.map(|range| format!(" {}", solid(&range))).unwrap_or_default();

@@ -47,7 +47,7 @@ impl Flow {
         let interrupted = one("events lead to", &events)?;
         if interrupted.as_deref() == Some("terminate") {
             return Err(Refused::new(
-                "an event of the selection ends the plan as Interrupted, which a sub-plan cannot do for the plan around it",
+                "an event of the selection ends the plan as Interrupted, and a sub-plan cannot end its caller",
             ));
         }
         let usual = || name_of(&selection.elements[0]).unwrap_or_default();
@@ -96,7 +96,9 @@ fn one(what: &str, tokens: &[Token]) -> Result<Option<String>, Refused> {
     let names: BTreeSet<_> = tokens.iter().map(|token| token.text().to_owned()).collect();
     if names.len() > 1 {
         let list = afp_syntax::diagnostics::words::list(names.iter().map(String::as_str), "and");
-        return Err(Refused::new(format!("{what} {list}, but a sub-plan has one way for that")));
+        return Err(Refused::new(format!(
+            "{what} {list}, but a sub-plan has only one target for them"
+        )));
     }
     Ok(names.into_iter().next())
 }

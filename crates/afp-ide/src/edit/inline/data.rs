@@ -150,19 +150,21 @@ impl Data {
         };
         let passed = formula.as_ref().is_some_and(|formula| formula.kind() != Kind::Literal);
         if passed && children(entry, Kind::Range).next().is_some() {
-            return Err(Refused::new(format!("the range of '{name}' is checked on its way in")));
+            return Err(Refused::new(format!(
+                "the sub-plan checks the range of its input '{name}'"
+            )));
         }
         let shape = formula.or_else(|| init(entry));
         let Some(shape) = shape else { return Ok(()) };
         if tree::holds_comment(&shape) {
-            return Err(Refused::new(format!("there is a comment in the formula of '{name}'")));
+            return Err(Refused::new(format!("the formula of '{name}' contains a comment")));
         }
         let ty = type_of(entry).unwrap_or_default();
         let homes = [&call.outer, &call.inner];
         let exact = is_exact(&shape, &ty, &homes);
         if !exact {
             return Err(Refused::new(format!(
-                "the value of '{name}' is converted on its way in; give it the type '{ty}' first"
+                "the sub-plan converts its input '{name}'; give it the type '{ty}' first"
             )));
         }
         let text = match shape.kind() {

@@ -83,7 +83,7 @@ fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refu
 
 fn interrupted(call: &Call) -> Result<String, Refused> {
     match call.interrupted.as_deref() {
-        None => Err(Refused::new("'Interrupted' of the sub-plan leads nowhere")),
+        None => Err(Refused::new("'Interrupted' of the sub-plan is not connected")),
         Some("terminate") => Err(Refused::new(
             "an event of the sub-plan would end the plan as Interrupted, which it now ends as OK",
         )),

@@ -57,7 +57,7 @@ fn a_fragment_is_one_formula() {
     refused(PLAN, bind_out(go(), "gap", "nowhere"), "there is no entry 'nowhere' in the plan");
     refused(PLAN, unbind(go(), "speed"), "'speed' of 'go' is not bound");
     let commented = PLAN.replace("-limit,", "-  // c\n limit,");
-    refused(&commented, bind(back(), "distance", "1 m"), "there is a comment in the formula");
+    refused(&commented, bind(back(), "distance", "1 m"), "the formula contains a comment");
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn entries_change_part_by_part() {
     assert_eq!(after(&live, kind("limit", "in")), live);
     replaces(kind("gap", "in"), &[("var gap", "in gap")]);
     refused(PLAN, kind("gap", "let"), "an entry is 'in', 'out', 'var' or 'const', not 'let'");
-    refused(PLAN, kind("go", "in"), "'go' is no entry");
+    refused(PLAN, kind("go", "in"), "'go' is not an entry");
     refused(PLAN, ty(Some("length = 3")), "'length = 3' is not a type");
 }
 

@@ -93,7 +93,7 @@ fn only_conditions_and_formulas_are_accepted() {
     );
     let noted = TEXT.replace("turn = 10 deg", "turn = 10 /* why */ deg");
     let reason = edit(&noted, &assign("Left", "turn", None)).unwrap_err().reason;
-    assert_eq!(reason, "there is a comment in it");
+    assert_eq!(reason, "it contains a comment");
 }
 
 #[test]
@@ -104,8 +104,8 @@ fn computations_are_added_before_the_first_plan_with_a_new_name() {
     assert_eq!(after(TEXT, add(&new.replace('\n', " "))), wanted);
     for taken in ["computation P { state S {} }", "plan Steer {}"] {
         let reason = edit(TEXT, &add(taken)).unwrap_err().reason;
-        assert!(reason.ends_with("is already there"), "{reason}");
+        assert!(reason.ends_with("already exists"), "{reason}");
     }
     let reason = edit(TEXT, &add("actor A { state S }")).unwrap_err().reason;
-    assert_eq!(reason, "the text holds something else than plans and computations");
+    assert_eq!(reason, "the text has items other than plans and computations");
 }

@@ -133,12 +133,8 @@ fn a_plan_is_renamed_only_where_it_is_visible() {
 #[test]
 fn a_new_name_must_be_free_where_it_is_visible() {
     let change = rename(Item::plan("Lap"), "Other");
-    refused(1, &change, "'Other' is already there in 'main.afp'");
-    refused(
-        1,
-        &rename(Item::plan("Lap"), "Rest"),
-        "'Rest' is already there in 'lib/deep/rest.afp'",
-    );
+    refused(1, &change, "'Other' already exists in 'main.afp'");
+    refused(1, &rename(Item::plan("Lap"), "Rest"), "'Rest' already exists in 'lib/deep/rest.afp'");
     refused(1, &rename(Item::enumeration("Mood"), "length"), "'length' is a type of the language");
     let object = "'DistanceMap' is a type of the toolbox 'carbot'";
     refused(1, &rename(Item::enumeration("Mood"), "DistanceMap"), object);
@@ -177,7 +173,7 @@ fn a_value_of_an_enum_is_renamed_in_all_files() {
     };
     let wanted = [(0, "Mood.wild", "Mood.mad"), (1, "calm wild", "calm mad")];
     replaces(1, &change("mad"), &wanted);
-    refused(1, &change("calm"), "'calm' is already there");
+    refused(1, &change("calm"), "'calm' already exists");
     refused(1, &change("1"), "'1' cannot be a name");
     refused(0, &change("mad"), "there is no enum 'Mood'");
 }
@@ -196,7 +192,7 @@ fn an_enum_is_renamed_in_types_and_values() {
 #[test]
 fn names_used_by_another_file_stay() {
     let remove = |item| Change::Remove { item };
-    let named = |name: &str| format!("'{name}' is named in 'main.afp': take it out of there first");
+    let named = |name: &str| format!("'main.afp' uses '{name}': remove that use first");
     refused(1, &remove(Item::plan("Lap")), &named("Lap"));
     refused(1, &remove(Item::inner("Lap", "seen")), &named("seen"));
     refused(1, &remove(Item::enumeration("Mood")), &named("Mood"));

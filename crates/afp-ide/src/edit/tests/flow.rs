@@ -84,7 +84,7 @@ fn invalid_connections_are_refused() {
     refused(
         PLAN,
         connect(Item::inner("P", "gap"), "Done", "go"),
-        "'gap' is no element or supervisor",
+        "'gap' is not an element or supervisor",
     );
 }
 
@@ -171,7 +171,7 @@ fn an_element_without_braces_loses_its_edge() {
     let removed = after(SHORT, Change::Remove { item: Item::inner("P", "say") });
     assert!(removed.contains("subplan work: Q {},\n}"), "{removed}");
     let unknown = SHORT.replacen("Wait(", "Nothing(", 1);
-    let why = "the edge of 'rest' is for no state that is known";
+    let why = "the edge of 'rest' is not for a known state";
     refused(&unknown, connect(rest(), "Error", "say"), why);
 }
 

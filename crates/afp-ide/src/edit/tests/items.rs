@@ -109,7 +109,7 @@ fn invalid_items_are_refused() {
     );
     refused(PLAN, used(r#""a.afp""#, Some("a")), r#""a.afp" is a file, which has no short name"#);
     refused(PLAN, used(r#""a" "b.afp""#, None), r#"'"a" "b.afp"' cannot be a name"#);
-    refused(PLAN, add("actor go: A {}", None, None), "'go' is already there");
+    refused(PLAN, add("actor go: A {}", None, None), "'go' already exists");
     refused(PLAN, add("actor GO: A {}", None, None), "'GO' and 'go' differ only in case or '_'");
     refused(
         PLAN,
@@ -118,8 +118,8 @@ fn invalid_items_are_refused() {
     );
     refused(PLAN, add("var x: int var x: int", None, None), "'x' is given twice");
     refused(PLAN, add("start go", None, None), "'start go' cannot be put here");
-    refused(PLAN, add("} plan Q {", None, None), "the text is more than items of one list");
-    refused(PLAN, add("", None, None), "the text holds no item");
+    refused(PLAN, add("} plan Q {", None, None), "the text has more than the items of one list");
+    refused(PLAN, add("", None, None), "the text has no item");
     refused(PLAN, add("var x: int", None, Some("y")), "there is no 'y' to insert before");
     refused(
         "plan P { computation c: C {} }",
@@ -259,8 +259,8 @@ fn every_reference_takes_the_new_name() {
 }
 
 #[test]
-fn names_that_clash_are_refused() {
-    refused(PLAN, rename(go(), "back"), "'back' is already there");
+fn conflicting_names_are_refused() {
+    refused(PLAN, rename(go(), "back"), "'back' already exists");
     refused(PLAN, rename(go(), "Back"), "'Back' and 'back' differ only in case or '_'");
     refused(PLAN, rename(go(), "terminate"), "'terminate' cannot be the name of an element");
     refused(PLAN, rename(go(), "1a"), "'1a' cannot be a name");
@@ -313,9 +313,9 @@ fn items_move_between_plans_and_owners() {
     refused(&two, shift(go(), "Q", None), "'Q' has no entry 'gap'");
     let timed = two.replace("every 1 ms", "every limit").replace("in limit: length\n", "");
     refused(&timed, shift(touch(), "Q", Some("b")), "'Q' has no entry 'limit'");
-    refused(&two, shift(Item::inner("P", "gap"), "Q", None), "'gap' is used where it is");
+    refused(&two, shift(Item::inner("P", "gap"), "Q", None), "'gap' is used at its present place");
     refused(&two, shift(back(), "P", None), "'back' is already in this place");
-    refused(&two, shift(back(), "Q", Some("b")), "'back' is no supervisor");
+    refused(&two, shift(back(), "Q", Some("b")), "'back' is not a supervisor");
     replaces(
         shift(touch(), "P", None),
         &[

@@ -110,7 +110,7 @@ scenario \"s\" for P {
 }
 
 #[test]
-fn scenarios_follow_what_is_extracted() {
+fn scenarios_follow_an_extracted_plan() {
     let text = PLAN.replace(ONE_WAY, "        Lost  -> follow\n");
     let text = text.replace("{ Pressed -> terminate }", "{ Pressed -> find }");
     let scenario = |claim: &str| text.replace("    expect find -> turn\n", claim);
@@ -147,8 +147,8 @@ fn an_earlier_value_becomes_an_input() {
 }
 
 #[test]
-fn a_flow_that_no_sub_plan_has_is_refused() {
-    let ways = |what: &str| format!("{what}, but a sub-plan has one way for that");
+fn a_flow_that_a_sub_plan_cannot_have_is_refused() {
+    let ways = |what: &str| format!("{what}, but a sub-plan has only one target for them");
     refused(PLAN, extract(&["find", "turn"]), &ways("states lead to 'back' and 'follow'"));
     refused(
         PLAN,
@@ -159,12 +159,12 @@ fn a_flow_that_no_sub_plan_has_is_refused() {
     refused(
         &ends,
         extract(&["turn"]),
-        "an event of the selection ends the plan as Interrupted, which a sub-plan cannot do for the plan around it",
+        "an event of the selection ends the plan as Interrupted, and a sub-plan cannot end its caller",
     );
     refused(PLAN, extract(&[]), "no element is selected");
     refused(PLAN, extract(&["x"]), "'P' has no element 'x'");
     let untyped = PLAN.replace("var angle:    angle", "var angle = 3 deg");
-    refused(&untyped, extract(&["turn"]), "'angle' has no written type, which the new plan needs");
+    refused(&untyped, extract(&["turn"]), "'angle' needs a written type for the new plan");
 }
 
 const CALL: &str = "\
@@ -303,11 +303,11 @@ fn a_change_of_meaning_is_refused() {
     change(
         "scale: int = 2",
         "scale: int = 2.5",
-        "the value of 'scale' is converted on its way in; give it the type 'int' first",
+        "the sub-plan converts its input 'scale'; give it the type 'int' first",
     );
     change("out gap:   length", "out gap: int", "'gap' and 'gap' differ in type");
     change("limit = base + 1 m, ", "", "'limit' is not bound");
-    change("        Interrupted -> align\n", "", "'Interrupted' of the sub-plan leads nowhere");
+    change("        Interrupted -> align\n", "", "'Interrupted' of the sub-plan is not connected");
     change(
         "Interrupted -> align",
         "Interrupted -> terminate",
@@ -315,7 +315,7 @@ fn a_change_of_meaning_is_refused() {
     );
     change("subplan align: Align", "actor align: Align", "'align' is not a sub-plan of a plan");
     let watched = format!("{CALL}\nscenario \"s\" for P {{ expect align -> go until 5 s }}\n");
-    refused(&watched, inline(), "a scenario says what comes after 'align' as a whole");
+    refused(&watched, inline(), "a scenario expects something after 'align' as a whole");
 }
 
 #[test]
@@ -343,7 +343,7 @@ plan P {
     let narrow = CALL.replace("out gap:   length", "out gap: length from 0 m to 1 m");
     refused(&narrow, inline(), "'gap' and 'gap' differ in range");
     let checked = CALL.replace("in  limit: length", "in  limit: length from 0 m to 9 m");
-    refused(&checked, inline(), "the range of 'limit' is checked on its way in");
+    refused(&checked, inline(), "the sub-plan checks the range of its input 'limit'");
 }
 
 #[test]

@@ -29,11 +29,11 @@ fn a_table_is_renamed_where_it_is_read() {
 fn a_table_needs_an_unused_name() {
     let refused = |to: &str| edit(TEXT, &rename(to)).unwrap_err().reason;
     assert_eq!(refused("length"), "'length' is a type of the language");
-    assert!(refused("P").contains("'P' is already there"), "{}", refused("P"));
+    assert!(refused("P").contains("'P' already exists"), "{}", refused("P"));
     let text = format!("{TEXT}\nenum Side {{ left right }}\n");
     for item in [Item::plan("P"), Item::enumeration("Side")] {
         let change = Change::Rename { item, to: "route".to_owned() };
-        assert_eq!(edit(&text, &change).unwrap_err().reason, "'route' is already there");
+        assert_eq!(edit(&text, &change).unwrap_err().reason, "'route' already exists");
     }
 }
 
@@ -56,7 +56,7 @@ fn a_column_is_renamed_where_it_is_bound() {
     let wanted = two.replace("route(x:", "route(far:").replace(", x =>", ", far =>");
     assert_eq!(after(&two, rename("far")), wanted);
     let refused = |to: &str| edit(&two, &rename(to)).unwrap_err().reason;
-    assert_eq!(refused("y"), "'y' is already there");
+    assert_eq!(refused("y"), "'y' already exists");
     assert_eq!(refused("index"), "'index' is a port of computations that read tables");
     assert_eq!(refused("2"), "'2' cannot be a name");
 }

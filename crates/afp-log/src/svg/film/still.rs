@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn an_invalid_picture_is_none() {
+    fn an_invalid_picture_is_rejected() {
         assert_eq!(fewer_colors(b"no picture"), None);
         assert_eq!([0, 3, 4, 255].map(nearest), [0, 0, 8, 255]);
     }

@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_maps_distance_is_the_likeliest_and_nearer_likelier_than_farther() {
+    fn the_maps_distance_is_likeliest_and_nearer_is_likelier_than_farther() {
         let of = |heard| likelihood(Expected::Echo(2.0), Some(heard));
         assert_eq!(of(2.0), 1.0);
         assert!(of(1.0) > of(3.0) && of(1.95) > of(1.9) && of(1.9) > of(1.5));
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn an_object_before_the_maps_is_excused_and_nothing_else() {
+    fn only_an_object_in_front_of_the_map_is_tolerated() {
         let of = |heard| excused(Expected::Echo(2.0), heard);
         assert_eq!((of(Some(1.0)), of(Some(2.0))), (EXCUSED, 1.0));
         assert!(of(Some(3.0)) < 0.1 && of(None) < 0.3);

@@ -63,7 +63,7 @@ impl Courses {
             return Err(PyValueError::new_err("the bearings of the fan must be finite numbers"));
         }
         if points && parts.contains(&Part::Fan) {
-            let text = "an action cannot point the range sensor while the fan is observed; leave one of them out";
+            let text = "an action cannot point the range sensor while the fan is observed; remove one of them";
             return Err(PyValueError::new_err(text));
         }
         let target = reach.map(kind).transpose()?;
@@ -276,7 +276,7 @@ impl Courses {
     fn take(&self) -> PyResult<MutexGuard<'_, ()>> {
         self.use_of.try_lock().map_err(|why| match why {
             TryLockError::WouldBlock => {
-                PyRuntimeError::new_err("another thread steps these episodes")
+                PyRuntimeError::new_err("another thread runs these episodes")
             }
             TryLockError::Poisoned(_) => broke(),
         })

@@ -58,7 +58,7 @@ fn robot_of(robot: &dyn Any) -> Option<&Simulation> {
 /// The Carbot's room of a world.
 pub fn room(world: &World) -> PyResult<&Room> {
     let room = world.loaded.world.as_any().downcast_ref::<Room>();
-    room.ok_or_else(|| error("the world is that of another robot"))
+    room.ok_or_else(|| error("the world is for another robot"))
 }
 
 /// The kind of target with that name.

@@ -12,7 +12,7 @@ const REACHED: usize = 4;
 
 /// The error for a term without a target.
 pub const NOTHING_TO_REACH: &str =
-    "there is nothing to reach: say reach=\"goal\" or reach=\"light\"";
+    "there is nothing to reach: set reach=\"goal\" or reach=\"light\"";
 
 /// The distance that the robot should keep to the wall at its right, in metres.
 const KEEP: f64 = 0.3;
@@ -64,7 +64,7 @@ impl Target {
     ) -> Result<Target, String> {
         match kind {
             Kind::Light => {
-                let none = || format!("'{}' has no infrared source to be found", world.name);
+                let none = || format!("'{}' has no infrared source", world.name);
                 let light = world.lights.first().ok_or_else(none)?;
                 Ok(Target { at: light.position, within: AT_LIGHT })
             }

@@ -46,7 +46,7 @@ impl Located {
         (self.count > 0).then_some(self.last)
     }
 
-    /// The figures of the run; `None` if the localisation was unused.
+    /// The results of the run; `None` if the localisation was unused.
     pub(crate) fn figure(&self) -> Option<Figure> {
         self.last()?;
         let (metres, degrees) = (self.p95(&self.off) * METRES, self.p95(&self.turned) * DEGREES);

@@ -67,7 +67,7 @@ impl<'a> Check<'a> {
         self.near(key, points.as_flattened())?;
         if points.len() < 3 {
             let message = format!("a polygon has three corners or more, not {}", points.len());
-            return Err(self.error(key, &message, "add the others"));
+            return Err(self.error(key, &message, "add the other corners"));
         }
         let single = points.iter().map(|corner| corner.map(|at| f64::from(at as f32)));
         let single: Vec<_> = single.collect();
@@ -75,14 +75,18 @@ impl<'a> Check<'a> {
         if let Some([x, y]) = flat.map(|at| points[at]) {
             let [x, y] = [x, y].map(number);
             let message = format!("the corner [{x}, {y}] is on the line between its neighbours");
-            return Err(self.error(key, &message, "leave it out"));
+            return Err(self.error(key, &message, "remove it"));
         }
         let turning = turning(&points).filter(|_| turning(&single).is_some());
         match turning {
             Some(true) => {}
             Some(false) => points.reverse(),
             None => {
-                return Err(self.error(key, "the polygon is not convex", "draw it as several"));
+                return Err(self.error(
+                    key,
+                    "the polygon is not convex",
+                    "split it into convex polygons",
+                ));
             }
         }
         Ok(points)

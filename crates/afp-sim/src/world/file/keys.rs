@@ -227,7 +227,7 @@ impl Kind {
 
     fn what(&self) -> &'static str {
         match self {
-            Text => "a text in quotes",
+            Text => "a string in quotes",
             Truth => "true or false",
             Whole => "a whole number",
             Number => "a number",

@@ -129,7 +129,7 @@ mod tests {
     use crate::world::file::keys::WORLD;
 
     #[test]
-    fn every_key_is_one_of_the_file() {
+    fn every_key_is_in_the_file() {
         let whole = "version = 1\nrobot = { pose_m_deg = [0, 0, 0] }\n";
         assert!(toml_edit::de::from_str::<File>(whole).is_ok());
         for key in WORLD.iter().map(|key| key.name) {

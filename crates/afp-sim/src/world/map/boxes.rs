@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_cells_can_be_reached_step_by_step_from_beyond() {
+    fn outside_cells_are_connected_to_the_border() {
         for seed in 0..100 {
             let cells = sprinkled(2 + seed % 4, seed);
             let (width, height) = (cells.width, cells.height);

@@ -35,7 +35,7 @@ fn pgm<T>(bytes: &[u8], binary: bool, read: impl Fn(Pixel) -> T) -> Result<Grid<
     let (width, height, most) = (next()?, next()?, next()?);
     let cells = cells(width, height).ok_or("the map's PGM is too large")?;
     if !(1..=65535).contains(&most) || cells == 0 {
-        return Err(format!("a PGM of {width} by {height} with values up to {most} is no map"));
+        return Err(format!("a PGM of {width} by {height} with values up to {most} is not a map"));
     }
     let scale = |value: usize| {
         let grey = (value.min(most) * 65535 + most / 2) / most;

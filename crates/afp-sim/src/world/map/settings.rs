@@ -315,7 +315,7 @@ mod tests {
     ];
 
     #[test]
-    fn cells_are_those_of_nav2() {
+    fn cells_equal_the_cells_of_nav2() {
         for (mode, negate, cells) in CASES {
             for mode in [mode.to_owned(), mode.to_uppercase()] {
                 let yaml = format!(

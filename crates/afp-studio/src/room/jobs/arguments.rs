@@ -63,7 +63,7 @@ pub(super) fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<S
             };
             [texts(&["new", &name]), texts(&Vec::from_iter(with))].concat()
         }
-        other => return Err(format!("there is no job '{other}'")),
+        other => return Err(format!("unknown job '{other}'")),
     })
 }
 
@@ -99,7 +99,7 @@ fn until(value: &Value) -> Result<Option<String>, String> {
 /// The help for a malformed value.
 fn remedy(name: &str) -> &'static str {
     match name {
-        "seeds" => ": write from which one on and up to which, '0..20' (the last is 19)",
+        "seeds" => ": write a range such as '0..20' (the last seed is 19)",
         "until" => ": write a time, '30 s'",
         "vary" => {
             ": write an input with its values, 'walldist=20cm..60cm:10cm' or 'walldist=20cm,30cm'"

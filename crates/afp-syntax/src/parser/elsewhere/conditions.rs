@@ -1,4 +1,4 @@
-//! Conditions of the states of a declared computation as other languages write them.
+//! Conditions of declared computations in the syntax of other languages.
 
 use super::matcher::between;
 use crate::diagnostics::{Code, Diagnostic};
@@ -8,9 +8,9 @@ use crate::lexer::Token;
 use crate::message;
 use crate::parser::Parser;
 
-/// Words that begin a condition elsewhere.
+/// Words that begin a condition in other languages.
 const WHEN: &[&str] = &["if", "where", "while", "whenever", "provided"];
-/// Words and signs that end one elsewhere.
+/// Words and signs that end a condition in other languages.
 const THEN: &[&str] = &["then", "do", ":", "->", "=>"];
 /// Words for the state of all other cases.
 const REST: &[&str] = &["else", "otherwise", "default"];
@@ -19,8 +19,8 @@ const AND: &[&str] = &["and", "&&", "&", ",", "AND"];
 const OR: &[&str] = &["or", "|", "xor", "OR"];
 
 impl<'t> Parser<'t, '_> {
-    /// Whether 'when' begins a condition behind a state. Reports what is written in its place, and a condition that is
-    /// written otherwise; that one is passed over.
+    /// Whether 'when' begins a condition after a state. Reports a substitute for 'when'; reports
+    /// and skips a condition of another language.
     pub(in crate::parser) fn at_condition(&mut self) -> bool {
         if !self.on_same_line() || self.at(Kind::OpenBrace) {
             return false;
@@ -74,7 +74,7 @@ impl<'t> Parser<'t, '_> {
         line
     }
 
-    /// Reports a condition that is not written as here, and passes over it.
+    /// Reports and skips a condition of another language.
     fn condition_elsewhere(&mut self, line: &[Token<'t>], is_word: bool, said: Said) {
         let (Some(first), Some(last)) = (line.first(), line.last()) else { return };
         let here = self.span_of(*first).to(self.span_of(*last));

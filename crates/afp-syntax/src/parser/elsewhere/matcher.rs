@@ -12,13 +12,13 @@ pub(in crate::parser) fn is_large(name: &str) -> bool {
     name.starts_with(|first: char| first.is_ascii_uppercase())
 }
 
-/// Whether a token has a text that somebody wrote as part of a plan.
+/// Whether a token is text of a plan, and not a comment or white space.
 pub(super) fn is_written(token: &Token<'_>) -> bool {
     !token.kind.is_trivia() && !token.text.is_empty()
 }
 
-/// The habits by the words with which their patterns may begin, each in the order of the table. A text with an error in
-/// each line asks for them in each line.
+/// The habits by the first words of their patterns, each in the order of the table. A file with
+/// many errors needs them for each line.
 static BY_FIRST: LazyLock<BTreeMap<&'static str, Vec<usize>>> = LazyLock::new(|| {
     let mut first: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for (index, habit) in HABITS.iter().enumerate() {
@@ -32,7 +32,7 @@ static BY_FIRST: LazyLock<BTreeMap<&'static str, Vec<usize>>> = LazyLock::new(||
     first
 });
 
-/// The habits of a place whose patterns may begin with a token, in the order of the table.
+/// The habits of a place with patterns that may begin with a token, in the order of the table.
 pub(super) fn beginning(token: &str, place: Places) -> Vec<&'static Habit> {
     let is_name = token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
     let classes: &[_] = match is_name {
@@ -60,7 +60,7 @@ pub(super) struct Matcher<'l, 't> {
 }
 
 impl Matcher<'_, '_> {
-    /// The token behind the pattern, if it is written from one token on.
+    /// The token after the pattern, if the pattern matches from a token on.
     pub fn matches(&mut self, pattern: &str, mut at: usize) -> Option<usize> {
         let mut rest = pattern.trim_end();
         while !rest.is_empty() {
@@ -82,7 +82,7 @@ impl Matcher<'_, '_> {
         Some(at)
     }
 
-    /// Anything, as short as what is behind it in the pattern allows.
+    /// Any tokens; the shortest match counts.
     fn anything(&mut self, behind: &str, from: usize) -> Option<usize> {
         if matches!(self.text(from), "->") {
             return None;
@@ -154,7 +154,7 @@ impl Matcher<'_, '_> {
     }
 }
 
-/// The text of tokens, with a blank where there is something between them, and without a ';' at the end.
+/// The text of tokens, with a space for each gap, without a ';' at the end.
 pub(super) fn between(tokens: &[Token<'_>]) -> String {
     let mut text = String::new();
     let mut end = None;

@@ -16,7 +16,7 @@ pub(super) struct Reads<'h> {
 }
 
 impl<'h> Reads<'h> {
-    /// The value that a help reads first, if that is a name.
+    /// The value that a help reads first, if it is a name.
     pub fn of(help: &'h str) -> Option<Reads<'h>> {
         let begins =
             ["choose: Is(value = ", "choose: Compare(left = ", "value: CheckValue(value = "];
@@ -34,7 +34,7 @@ impl<'h> Reads<'h> {
 }
 
 impl Parser<'_, '_> {
-    /// Whether a name is that of a value, a component or a sensor, so that it is not the name of a state or event.
+    /// Whether a name belongs to a value, a component or a sensor, and not to a state or event.
     pub(in crate::parser) fn is_read(&self, name: &str) -> bool {
         let known = self.known();
         let is_small = name.starts_with(|first: char| first.is_ascii_lowercase());
@@ -43,8 +43,8 @@ impl Parser<'_, '_> {
             || is_small && Sensor::named(name).is_some()
     }
 
-    /// The fault and its help, if a condition reads something that is not an entry; `says` and `help` are the texts for
-    /// an entry.
+    /// The fault and its help, if a condition reads something that is not an entry; `says` and
+    /// `help` are for an entry.
     pub(super) fn no_entry(
         &self,
         (says, help): (&str, &str),
@@ -124,7 +124,7 @@ impl Parser<'_, '_> {
 
 /// The fault of a condition that names a supervisor or one of its events, and its help.
 fn leads((supervisor, event): (&str, &str), then: &str, edge: &str) -> (String, String) {
-    let says = format!("'{supervisor}' is a supervisor: its event leads on");
+    let says = format!("'{supervisor}' is a supervisor: connect its event");
     (says, format!("write {edge}'{event} -> {then}' in the braces of '{supervisor}'"))
 }
 

@@ -9,7 +9,7 @@ use crate::source::Span;
 
 /// The help for text after a claim.
 const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 'once' or '3 times'; \
-     another claim is a line of its own";
+     write another claim on its own line";
 
 /// Words for a count, and their correct forms.
 const OFTEN: &[(&str, &str)] = &[("twice", "2 times"), ("thrice", "3 times")];
@@ -19,7 +19,7 @@ fn is_end(word: &str) -> bool {
     ENDS.into_iter().any(|end| end.eq_ignore_ascii_case(word))
 }
 
-/// The help for text after a line, and an edit if one edit mends the line.
+/// The help for text after a line, and an edit if it fixes the line.
 struct Said(Message, Option<(Span, String)>);
 
 impl Parser<'_, '_> {
@@ -47,10 +47,10 @@ impl Parser<'_, '_> {
         };
         let what = match first {
             "expect" | "never" => "a claim",
-            "at" => "what happens",
+            "at" => "an action",
             _ => "a line",
         };
-        let message = message!("{} does not belong behind {}", self.found(), Words(what));
+        let message = message!("{} does not belong after {}", self.found(), Words(what));
         let error = Diagnostic::new(Code::E0102, self.next_span(), message).help(help);
         self.error(match fix {
             Some((place, text)) => error.fix(place, text),
@@ -86,10 +86,10 @@ impl Parser<'_, '_> {
                 write(">=", true)
             }
             _ if matches!(self.nth(0), Kind::FatArrow | Kind::Minus) => {
-                Said("write '->' for what follows an element".into(), None)
+                Said("write '->' before the next element".into(), None)
             }
             ("by", _) => Said(
-                "'by' stands behind 'end', 'commit', and an element with its '->'".into(),
+                "'by' follows 'end', 'commit', or an element with its '->'".into(),
                 None,
             ),
             ("between", _) => Said("write 'after' and 'before', each with a time".into(), None),
@@ -106,7 +106,7 @@ impl Parser<'_, '_> {
             }
             (_, "end") if self.claim_ends(path) && (path > 1 || is_end(word)) => add("by"),
             (_, "end") if path > 0 => {
-                Said("what ends the plan stands behind 'end by', a time behind 'within', 'before' or 'after'".into(), None)
+                Said("write the state or event after 'end by', and a time after 'within', 'before' or 'after'".into(), None)
             }
             (_, "commit" | "interrupt") if path > 0 => add("of"),
             _ => Said(BOUNDS.into(), None),
@@ -180,7 +180,7 @@ impl Parser<'_, '_> {
                 Said("write 'for'".into(), ends.then_some(place))
             }
             _ => Said(
-                "'for' and a time may stand there; what happens next is a line of its own".into(),
+                "only 'for' and a time may follow; write the next action on its own line".into(),
                 None,
             ),
         }
@@ -205,7 +205,7 @@ impl Parser<'_, '_> {
         self.error(match goes_on {
             true => error.help(message!("write '{}', counted from the start", ours)).replace(ours),
             false => error.help(message!(
-                "remove it; what happens has its time in front of it, such as '{} press touch'",
+                "remove it; an action begins with its time, such as '{} press touch'",
                 ours
             )),
         });
@@ -225,7 +225,7 @@ impl Parser<'_, '_> {
         self.formula();
         self.close();
         let heading = self.text_between(first, self.at);
-        let message = "the heading stands behind the brackets";
+        let message = "the heading follows the brackets";
         let alone = self.at(Kind::CloseParen) && self.word(1) != "heading";
         let error = Diagnostic::new(Code::E0102, comma, message);
         let better = format!(") heading {heading}");

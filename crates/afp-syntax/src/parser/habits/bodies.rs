@@ -8,7 +8,7 @@ use crate::parser::elsewhere::is_large;
 use crate::parser::plan::BODY;
 
 impl Parser<'_, '_> {
-    /// Whether a word stands before an edge that edges do not have: `when Done -> home`.
+    /// Whether an edge has an invalid word before it: `when Done -> home`.
     pub(in crate::parser) fn at_word_before_edge(&self) -> bool {
         let is_word = matches!(
             self.word(0),
@@ -32,14 +32,14 @@ impl Parser<'_, '_> {
             && !self.is_read(self.word(1))
     }
 
-    /// `{ distance = 30 cm`: reports ports that stand in the braces, and reads past them. Returns whether one stands here.
+    /// Reports and skips ports in the braces: `{ distance = 30 cm`. Returns whether there is one.
     pub(in crate::parser) fn port_in_braces(&mut self) -> bool {
         if !self.at_port() {
             return false;
         }
         let (here, name) = (self.next_span(), self.word(0));
         let sign = if self.nth(1) == Kind::FatArrow { "=>" } else { "=" };
-        let message = message!("'{}' stands in braces where it has no place", name);
+        let message = message!("'{}' does not belong in these braces", name);
         let help = message!("move it before the '{{', in brackets: '({} {} ...)'", name, sign);
         self.error(Diagnostic::new(Code::E0114, here, message).help(help));
         self.open(Kind::Error);
@@ -50,7 +50,7 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// Whether a port or an entry stands here with its value behind it. States begin with a capital letter.
+    /// Whether a port or an entry with a value is next. States begin with a capital letter.
     fn at_port(&self) -> bool {
         use Kind::{Colon, Equal, FatArrow, Float, Int, Minus, Name, OpenParen, Text};
         let is_small = self.word(0).starts_with(|first: char| first.is_ascii_lowercase());
@@ -64,13 +64,13 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Whether an edge begins here, perhaps with a word before it that edges do not have.
+    /// Whether an edge begins here, perhaps with an invalid word before it.
     pub(in crate::parser) fn begins_edge(&self) -> bool {
         self.at_edge() || self.at_word_before_edge()
     }
 
-    /// Reads an item with a word before its name that no body has, or a word of other languages: `supervisor hit: ...`,
-    /// `if (far) { ... }`. Returns whether one stands here.
+    /// Reads an item with an invalid word before its name, or a keyword of other languages:
+    /// `supervisor hit: ...`, `if (far) { ... }`. Returns whether there is one.
     pub(in crate::parser) fn strange_item(&mut self, what: &'static str) -> bool {
         let is_item = self.nth(1) == Kind::Name && self.nth(2) == Kind::Colon;
         if is_item && what == BODY && self.item_meant(what, &["supervise"]) {
@@ -78,8 +78,8 @@ impl Parser<'_, '_> {
             return true;
         }
         let help = match self.meant(&["actor", "computation", "subplan", "supervise"]) {
-            Some("supervise") => "move it behind the '}' of this supervisor".into(),
-            Some(word) => message!("write '{}' behind the '}}' of this element", word),
+            Some("supervise") => "move it after the '}' of this supervisor".into(),
+            Some(word) => message!("write '{}' after the '}}' of this element", word),
             None => "write 'supervise' before the name of a supervisor".into(),
         };
         if !is_item || self.names_something(0) {

@@ -33,7 +33,7 @@ impl Parser<'_, '_> {
         tokens
     }
 
-    /// Takes tokens after a target that were already reported; a text among them belongs to the
+    /// Takes tokens after a target that were already reported; a string among them belongs to the
     /// target.
     pub(in crate::parser) fn pass_tokens(&mut self, tokens: usize) {
         (0..tokens).for_each(|_| self.bump());
@@ -51,7 +51,7 @@ impl Parser<'_, '_> {
             let is_name = name.chars().all(|sign| sign.is_alphanumeric() || sign == '_');
             let (message, better) = match is_name && !name.is_empty() {
                 true => ("a target has no quotes", name.to_owned()),
-                false => ("a text here belongs to 'fail'", format!("fail {text}")),
+                false => ("only 'fail' takes a string", format!("fail {text}")),
             };
             self.instead(1, message, message!("write '{}'", better), &better);
             return true;
@@ -88,10 +88,10 @@ impl Parser<'_, '_> {
         let one = "an edge leads to one element";
         let (message, help) = match self.nth(0) {
             Kind::Dot => {
-                ("an edge leads to an element as a whole", "remove the '.' and what follows")
+                ("an edge leads to an element as a whole", "remove everything from the '.' on")
             }
             Kind::Arrow => (one, "write the next edge in the braces of that element"),
-            Kind::Comma if self.is_second_target() => (one, "remove the ',' and what follows"),
+            Kind::Comma if self.is_second_target() => (one, "remove everything from the ',' on"),
             Kind::Name if matches!(self.word(0), "and" | "or") && self.is_second_target() => {
                 (one, "remove what follows")
             }
@@ -104,24 +104,24 @@ impl Parser<'_, '_> {
         self.pass(2);
     }
 
-    /// `fail`, with its text on the next line.
+    /// `fail`, with its reason on the next line.
     pub(in crate::parser) fn reason_of_another_line(&mut self) {
         if !self.on_same_line() {
-            let message = "why a plan fails stands on the line of 'fail'";
+            let message = "the reason of 'fail' belongs on the same line";
             let error = Diagnostic::new(Code::E0102, self.next_span(), message);
-            self.error(error.help("write it behind 'fail'"));
+            self.error(error.help("write it after 'fail'"));
         }
     }
 
-    /// `terminate "why"`: reports and skips a text after a target other than `fail`.
+    /// Reports and skips a string after a target other than `fail`: `terminate "why"`.
     pub(in crate::parser) fn no_text_behind_target(&mut self) {
         if self.at(Kind::Text) && self.on_same_line() {
-            let message = "only 'fail' has a text behind it";
+            let message = "only 'fail' takes a reason";
             self.instead(1, message, "remove it, or write 'fail' before it", "");
         }
     }
 
-    /// Whether the next name is that of an element. Names of states, whose edges may be incomplete,
+    /// Whether the next name belongs to an element. Names of states, whose edges may be incomplete,
     /// begin with a capital letter.
     fn is_second_target(&self) -> bool {
         let ends = self.nth(2) == Kind::CloseBrace || self.begins_line(2);
@@ -139,8 +139,8 @@ impl Parser<'_, '_> {
             return false;
         }
         let here = self.token(1).map_or_else(|| self.behind(), |token| self.span_of(token));
-        let error = Diagnostic::new(Code::E0102, here, "between the names of states stands a ','");
-        // Without the blank before it.
+        let error = Diagnostic::new(Code::E0102, here, "the names of states are separated by ','");
+        // Without the space before it.
         self.error(error.help("write ','").replace(","));
         self.open_item(Kind::Edge);
         self.take_name();
@@ -162,7 +162,7 @@ impl Parser<'_, '_> {
         }
         let text: Vec<_> = (0..words).map(|ahead| self.word(ahead)).collect();
         let better = format!("\"{}\"", text.join(" "));
-        let message = "why a plan fails stands in double quotes";
+        let message = "the reason of 'fail' needs double quotes";
         self.instead(words, message, message!("write '{}'", better), &better);
     }
 }

@@ -7,11 +7,11 @@ use crate::message;
 use crate::parser::Parser;
 use crate::parser::elsewhere::is_large;
 
-/// So many tokens of a path are looked at.
+/// The maximum number of tokens of a path.
 const MOST_TOKENS: usize = 64;
 
 impl Parser<'_, '_> {
-    /// `use lib/a.afp`: reports the path of a file that has no quotes, and reads past it. Returns whether one stands here.
+    /// Reports and skips a path without quotes: `use lib/a.afp`. Returns whether there is one.
     pub(in crate::parser) fn path_without_quotes(&mut self) -> bool {
         use Kind::{Dot, Float, Int, Minus, Name, Slash};
         let is_part = |at: usize| matches!(self.nth(at), Name | Dot | Slash | Minus | Int | Float);
@@ -29,7 +29,8 @@ impl Parser<'_, '_> {
             self.pass(tokens);
             return true;
         }
-        let error = Diagnostic::new(Code::E0102, self.ahead(tokens), "a file is named by a text");
+        let error =
+            Diagnostic::new(Code::E0102, self.ahead(tokens), "the path of a file is a string");
         let error = error.help("put the path in double quotes");
         self.error(error.replace(format!("\"{path}\"")));
         self.pass(tokens);
@@ -37,18 +38,18 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `use "a.afp" as a`: reports the short name behind the path of a file, and reads past it.
+    /// Reports and skips a short name after the path of a file: `use "a.afp" as a`.
     pub(in crate::parser) fn short_name_of_a_file(&mut self) {
         let named = self.nth(1) == Kind::Name && !self.begins_line(1);
         if self.at_word("as") && self.on_same_line() && named {
             let message = "a file has no short name";
-            let help = "remove it; what the file has is called by its own name";
+            let help = "remove it; use the names that the file declares";
             self.instead(2, message, help, "");
         }
     }
 
-    /// `use carbot, std`, `use carbot::*`, `use carbot.Forward`: reports what stands behind the name of a toolbox or the path
-    /// of a file, whose line begins at token `first`, and reads past it.
+    /// `use carbot, std`, `use carbot::*`, `use carbot.Forward`: reports and skips the text after
+    /// the name of a toolbox or the path of a file; the line begins at token `first`.
     pub(in crate::parser) fn use_of_parts(&mut self, first: usize) {
         let same_line = |p: &Self| p.on_same_line() && !p.begins_line(1);
         while self.at(Kind::Comma)
@@ -57,7 +58,7 @@ impl Parser<'_, '_> {
         {
             let name = self.text_of(1, 2);
             let what = if self.nth(1) == Kind::Text { "file" } else { "toolbox" };
-            let message = message!("each {} has a 'use' of its own", Words(what));
+            let message = message!("each {} needs its own 'use'", Words(what));
             let help = message!("write 'use {}' on the next line", name);
             let place = self.ahead(2);
             let error = Diagnostic::new(Code::E0102, place, message);
@@ -75,7 +76,8 @@ impl Parser<'_, '_> {
         self.instead(tokens, "a toolbox is used as a whole", help, "");
     }
 
-    /// `Turn[angle = 90 deg]`, `Turn angle = 90 deg`: reports the parentheses that are missing, and reads the ports.
+    /// `Turn[angle = 90 deg]`, `Turn angle = 90 deg`: reports the missing parentheses, and reads
+    /// the ports.
     pub(in crate::parser) fn ports_without_parentheses(&mut self) {
         if !self.on_same_line() || self.at_timing() {
             return;
@@ -86,7 +88,7 @@ impl Parser<'_, '_> {
             return;
         }
         let here = self.next_span();
-        let help = "put what goes into a template in parentheses: '(' and ')'";
+        let help = "put the inputs of a template in parentheses: '(' and ')'";
         self.error(self.instead_of(here, "'('").help(help));
         if in_brackets {
             self.pass(1);
@@ -102,7 +104,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `actor hold still: Hold`: reports a name in two words, and reads it. Returns whether it stands here.
+    /// Reports and reads a name of two words: `actor hold still: Hold`. Returns whether there is
+    /// one.
     pub(in crate::parser) fn name_in_two_words(&mut self) -> bool {
         let stands = (self.nth(0), self.nth(1), self.nth(2))
             == (Kind::Name, Kind::Name, Kind::Colon)
@@ -121,7 +124,7 @@ impl Parser<'_, '_> {
         stands
     }
 
-    /// `new Turn(`, `not CheckTouchSensor {`: reports a word before a template, and reads past it.
+    /// Reports and skips a word before a template: `new Turn(`, `not CheckTouchSensor {`.
     pub(in crate::parser) fn word_before_template(&mut self) {
         let is_small = self.word(0).starts_with(|first: char| first.is_ascii_lowercase());
         let is_template = is_large(self.word(1))
@@ -141,12 +144,12 @@ impl Parser<'_, '_> {
                 let entries = self.text_of(1, close).replace(',', " in");
                 message!("remove the brackets, and write 'in {}' in the braces", entries)
             }
-            None => "remove the brackets: a plan declares what it takes with 'in'".into(),
+            None => "remove the brackets: a plan declares its inputs with 'in'".into(),
         }
     }
 
-    /// `plan Main extends Other {`: reports what stands before a brace that opens a body on this line, and reads past it.
-    /// Returns whether something stands there.
+    /// Reports and skips the text before the opening brace on this line: `plan Main extends Other
+    /// {`. Returns whether there is such text.
     pub(in crate::parser) fn nothing_before_brace(&mut self) -> bool {
         let opens = self.ahead_on_line(Kind::OpenBrace);
         let closes = self.ahead_on_line(Kind::CloseBrace);
@@ -192,12 +195,12 @@ impl Parser<'_, '_> {
                 let error = Diagnostic::new(
                     Code::E0102,
                     place,
-                    message!("'{}' stands behind the template", word),
+                    message!("'{}' belongs after the template", word),
                 );
                 error.write(better)
             }
             (true, None) => {
-                let message = message!("'{}' stands behind the template", word);
+                let message = message!("'{}' belongs after the template", word);
                 let help =
                     message!("write the template, its ports in brackets, and then '{}'", times);
                 Diagnostic::new(Code::E0102, self.ahead(tokens), message).help(help)
@@ -209,7 +212,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `rate 100 Hz`: reports a frequency behind a word for 'every', and reads past it. Returns whether it stands here.
+    /// Reports and skips a frequency after a substitute for 'every': `rate 100 Hz`. Returns whether
+    /// there is one.
     fn frequency_for_a_period(&mut self) -> bool {
         let factor = match self.token(2).map_or("", |unit| unit.text) {
             "Hz" => 1.0,
@@ -227,14 +231,14 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `every 5 ms * 2`: reports what is computed with a time, and reads past it.
+    /// `every 5 ms * 2`: reports and skips a formula after a time.
     pub(in crate::parser) fn no_formula_of_a_time(&mut self) {
         use Kind::{CloseBrace, Minus, OpenBrace, OpenParen, Percent, Plus, Slash, Star};
         if !matches!(self.nth(0), Plus | Minus | Star | Slash | Percent) || !self.on_same_line() {
             return;
         }
         let (here, first) = (self.next_span(), self.at);
-        let error = Diagnostic::new(Code::E0102, here, "a time here is no formula");
+        let error = Diagnostic::new(Code::E0102, here, "a time here cannot be a formula");
         self.error(error.help("write one time such as '10 ms', or name a constant that has it"));
         self.pass_to(|p| {
             let ends = matches!(p.nth(0), OpenBrace | CloseBrace | OpenParen) || p.at_end();
@@ -245,15 +249,16 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `CheckTimeout every 5 ms (duration = 3 s)`: reports ports behind the times of a supervisor, and reads them.
+    /// `CheckTimeout every 5 ms (duration = 3 s)`: reports and reads ports after the times of a
+    /// supervisor.
     pub(in crate::parser) fn ports_behind_times(&mut self) {
         if !self.at(Kind::OpenParen) || !self.on_same_line() {
             return;
         }
         let here = self.next_span();
-        let error = Diagnostic::new(Code::E0102, here, "ports stand before the times");
+        let error = Diagnostic::new(Code::E0102, here, "ports come before the times");
         self.error(
-            error.help("write them in brackets behind the template, before 'every' and 'deadline'"),
+            error.help("write them in brackets after the template, before 'every' and 'deadline'"),
         );
         self.args(true);
         while self.at_timing() {
@@ -261,8 +266,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `within 50 ms`, `evry 50 ms`: reports the word, and reads it as the one that is meant. Returns whether it stands
-    /// there.
+    /// Reports a word, and reads it as the intended word: `within 50 ms`, `evry 50 ms`. Returns
+    /// whether it did.
     pub(in crate::parser) fn time_by_another_word(&mut self) -> bool {
         let before_time = matches!(self.nth(1), Kind::Int | Kind::Float) && self.on_same_line();
         if before_time && self.frequency_for_a_period() {

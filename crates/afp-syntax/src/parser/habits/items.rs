@@ -30,7 +30,7 @@ impl Parser<'_, '_> {
             }
             ("task", Kind::Name) if self.nth(2) == Kind::Colon => return None,
             ("every" | "deadline", _) => {
-                "write it behind the supervisor's template, before its '{'".into()
+                "write it after the supervisor's template, before its '{'".into()
             }
             _ => return None,
         })
@@ -46,8 +46,7 @@ impl Parser<'_, '_> {
         let ty = self.word(0);
         let value = self.text_between(end, self.at);
         let place = Span { start: self.place_between(0, end).end, ..self.next_span() };
-        let error =
-            Diagnostic::new(Code::E0102, self.next_span(), "the type stands before the '='");
+        let error = Diagnostic::new(Code::E0102, self.next_span(), "the type comes before the '='");
         let better = format!(": {ty} {value}");
         let help = message!("write '{}{}'", self.text_between(end - 1, end), better);
         self.error(error.help(help).fix(place, better));
@@ -61,7 +60,7 @@ impl Parser<'_, '_> {
         self.formula();
         let [bounds, value] =
             [(range, equal), (equal, self.at)].map(|(first, end)| self.text_between(first, end));
-        let error = Diagnostic::new(Code::E0102, sign, "the value stands before its range");
+        let error = Diagnostic::new(Code::E0102, sign, "the value comes before its range");
         let better = format!("{value} {bounds}");
         let place = self.place_between(range, self.at);
         self.error(error.write_at(place, better));
@@ -88,10 +87,10 @@ impl Parser<'_, '_> {
     /// Reads an item of a file inside a plan.
     pub(in crate::parser) fn top_inside(&mut self) {
         let (here, word) = (self.next_span(), self.word(0));
-        let message = message!("'{}' stands in the braces of a plan", word);
+        let message = message!("'{}' does not belong in the braces of a plan", word);
         let help = match word {
             "use" => "move it to the top of the file",
-            _ => "move it behind the '}' of the plan",
+            _ => "move it after the '}' of the plan",
         };
         self.error(Diagnostic::new(Code::E0114, here, message).help(help));
         self.depth += 1;
@@ -105,11 +104,11 @@ impl Parser<'_, '_> {
     pub(in crate::parser) fn nested(&mut self) {
         let (here, word) = (self.next_span(), self.word(0));
         if self.depth == 0 {
-            let message = message!("'{}' stands in braces where it has no place", word);
+            let message = message!("'{}' does not belong in these braces", word);
             let help = match word {
-                "supervise" => "move it behind the '}' of the other supervisor",
-                "on" => "move it behind the '}' of the supervisor",
-                _ => "move it behind the '}' of the element around it",
+                "supervise" => "move it after the '}' of the other supervisor",
+                "on" => "move it after the '}' of the supervisor",
+                _ => "move it after the '}' of the element around it",
             };
             self.error(Diagnostic::new(Code::E0114, here, message).help(help));
         }

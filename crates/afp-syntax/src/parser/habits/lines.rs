@@ -1,4 +1,4 @@
-//! Lines of scenarios whose words stand in another order, or with other signs.
+//! Lines of scenarios with words in another order, or with other signs.
 
 use crate::diagnostics::{Code, Diagnostic, Words};
 use crate::kind::Kind;
@@ -6,13 +6,12 @@ use crate::message;
 use crate::parser::Parser;
 use crate::parser::scenario::is_line;
 
-/// So many tokens of a line are looked at.
 const MOST_TOKENS: usize = 64;
 /// Actions of scenarios other than 'set'.
 const ACTIONS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle"];
 
 impl Parser<'_, '_> {
-    /// `expect a = 0`: reports the sign. Returns whether it stands here.
+    /// Reports the sign in `expect a = 0`. Returns whether it did.
     pub(in crate::parser) fn comparison_meant(&mut self) -> bool {
         let stands = self.at(Kind::Equal) && self.on_same_line();
         if stands {
@@ -23,7 +22,7 @@ impl Parser<'_, '_> {
         stands
     }
 
-    /// `seed = 7`, `until: 20 s`: reports the sign, and reads past it.
+    /// Reports and skips the sign in `seed = 7`, `until: 20 s`.
     pub(in crate::parser) fn no_sign_behind_word(&mut self) {
         if matches!(self.nth(0), Kind::Equal | Kind::Colon) && self.on_same_line() {
             let message = message!("unexpected {} after '{}'", self.found(), self.word_before());
@@ -31,7 +30,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `expect a <> 0`: reports the signs, and reads past them. Returns whether they stand here.
+    /// Reports and skips the signs in `expect a <> 0`. Returns whether it did.
     pub(in crate::parser) fn unequal_meant(&mut self) -> bool {
         let adjacent = self.token_index(1) == self.token_index(0) + 1;
         let stands = self.at(Kind::Less) && self.nth(1) == Kind::Greater && self.on_same_line();
@@ -44,8 +43,8 @@ impl Parser<'_, '_> {
         stands && adjacent
     }
 
-    /// `press touch at 3 s`, `idle all`: reports where the time stands, and reads past the line. Returns whether an
-    /// action stands here.
+    /// Reports the place of the time, and skips the line: `press touch at 3 s`, `idle all`. Returns
+    /// whether the line is an action.
     pub(in crate::parser) fn action_without_its_time(&mut self) -> bool {
         let tokens = self.tokens_on_line();
         let at = (1..tokens).find(|at| self.at_time(*at));
@@ -61,7 +60,7 @@ impl Parser<'_, '_> {
                 let (time, what) = (self.text_of(at + 1, end), self.text_of(0, at));
                 let better = format!("at {time}: {what} {}", self.text_of(end, tokens));
                 let better = better.trim_end();
-                let message = "a line begins with the time at which something happens";
+                let message = "a line begins with the time of its action";
                 let error = Diagnostic::new(Code::E0102, place, message);
                 error.write(better)
             }
@@ -77,12 +76,13 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// Whether something happens that stands here.
+    /// Whether an action is next.
     pub(in crate::parser) fn at_action(&self) -> bool {
         ACTIONS.contains(&self.word(0)) && self.nth(1) == Kind::Name
     }
 
-    /// `expect end never`: reports the word behind the claim of a line that begins at `first`, and reads past it.
+    /// Reports and skips the word after the claim of a line that begins at `first`: `expect end
+    /// never`.
     pub(in crate::parser) fn never_behind(&mut self, first: usize) {
         let ends = self.begins_line(1)
             || matches!(self.nth(1), Kind::CloseBrace | Kind::End)
@@ -92,7 +92,7 @@ impl Parser<'_, '_> {
         }
         let place = self.place_between(first, self.at + 1);
         let better = format!("never {}", self.text_between(first + 1, self.at));
-        let error = Diagnostic::new(Code::E0102, place, "'never' stands in place of 'expect'");
+        let error = Diagnostic::new(Code::E0102, place, "'never' replaces 'expect'");
         self.error(error.write(better));
         self.pass(1);
         while matches!(self.word(0), "within" | "before" | "after") && self.on_same_line() {
@@ -103,7 +103,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// How many tokens stand on the line of a scenario that begins here.
+    /// The number of tokens on the line of a scenario that begins here.
     fn tokens_on_line(&self) -> usize {
         let ends = |at: usize| {
             let is_path = at == 1 || self.nth(at - 1) == Kind::Dot;
@@ -115,14 +115,14 @@ impl Parser<'_, '_> {
         (1..MOST_TOKENS).find(|at| ends(*at)).unwrap_or(1)
     }
 
-    /// Whether a time stands so many tokens ahead, with 'at' or 'after' before it and no ':' behind it.
+    /// Whether a token ahead is a time, with 'at' or 'after' before it and without a ':' after it.
     fn at_time(&self, ahead: usize) -> bool {
         matches!(self.word(ahead), "at" | "after")
             && matches!(self.nth(ahead + 1), Kind::Int | Kind::Float)
             && self.nth(self.token_of_time(ahead)) != Kind::Colon
     }
 
-    /// The token behind a word and the time behind it.
+    /// The token after a word and the time after the word.
     fn token_of_time(&self, word: usize) -> usize {
         word + 2 + usize::from(self.nth(word + 2) == Kind::Unit)
     }

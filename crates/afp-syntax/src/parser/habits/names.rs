@@ -7,8 +7,8 @@ use crate::message;
 use crate::parser::Parser;
 
 impl Parser<'_, '_> {
-    /// `wall-dist`: the number of tokens of the name `ahead` tokens ahead, if its parts are joined
-    /// by '-' without blanks.
+    /// `wall-dist`: the number of tokens of the name `ahead` tokens ahead, if '-' joins its parts
+    /// without spaces.
     pub(in crate::parser) fn tokens_of_name(&self, ahead: usize) -> usize {
         let first = self.token_index(ahead);
         let mut tokens = 1;

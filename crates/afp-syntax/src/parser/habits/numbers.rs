@@ -53,7 +53,7 @@ mod tests {
     use super::{hundredth, moved};
 
     #[test]
-    fn points_move() {
+    fn decimal_points_move() {
         assert_eq!(hundredth("50"), "0.5");
         assert_eq!(hundredth("100"), "1.0");
         assert_eq!(hundredth("2.5e3"), "0.025e3");

@@ -8,7 +8,7 @@ use crate::parser::elsewhere::is_large;
 use crate::units::Unit;
 
 impl Parser<'_, '_> {
-    /// `20 cm per s`: reports the word behind a unit, and reads past it and the unit behind it.
+    /// Reports and skips the word after a unit, and the unit after the word: `20 cm per s`.
     pub(in crate::parser) fn unit_in_words(&mut self) {
         let is_word = matches!(self.word(0), "per" | "pro" | "je" | "par") && self.on_same_line();
         if !is_word || self.begins_line(1) {
@@ -23,7 +23,7 @@ impl Parser<'_, '_> {
         self.pass(2);
     }
 
-    /// `f"lap {lap}"`: reports the letter before a text, and reads past both. Returns whether it stands here.
+    /// `f"lap {lap}"`: reports the letter before a string, and skips both. Returns whether it did.
     pub(in crate::parser) fn text_with_a_letter(&mut self) -> bool {
         let text = self.token(1).filter(|text| text.kind == Kind::Text);
         let is_letter = matches!(self.word(0), "f" | "F" | "r" | "b" | "u" | "L" | "s");
@@ -33,21 +33,20 @@ impl Parser<'_, '_> {
             "f" | "F" | "s" => joined(text.text),
             _ => text.text.to_owned(),
         };
-        let message = message!("a text has no '{}' in front of it", self.word(0));
+        let message = message!("a string has no prefix '{}'", self.word(0));
         let error = Diagnostic::new(Code::E0102, self.ahead(2), message);
         self.error(error.write(better));
         self.pass(2);
         true
     }
 
-    /// `= Side,left`: reports the comma behind the name of an enum, and reads past the value.
+    /// Reports the comma after the name of an enum, and skips the value: `= Side,left`.
     pub(in crate::parser) fn comma_for_a_point(&mut self) {
         let ends = self.begins_line(2) || matches!(self.nth(2), Kind::CloseBrace | Kind::End);
         let stands = self.at(Kind::Comma) && self.nth(1) == Kind::Name && !self.begins_line(1);
         if stands && ends && is_large(self.word_before()) {
             let here = self.next_span();
-            let error =
-                Diagnostic::new(Code::E0102, here, "a '.' stands before a value of an enum");
+            let error = Diagnostic::new(Code::E0102, here, "a value of an enum follows a '.'");
             self.error(error.help("write '.'").replace("."));
             self.pass(2);
         }
@@ -64,15 +63,15 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `Forward(distance 30 cm)`: reports the '=' that is missing before a value, and reads the value. Returns whether it
-    /// is missing.
+    /// Reports a missing '=' before a value, and reads the value: `Forward(distance 30 cm)`.
+    /// Returns whether it is missing.
     pub(in crate::parser) fn value_without_sign(&mut self) -> bool {
         let is_number = |at: usize| matches!(self.nth(at), Kind::Int | Kind::Float);
         let is_value = is_number(1)
             || self.nth(1) == Kind::Text
             || self.nth(1) == Kind::Minus && is_number(2)
             || matches!(self.word(1), "true" | "false");
-        // In a difference, blanks stand on both sides of the sign, or on none.
+        // In a difference, the sign has spaces on both sides or on neither.
         let is_sign = self.nth(1) != Kind::Minus
             || self.token_index(1) > self.token_index(0) + 1
                 && self.token_index(2) == self.token_index(1) + 1;
@@ -91,12 +90,12 @@ impl Parser<'_, '_> {
         stands
     }
 
-    /// `Option<angle>`: reports what stands around a type, and reads the type. Returns whether it stands here.
+    /// Reports the text around a type, and reads the type: `Option<angle>`. Returns whether it did.
     pub(in crate::parser) fn type_of_a_type(&mut self) -> bool {
         let kinds = (self.nth(0), self.nth(1), self.nth(2), self.nth(3));
         let stands = kinds == (Kind::Name, Kind::Less, Kind::Name, Kind::Greater);
         if stands {
-            let message = "a type has no other type in it";
+            let message = "a type cannot contain another type";
             let error = Diagnostic::new(Code::E0102, self.ahead(4), message);
             self.error(error.write(self.word(2)));
             self.pass(2);
@@ -106,17 +105,17 @@ impl Parser<'_, '_> {
         stands
     }
 
-    /// `(range = 2 m, ...`: reports the points with which a line goes on elsewhere, and reads past them. Returns whether
-    /// they stand here.
+    /// Reports and skips the points of a continued line: `(range = 2 m, ...`. Returns whether it
+    /// did.
     pub(in crate::parser) fn points_at_the_end(&mut self) -> bool {
         let stands = (0..3).all(|at| self.nth(at) == Kind::Dot) && self.begins_line(3);
         if stands {
-            self.instead(3, "a list goes on over lines without '...'", "remove it", "");
+            self.instead(3, "a list continues on the next line without '...'", "remove it", "");
         }
         stands
     }
 
-    /// `left = 0, right = 1 }`, behind the first name: reports the numbers of values, and reads past all of them.
+    /// Reports and skips the numbers of values, after the first name: `left = 0, right = 1 }`.
     pub(in crate::parser) fn numbers_of_values(&mut self) {
         if !self.at(Kind::Equal) {
             return;
@@ -134,7 +133,7 @@ impl Parser<'_, '_> {
     }
 }
 
-/// `"lap " + lap` for the text `"lap {lap}"`.
+/// `"lap " + lap` for the string `"lap {lap}"`.
 fn joined(text: &str) -> String {
     let inner = text.trim_matches('"');
     let parts = inner.split(['{', '}']).enumerate().filter(|(_, part)| !part.is_empty());

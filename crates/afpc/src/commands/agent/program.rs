@@ -13,7 +13,6 @@ use afp_run::RunError;
 const CHECK: Duration = Duration::from_secs(30);
 /// The longest time until a robot has stopped.
 const STOP: Duration = Duration::from_secs(5);
-/// The interval of looks at a program.
 const LOOK: Duration = Duration::from_millis(5);
 /// The most output of a self-check that is read, in bytes.
 const LONGEST: u64 = 1 << 16;

@@ -9,7 +9,6 @@ use afp_syntax::source::Source;
 
 use crate::plan_file::PlanText;
 
-/// A toolbox file and its diagnostics.
 pub(super) struct ToolboxFile {
     pub path: PathBuf,
     pub toolboxes: Toolboxes,

@@ -204,7 +204,7 @@ impl Peers<'_> {
             let is_known = self.adapter.is_admitted(to);
             let patience = if is_known { PATIENCE } else { Duration::ZERO };
             if !is_sent(&peer.to, frame(&message), patience) {
-                self.send_away(number, "it does not read");
+                self.send_away(number, "it reads no messages");
             }
         }
     }
@@ -223,7 +223,6 @@ fn is_sent(to: &SyncSender<Vec<u8>>, mut bytes: Vec<u8>, patience: Duration) -> 
     }
 }
 
-/// Writes each message in one piece.
 fn write(mut to: TcpStream, messages: &Receiver<Vec<u8>>) {
     for message in messages {
         if to.write_all(&message).is_err() {

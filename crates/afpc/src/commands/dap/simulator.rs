@@ -105,7 +105,6 @@ fn whole(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// The files of a launch.
 pub struct LaunchFiles {
     /// The plan's file; empty if the launch names none.
     program: PathBuf,
@@ -138,7 +137,7 @@ impl<'a> Host<'a> for Simulator<'a> {
         if !linked.map_err(|why| why.to_string())? {
             let program = &launch.program;
             return Err(format!(
-                "'{program}' needs a robot or toolboxes of its project: start 'afpc dap {program}', which builds them"
+                "'{program}' needs a robot or toolboxes of its project: run 'afpc dap {program}', which builds them"
             ));
         }
         let robot = self.linked.robot;

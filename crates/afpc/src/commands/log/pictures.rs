@@ -49,7 +49,7 @@ pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoP
 fn draw_coverage((log, at): (&LogData, &Path), path: &Path) -> Result<(), NoPlan> {
     let (file, graph) = PlanFile::of_log(log, at)?.checked()?;
     let Some(used) = Coverage::of_log(&graph, log) else {
-        let message = format!("the log does not fit the current '{}'", file.path.display());
+        let message = format!("the log is from another version of '{}'", file.path.display());
         return Err(RunError::usage(message, "run the plan again").into());
     };
     let svg = graph::with_usage(&file, &graph, &used.usage, path)?;

@@ -6,7 +6,6 @@ use afp_log::LogData;
 use afp_log::statistics::{Statistics, statistics};
 use afp_session::Usage;
 
-/// The whole text.
 pub(super) fn text(log: &LogData) -> String {
     let mut text = String::new();
     for line in afp_run::timeline(log) {
@@ -62,7 +61,7 @@ fn supervisors(text: &mut String, all: &Statistics) {
 
 fn coverage(text: &mut String, all: &Statistics) {
     let whole = all.covered + all.uncovered.len() as u64;
-    let _ = writeln!(text, "\nstates and events: {} of {whole} came", all.covered);
+    let _ = writeln!(text, "\nstates and events: {} of {whole} occurred", all.covered);
     for outcome in &all.uncovered {
         let _ = writeln!(text, "  never: {outcome}");
     }

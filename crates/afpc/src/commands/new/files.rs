@@ -1,4 +1,4 @@
-//! New projects as texts: a plan for the Carbot, a toolbox, a robot, or a robot made of parts.
+//! New projects as files: a plan for the Carbot, a toolbox, a robot, or a robot made of parts.
 //!
 //! Each project can be checked, run and tested without changes. Nothing here writes a file: the
 //! command line and editors do.
@@ -27,7 +27,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind of a profile.
     pub fn of_profile(name: &str) -> Option<Kind> {
         match name {
             "carbot" => Some(Kind::Carbot),

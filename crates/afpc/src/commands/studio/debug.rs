@@ -113,11 +113,9 @@ impl DebugService<'_> {
         }
         let names = parts.names();
         if !self.trusted.is_given() {
-            return Err(format!(
-                "{names} would be built and run: say first that you trust the folder"
-            ));
+            return Err(format!("this would build and run {names}: trust the folder first"));
         }
-        let what = format!("building {names}: minutes, the first time");
+        let what = format!("building {names}: the first build takes minutes");
         match with_notice(&what, tell, || runner::built(parts, self.linked)) {
             Ok(program) => Ok(Some(program)),
             Err(NoPlan::File(why)) => Err(why.to_string()),

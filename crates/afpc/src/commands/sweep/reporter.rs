@@ -37,7 +37,7 @@ impl<'a> Reporter<'a> {
     pub fn head(&self, output: &OutputFiles, done: usize) {
         let (all, journal) = (self.sweep.len(), output.journal.display());
         if done as u64 == all {
-            say(format_args!("all {all} runs are done ({journal}); '--restart' does them again"));
+            say(format_args!("all {all} runs are done ({journal}); '--restart' repeats them"));
         } else if done > 0 {
             say(format_args!(
                 "continuing: {done} of {all} runs are done ({journal}); '--restart' starts over"
@@ -185,7 +185,7 @@ impl<'a> Reporter<'a> {
         let simulated: f64 = outcomes.iter().map(|outcome| outcome.time_s).sum();
         let rest = match done as u64 == all {
             true => String::new(),
-            false => ", stopped; the same command goes on".to_owned(),
+            false => ", stopped; the same command continues".to_owned(),
         };
         format!(
             "{style}{done} of {all} runs, {failed} failed{style:#}{rest}  \

@@ -51,7 +51,6 @@ fn unread((folder, error): Unread) -> RunError {
     RunError::file("cannot read the folder", folder)(error)
 }
 
-/// The files that have scenarios.
 fn with_scenarios(files: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
     let plans = files.into_iter().filter(|path| path.extension().is_some_and(|it| it == "afp"));
     let having = plans.filter(|path| has_scenarios(path));
@@ -67,7 +66,7 @@ fn has_scenarios(path: &Path) -> bool {
 pub(super) fn nothing(filters: &[String], files: &[PathBuf]) -> RunError {
     match (filters, files) {
         ([], []) => RunError::usage(
-            "there are no scenarios here",
+            "no scenarios found",
             "write some into plans/, tests/ or scenarios/, or name a file",
         ),
         ([], [file, ..]) => RunError::usage(
@@ -76,7 +75,7 @@ pub(super) fn nothing(filters: &[String], files: &[PathBuf]) -> RunError {
         ),
         (filters, _) => RunError::usage(
             format!("no scenario has '{}' in its name", filters.join("' or '")),
-            "'afpc test' without words runs all of them",
+            "'afpc test' without a filter runs all scenarios",
         ),
     }
 }

@@ -68,12 +68,12 @@ fn has_own_plan(file: &Path, graph: &Graph) -> Result<(), RunError> {
     let Some(other) = &graph.main().file else { return Ok(()) };
     let other = normalised(&file.with_file_name(other).display().to_string());
     Err(RunError::usage(
-        format!("'{}' has no plan of its own", file.display()),
+        format!("'{}' does not declare a plan", file.display()),
         format!("name the file of the plan: '{other}'"),
     ))
 }
 
-/// Refuses to replace scenarios that somebody has written.
+/// Refuses to replace handwritten scenarios.
 fn may_be_made_anew(path: &Path) -> Result<(), RunError> {
     if !path.is_file() {
         return Ok(());
@@ -84,7 +84,10 @@ fn may_be_made_anew(path: &Path) -> Result<(), RunError> {
         return Ok(());
     }
     Err(RunError::usage(
-        format!("'{}' was not made by 'afpc test --generate' and stays", path.display()),
+        format!(
+            "'afpc test --generate' did not write '{}' and does not replace it",
+            path.display()
+        ),
         "give another name with '-o FILE'",
     ))
 }
@@ -120,7 +123,7 @@ fn generate(file: &Path, graph: Graph, robot: &dyn Loader) -> Result<Generated, 
         return Err(RunError::usage(message, "give it one, or write the scenarios yourself"));
     }
     let plan_file = file.display().to_string();
-    let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
+    let quiet = Scenario::quiet("undisturbed", Arc::new(graph), plan_file, RUN);
     let setting = Setting::find(&quiet, file, robot.kind())?;
     let devices = robot.kind().devices();
     afp_test::generate(&quiet, devices, &mut |scenario| {

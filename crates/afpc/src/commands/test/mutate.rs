@@ -54,7 +54,7 @@ pub(super) fn run(
     }
     let invalid = tell_invalid(files);
     if plans.is_empty() && !invalid && code == EXIT_OK {
-        let help = "write scenarios first; 'afpc test --generate' makes some";
+        let help = "write scenarios first, for example with 'afpc test --generate'";
         return Err(RunError::usage("there are no scenarios", help).into());
     }
     let mut code = if invalid { EXIT_PLAN_ERROR } else { code };
@@ -92,10 +92,11 @@ fn too_few(plan: &str, percent: f64, least: f64) -> String {
         shown.parse::<f64>().is_ok_and(|shown| shown < least)
     });
     let digits = digits.unwrap_or(17);
-    format!("{plan}: {percent:.digits$} % are noticed, fewer than the {least} % of '--at-least'")
+    format!(
+        "{plan}: {percent:.digits$} % of the mutants are noticed; '--at-least' requires {least} %"
+    )
 }
 
-/// Mutates one plan file.
 fn one_plan(
     plan: &str,
     files: &[&PlanFile],
@@ -141,7 +142,7 @@ fn one_plan(
     Ok(Came::Share(tally.share()))
 }
 
-/// Judges mutants on all cores, until the time is over or somebody stops the command.
+/// Judges mutants on all cores, until the time is over or the command is stopped.
 fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Vec<Judged> {
     let (all, done) = (mutants.len(), AtomicUsize::new(0));
     let shown = std::io::stderr().is_terminal();

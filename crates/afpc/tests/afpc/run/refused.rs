@@ -6,10 +6,10 @@ use crate::common::{self, Place};
 #[test]
 fn options_that_need_another_option_name_it() {
     let place = Place::with_plan();
-    let why = "'--rt-report' measures the control loop of the robot itself";
+    let why = "'--rt-report' measures the real robot's control loop";
     place.afpc("run wall_following.afp --rt-report").fails(2, &[why, "help: "]);
     for debug in ["--debug", "--debug=0.0.0.0:4711"] {
-        let why = ["'--debug' waits for the real-time driver", "'afpc dap PLAN.afp'"];
+        let why = ["'--debug' is only for the real robot", "'afpc dap PLAN.afp'"];
         place.afpc(&format!("run wall_following.afp {debug}")).fails(2, &why);
     }
     place
@@ -32,8 +32,8 @@ fn invalid_numbers_and_empty_names_get_a_message_with_the_valid_form() {
         ("run wall_following.afp --seed 1.5", "expected a whole number from 0 to 184"),
         ("test --mutate --seed -1", "expected a whole number from 0 to 184"),
         ("sweep wall_following.afp --seeds -1..3", "expected seeds such as 0..1000"),
-        ("sweep wall_following.afp --jobs -1", "expected a whole number from 1 on"),
-        ("sweep wall_following.afp --jobs 0", "expected a whole number from 1 on"),
+        ("sweep wall_following.afp --jobs -1", "expected a whole number of at least 1"),
+        ("sweep wall_following.afp --jobs 0", "expected a whole number of at least 1"),
         ("graph wall_following.afp --scale -1", "expected a number from 0.1 to 10"),
         ("dap --port -1", "-1 is not in 0..=65535"),
         ("run wall_following.afp --log=", "expected the name of a file, or 'none'"),
@@ -56,7 +56,7 @@ fn a_name_that_is_not_utf8_is_reported() {
     for before in ["check", "run", "graph", "fmt", "sweep", "run wall_following.afp --log"] {
         let mut command = place.command();
         let said = command.args(before.split(' ')).arg(name).output().unwrap();
-        common::said(said).fails(2, &["'n\u{fffd}.afp' is not in UTF-8", "help: give the file"]);
+        common::said(said).fails(2, &["'n\u{fffd}.afp' is not in UTF-8", "help: rename the file"]);
     }
 }
 
@@ -88,7 +88,7 @@ fn a_start_far_away_is_refused_and_a_start_outside_is_reported() {
     for pose in ["1000000000m,1m,0deg", "1.7e308m,0m,0deg", "1m,-1001m,0deg", "1m,1m,1e9deg"] {
         start(&format!("--start {pose}")).fails(2, &[far]);
     }
-    let outside = "warning: the robot starts outside of all that stands in its world";
+    let outside = "warning: the robot starts outside of its world";
     for outer in ["--start 900m,1m,0deg", "--set world.robot.pose_m_deg.1=-1m"] {
         assert!(start(outer).succeeds().err.contains(outside), "{outer}");
         assert!(place.read("a.svg").len() < 100_000, "{outer}");
@@ -141,7 +141,7 @@ fn reading_a_world_without_an_end_stops() {
          occupied_thresh: 0.65\nfree_thresh: 0.2\n",
     );
     let said = place.afpc("run wall_following.afp --world hall.yaml");
-    let no_file = "it is a pipe or a device, and no file";
+    let no_file = "it is a pipe or a device, not a file";
     said.fails(1, &["error: cannot read the map's picture '/dev/zero'", no_file]);
 }
 
@@ -153,10 +153,10 @@ fn helps_name_valid_options() {
         "use carbot\nplan Look {\n    var map: DistanceMap\n    start look\n    \
          actor look: LookAround(map => map) { LookedAround -> terminate }\n}\n",
     );
-    let object = "the entry 'map' holds an object: templates make it";
+    let object = "the entry 'map' has an object";
     let none = "this plan has no 'in' entries";
     place.afpc("run look.afp --set map=3").fails(2, &[object, none]);
-    let itself = "'robot.port' is a setting of the robot itself";
+    let itself = "'robot.port' is a setting of the real robot";
     place
         .afpc("run wall_following.afp --set robot.port=3")
         .fails(2, &[itself, "add '--robot hardware'"]);

@@ -1,8 +1,8 @@
-//! The sentences of pages in Markdown, and of comments, strings and names of tests in Rust.
+//! The sentences of pages in Markdown, and of comments, strings and names of tests in code.
 
 use std::sync::LazyLock;
 
-use regex::Regex;
+use regex::{Captures, Regex};
 
 /// A sentence and its line, from 1.
 type Sentence = (usize, String);
@@ -13,57 +13,101 @@ pub fn of_page(text: &str) -> Vec<Sentence> {
     of_lines(lines)
 }
 
-/// The sentences of comments, and the names of tests.
-pub fn of_rust(text: &str) -> Vec<Sentence> {
+/// The sentences of code in Rust, Python or TypeScript: comments, docstrings, names of tests and,
+/// outside of the tests of Rust and Python, strings.
+pub fn of_code(path: &str, text: &str) -> Vec<Sentence> {
+    let in_tests = path.contains("/tests/");
+    match path.rsplit('.').next() {
+        Some("rs") => {
+            let strings = if in_tests { Vec::new() } else { of_strings(text, slashes, &LITERAL) };
+            [of_comments(text, slashes), names(text, &RUST_TEST), strings].concat()
+        }
+        Some("py" | "pyi") => {
+            let text = docstrings_as_comments(text);
+            let strings = if in_tests { Vec::new() } else { of_strings(&text, hash, &LITERAL) };
+            [of_comments(&text, hash), names(&text, &PYTHON_TEST), strings].concat()
+        }
+        _ => [of_comments(text, stars), of_strings(text, stars, &TEMPLATE)].concat(),
+    }
+}
+
+type Comment = fn(&str) -> Option<&str>;
+
+fn of_comments(text: &str, comment: Comment) -> Vec<Sentence> {
     let mut found = Vec::new();
     let mut block: Vec<(usize, &str)> = Vec::new();
-    let mut test = false;
     for (at, line) in text.lines().enumerate() {
-        let line = line.trim();
-        match comment(line) {
+        match comment(line.trim()) {
             Some(words) => block.push((at + 1, words)),
             None => found.extend(of_lines(std::mem::take(&mut block).into_iter())),
         }
-        if let Some(name) = line.strip_prefix("fn ").filter(|_| test) {
-            let name = name.split('(').next().unwrap_or_default();
-            found.push((at + 1, name.replace('_', " ")));
-        }
-        test = line == "#[test]" || (test && line.starts_with("#["));
     }
     found.extend(of_lines(block.into_iter()));
     found
 }
 
-/// The sentences of string literals, without those of one or two words. A literal that spans lines
-/// has the line of its beginning.
-pub fn of_strings(text: &str) -> Vec<Sentence> {
-    let code = without_comments(text);
+/// The names of tests as sentences.
+fn names(text: &str, test: &Regex) -> Vec<Sentence> {
+    let names = test.captures_iter(text).map(|test| test.get(1).unwrap());
+    names.map(|name| (line_of(text, name.start()), name.as_str().replace('_', " "))).collect()
+}
+
+/// The sentences of string literals of more than two words.
+fn of_strings(text: &str, comment: Comment, literal: &Regex) -> Vec<Sentence> {
+    let code = |line: &str| if comment(line.trim()).is_some() { "\n" } else { line }.to_owned();
+    let code: String = text.split_inclusive('\n').map(code).collect();
     let mut found = Vec::new();
-    for literal in LITERAL.find_iter(&code) {
-        let line = code[..literal.start()].matches('\n').count() + 1;
-        let words = CONTINUED.replace_all(literal.as_str().trim_matches('"'), "");
-        let sentences = of_lines(std::iter::once((line, &*words)));
+    for literal in literal.find_iter(&code) {
+        let words = literal.as_str().trim_matches(['"', '`', '>', '<', '/']);
+        let words = CONTINUED.replace_all(words, "");
+        let sentences = of_lines(std::iter::once((line_of(&code, literal.start()), &*words)));
         found.extend(sentences.into_iter().filter(|(_, text)| text.split(' ').count() > 2));
     }
     found
 }
 
-/// A string literal.
-static LITERAL: LazyLock<Regex> =
-    LazyLock::new(|| Regex::new(r#"'"'|"(?:[^"\\]|\\(?s:.))*""#).unwrap());
-
-/// The end of a line inside a literal, with the indentation of the next line.
-static CONTINUED: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"\\\n[ \n]*").unwrap());
-
-fn without_comments(text: &str) -> String {
-    let code = |line: &'_ str| if comment(line.trim()).is_some() { "" } else { line }.to_owned();
-    text.lines().map(|line| code(line) + "\n").collect()
+/// The line of a byte, from 1.
+fn line_of(text: &str, at: usize) -> usize {
+    text[..at].matches('\n').count() + 1
 }
 
-fn comment(line: &str) -> Option<&str> {
+fn docstrings_as_comments(text: &str) -> String {
+    let comment = |doc: &Captures<'_>| format!("# {}", doc[1].replace('\n', "\n# "));
+    DOCSTRING.replace_all(text, comment).into_owned()
+}
+
+macro_rules! patterns {
+    ($($(#[$doc:meta])* $name:ident = $pattern:expr;)*) => {
+        $($(#[$doc])* static $name: LazyLock<Regex> =
+            LazyLock::new(|| Regex::new($pattern).unwrap());)*
+    };
+}
+
+patterns! {
+    LITERAL = r#"'"'|"(?:[^"\\]|\\(?s:.))*""#;
+    /// Strings, templates and the text of elements in TypeScript.
+    TEMPLATE = r#""(?:[^"\\\n]|\\.)*"|`(?:[^`\\]|\\.)*`|>[^<>{}"`=;()]*[a-z][^<>{}"`=;()]*</"#;
+    /// The end of a line inside a literal, with the indentation of the next line.
+    CONTINUED = r"\\\n[ \n]*";
+    RUST_TEST = r"#\[test\]\n(?: *#\[.*\n)* *fn ([a-z0-9_]+)";
+    PYTHON_TEST = r"def test_([a-z0-9_]+)";
+    DOCSTRING = r#"(?s)[rbfu]{0,2}"""(.*?)""""#;
+}
+
+fn slashes(line: &str) -> Option<&str> {
     let words = line.strip_prefix("//")?;
     let words = words.strip_prefix(['/', '!']).unwrap_or(words);
     Some(words.strip_prefix(' ').unwrap_or(words))
+}
+
+fn hash(line: &str) -> Option<&str> {
+    line.strip_prefix('#').map(str::trim_start)
+}
+
+fn stars(line: &str) -> Option<&str> {
+    let words = ["/**", "/*", "*/", "* "].iter().find_map(|sign| line.strip_prefix(sign));
+    let words = words.or_else(|| (line == "*").then_some(""));
+    words.map(|words| words.trim_end_matches("*/").trim()).or_else(|| slashes(line))
 }
 
 fn of_lines<'a>(lines: impl Iterator<Item = (usize, &'a str)>) -> Vec<Sentence> {
@@ -192,14 +236,26 @@ fn pages_are_split_into_sentences() {
 #[test]
 fn comments_and_names_of_tests_are_read() {
     let rust = "//! A file.\n\n/// One.\n/// Two.\n#[test]\n#[ignore]\nfn it_holds() {\n    let x = 1; // not read\n}\n";
-    let sentences: Vec<_> = of_rust(rust).into_iter().map(|(_, sentence)| sentence).collect();
+    let sentences: Vec<_> =
+        of_code("src/x.rs", rust).into_iter().map(|(_, sentence)| sentence).collect();
     assert_eq!(sentences, ["A file.", "One.", "Two.", "it holds"]);
 }
 
 #[test]
 fn strings_are_read() {
-    let rust = "// \"not a string\"\nlet a = \"It is \\\"so\\\".  Two \\\n    words more.\";\nlet b = (\'\"\', \"a b\");\n";
-    let sentences: Vec<_> = of_strings(rust).into_iter().collect();
-    let wanted = [(2, "It is \\\"so\\\"."), (2, "Two words more.")];
-    assert_eq!(sentences, wanted.map(|(line, text)| (line, text.to_owned())));
+    let rust = "// Not \"a string\".\nlet a = \"It is \\\"so\\\".  Two \\\n    words more.\";\nlet b = ('\"', \"a b\");\n";
+    let wanted = [(1, "Not \"a string\"."), (2, "It is \\\"so\\\"."), (2, "Two words more.")];
+    assert_eq!(of_code("src/x.rs", rust), wanted.map(|(line, text)| (line, text.to_owned())));
+    assert_eq!(of_code("a/tests/x.rs", rust).len(), 1);
+}
+
+#[test]
+fn python_and_typescript_are_read() {
+    let python = "# One.\ndef test_it_holds():\n    \"\"\"Two\n    lines.\"\"\"\n    a = \"three words here\"\n";
+    let wanted = [(1, "One."), (3, "Two lines."), (2, "it holds"), (5, "three words here")];
+    assert_eq!(of_code("a.py", python), wanted.map(|(line, text)| (line, text.to_owned())));
+    let page =
+        "/** One\n * two. */\ntest(\"three words here\", () => <b>Four plain words here</b>);\n";
+    let wanted = [(1, "One two."), (3, "three words here"), (3, "Four plain words here")];
+    assert_eq!(of_code("a.tsx", page), wanted.map(|(line, text)| (line, text.to_owned())));
 }

@@ -31,7 +31,6 @@ struct Search<'a> {
 }
 
 impl Checker<'_> {
-    /// A component and the name of its outcome.
     pub(super) fn outcome_of(
         &self,
         path: &Path,
@@ -54,7 +53,7 @@ impl Checker<'_> {
         let below = format!("{}.", path.text());
         let possible = self.possible(Some(verb), &below);
         let what = if verb == Verb::Fire { "an event" } else { "a state" };
-        let message = message!("{} is missing behind '{}'", Words(what), path.text());
+        let message = message!("{} is missing after '{}'", Words(what), path.text());
         let error = Diagnostic::new(Code::E0210, path.span(), message);
         if possible.is_empty() {
             let events = self.possible(Some(Verb::Fire), &below);

@@ -9,7 +9,6 @@ use afp_syntax::ast::{ENDS, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Subject, list};
 use afp_syntax::message;
 
-/// The likely ending for a word.
 pub(super) fn meant(word: &str) -> Option<&'static str> {
     let same = |end: &&str| end.eq_ignore_ascii_case(word);
     let ours = || match synonyms::target(word, Leads::Edge).unwrap_or(word) {

@@ -30,7 +30,7 @@ impl Checker<'_> {
             true => message!("write '{} -> {} by {}'", owner.join("."), to, text),
             false => message!("write the element that is left: 'ELEMENT -> {} by {}'", to, text),
         };
-        let message = message!("'{}' is no element", text);
+        let message = message!("'{}' is not an element", text);
         Some(Diagnostic::new(Code::E0602, path.span(), message).help(help))
     }
 }

@@ -94,13 +94,12 @@ impl Names {
         });
         let camel: String = camel.collect();
         if is_taken(&snake, &camel) {
-            let help = format!("another one, such as 'my-{name}'");
+            let help = format!("another name, such as 'my-{name}'");
             return Err(RunError::usage(format!("the name '{name}' is taken"), help));
         }
         Ok(Names { name: name.to_owned(), camel, snake })
     }
 
-    /// Fills the names into a text.
     pub(crate) fn fill(&self, text: &str) -> String {
         let text = text.replace("{{name}}", &self.name).replace("{{snake}}", &self.snake);
         text.replace("{{Name}}", &self.camel)

@@ -1,4 +1,4 @@
-//! The texts of new projects are sound with every name.
+//! The files of new projects are valid with every name.
 
 use afp_dsl::Toolboxes;
 use afp_project::Origin;
@@ -53,7 +53,7 @@ fn plans_scenarios_and_toolboxes_are_valid_and_canonical() {
 }
 
 #[test]
-fn nothing_is_left_to_fill_in() {
+fn no_placeholder_is_left() {
     for file in KINDS.into_iter().flat_map(|kind| made("my-rover", kind)) {
         assert!(!file.text.contains("{{name") && !file.text.contains("{{Name"), "{file:?}");
         assert!(!file.path.contains('{'), "{}", file.path);
@@ -118,7 +118,7 @@ fn invalid_names_are_refused_with_a_suggestion() {
     ];
     for name in taken {
         let error = files(name, Kind::Plan, &Origin::Version(String::new())).unwrap_err();
-        let help = format!("another one, such as 'my-{name}'");
+        let help = format!("another name, such as 'my-{name}'");
         assert!(error.to_string().contains(&help), "{error}");
         assert!(files(&format!("my-{name}"), Kind::Plan, &Origin::Version(String::new())).is_ok());
     }
