@@ -67,7 +67,7 @@ pub enum SessionError {
     #[error("{0}")]
     World(#[source] Box<dyn Error + Send + Sync>),
     /// The world belongs to another robot.
-    #[error("the world is that of another robot")]
+    #[error("the world is for another robot")]
     OtherWorld,
     /// The real robot cannot be reached.
     #[error("the robot cannot be reached: {0}")]

@@ -73,5 +73,5 @@ fn a_slower_target_is_not_proved_before_its_budgets_are_known() {
     let found = check_target(&graph, &target);
     assert!(found.is_empty(), "{}", found.render(&compiled.sources, false));
     let text = timing(&graph, Some(&target)).text();
-    assert!(text.contains("budgets are those of '[target.mcu]', the others"), "{text}");
+    assert!(text.contains("budgets come from '[target.mcu]', the others"), "{text}");
 }

@@ -271,7 +271,7 @@ fn opens_elsewhere(place: &Place, binary: &Path) {
     std::fs::copy(place.path("dance.mcap"), elsewhere.path("dance.mcap")).unwrap();
     run(&format!("--again dance.mcap {QUIET}"), &elsewhere);
     let again = elsewhere.afpc(&format!("run --again dance.mcap {QUIET}"));
-    again.fails(2, &["used the toolbox 'gestures', whose Rust is not here"]);
+    again.fails(2, &["used the toolbox 'gestures', whose Rust code is not here"]);
     let launch =
         r#"{"seq":1,"type":"request","command":"launch","arguments":{"log":"dance.mcap"}}"#;
     elsewhere.write("launch", &format!("Content-Length: {}\r\n\r\n{launch}", launch.len()));
