@@ -146,7 +146,7 @@ def test_faults_and_presses_are_drawn_for_each_episode() -> None:
         ({"parameters": {"walldist": (0, 1)}, "observe": ["target"]}, "there is nothing to reach"),
     ],
 )
-def test_what_cannot_be_chosen_is_refused(given: dict[str, Any], said: str, wall_following: afp.Plan) -> None:
+def test_invalid_choices_are_refused(given: dict[str, Any], said: str, wall_following: afp.Plan) -> None:
     with pytest.raises((KeyError, ValueError)) as error:
         afp.gym.PlanEnv(wall_following, **given)
     assert said in str(error.value)
