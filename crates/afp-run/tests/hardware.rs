@@ -352,6 +352,6 @@ fn settings_reach_the_robot_and_simulation_options_are_refused() {
         ["--set", "world.name=hall"],
     ] {
         let why = message(on_board(WAITS, &option).0);
-        assert!(why.contains(option[0]) && why.contains("simulation"), "{why}");
+        assert!(why.contains(option[0]) && why.contains("simulated"), "{why}");
     }
 }

@@ -275,7 +275,7 @@ fn foreign_data_in_a_log_is_found() {
     };
     for (rest, told) in [
         (&b"rubbish"[..], "7 extra bytes follow its end"),
-        (b"\n", "1 bytes"),
+        (b"\n", "1 extra bytes"),
         (&sound, "another log follows its end"),
         (mcap::MAGIC, "another log"),
     ] {
