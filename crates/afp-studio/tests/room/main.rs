@@ -367,7 +367,7 @@ fn jobs_with_code_need_trust_and_files_of_the_folder() {
         (json!({ "kind": "sweep", "file": file, "vary": ["gain=1,2", "--output=x"] }), "vary"),
         (json!({ "kind": "sweep", "file": file, "world": "/etc/rooms.toml" }), "outside"),
         (json!({ "kind": "new", "name": "../up" }), "name"),
-        (json!({ "kind": "format c:" }), "no job"),
+        (json!({ "kind": "format c:" }), "unknown job"),
     ] {
         let refused = place.ask(1, "afp/job", wrong).unwrap_err();
         assert!(refused.contains(why), "{refused}");
