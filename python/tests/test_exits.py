@@ -62,6 +62,19 @@ def test_a_program_may_exit_during_a_run(case: str) -> None:
     assert took < LONG
 
 
+@pytest.mark.parametrize("name", ["sweep", "Simulation", "Plan"])
+def test_a_run_begins_without_imports(name: str) -> None:
+    """An import can lose the exception of a signal handler."""
+    work = {
+        "sweep": "afp.sweep(plan, seeds=2, until=0.1, progress=False, metrics={'t': lambda result: result.time})",
+        "Simulation": "afp.Simulation(plan).run(until=0.1).path",
+        "Plan": "afp.load('plans/wall_following.afp').svg()",
+    }
+    code = f"import sys, afp\nplan = afp.load('plans/wall_following.afp')\nknown = set(sys.modules)\n{work[name]}\nprint(set(sys.modules) - known)"
+    ran = subprocess.run([sys.executable, "-c", code], cwd=EXITS.parents[2], capture_output=True, text=True, check=True)
+    assert ran.stdout == "set()\n"
+
+
 @pytest.mark.skipif(not COUNT, reason="AFP_EXITS is not set")
 def test_many_programs_may_exit_during_a_run() -> None:
     rng = random.Random(7)

@@ -120,3 +120,17 @@ def test_each_robot_of_a_vector_has_its_own_world_and_place() -> None:
 def test_a_reward_is_no_function() -> None:
     with pytest.raises(TypeError, match="reward gives terms weights"):
         afp.gym.CarbotEnv(reward=lambda info: 1.0)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("view", ["top", "camera"])
+@pytest.mark.filterwarnings("ignore")
+def test_gymnasium_records_a_video(view: str, tmp_path: Any) -> None:
+    pytest.importorskip("moviepy")
+    env = gymnasium.make("afp/Carbot-v0", render_mode="rgb_array", view=view, max_episode_steps=8)
+    with gymnasium.wrappers.RecordVideo(env, str(tmp_path), episode_trigger=lambda episode: True) as recorded:
+        for _ in range(2):
+            recorded.reset(seed=1)
+            while not any(recorded.step(np.array([0.5, 0.0]))[2:4]):
+                pass
+    assert [file.name for file in sorted(tmp_path.glob("*.mp4"))] == ["rl-video-episode-0.mp4", "rl-video-episode-1.mp4"]
+    assert all(file.stat().st_size > 1000 for file in tmp_path.glob("*.mp4"))

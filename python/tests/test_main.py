@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import os
 import shutil
 import subprocess
@@ -30,3 +31,10 @@ def test_arguments_and_exit_codes_are_forwarded(tmp_path: Path) -> None:
 def test_a_package_without_the_command_line_reports_it(tmp_path: Path) -> None:
     done = run("--version", path=str(tmp_path))
     assert done.returncode == 2 and "built without the command line 'afpc'" in done.stderr
+
+
+def test_the_package_has_its_licences_and_readme() -> None:
+    about = importlib.metadata.distribution("action-flow-plans")
+    assert about.metadata["License-Expression"] == "MIT OR Apache-2.0"
+    assert {"LICENSE-APACHE", "LICENSE-MIT"} <= {file.name for file in about.files or []}
+    assert "afp.new_plan" in str(about.metadata.get_payload())

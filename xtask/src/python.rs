@@ -30,8 +30,9 @@ const PACKAGES: [&str; 17] = [
 ];
 
 /// More packages for the long tests.
-const LONG: [&str; 6] = [
+const LONG: [&str; 7] = [
     "ipykernel==7.4.0",
+    "moviepy==2.2.1",
     "nbclient==0.11.0",
     "pyright==1.1.414",
     "ray==2.60.0",
@@ -110,8 +111,11 @@ pub fn long() -> Result<(), Failure> {
     let mut stress = at_package(&python, &stress);
     run_command(stress.env("AFP_STRESS", STRESSED).env("AFP_SIMULATIONS", SIMULATIONS))?;
     PYTHONS.iter().try_for_each(|version| exits(&python, version))?;
-    let types = ["-m", "pytest", "--quiet", "tests/test_types.py", "tests/test_gym_sb3.py"];
-    run_command(at_package(&python, &types).env("AFP_PYRIGHT", "1"))?;
+    // Pyright, stable-baselines3 and a writer of videos are large.
+    let large = ["test_types.py", "test_gym_sb3.py", "test_gym_moments.py"];
+    let large = large.map(|file| format!("tests/{file}"));
+    let mut more = at_package(&python, &["-m", "pytest", "--quiet"]);
+    run_command(more.args(large).env("AFP_PYRIGHT", "1"))?;
     let random = ["-m", "pytest", "--quiet", "tests/test_gym.py", "-k", "nothing_raises"];
     run_command(at_package(&python, &random).env("AFP_GYM_STEPS", RANDOM_STEPS))?;
     run_command(&mut at_package(&python, &["notebooks/execute.py"]))?;

@@ -113,6 +113,8 @@ pub fn listen(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     // The thread that imports it first counts as the main thread, so a sweep must not do it.
     py.import("threading")?;
+    // It interrupts components, and must not be imported while they run.
+    py.import("ctypes")?;
     py.import("atexit")?.call_method1("register", (wrap_pyfunction!(call_off, module)?,))?;
     Ok(())
 }

@@ -54,6 +54,9 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     #[cfg(feature = "carbot")]
     let is_carbot = link.own_robot().is_none();
     let own_robot = link.own_robot();
+    // An exception of a signal handler is an error here. On first use, numpy's functions would panic.
+    numpy::array::get_array_module(module.py())?;
+    drop(numpy::PyArray1::<f64>::zeros(module.py(), 0, false));
     link::set(link);
     forks::listen(module)?;
     leave::listen(module)?;

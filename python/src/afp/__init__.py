@@ -147,11 +147,22 @@ def __getattr__(name: str) -> Any:
         return importlib.import_module(f".{name}", __name__)
     if module is None:
         raise AttributeError(f"module 'afp' has no attribute '{name}'")
+    _load()
     found = importlib.import_module(f".{module}", __name__)
     if not hasattr(found, name):
         raise AttributeError(f"'afp.{name}' is for the Carbot, and this process has another robot")
     globals()[name] = getattr(found, name)
     return globals()[name]
+
+
+def _load() -> None:
+    """Load all modules with the first name, and numpy's generators.
+
+    Python loses the exception of a signal handler that it calls at a certain point of an import, so
+    a run must not begin with imports.
+    """
+    for module in ("numpy.random", *(f"{__name__}.{module}" for module in _MODULES)):
+        importlib.import_module(module)
 
 
 def __dir__() -> list[str]:

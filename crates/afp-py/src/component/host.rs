@@ -122,7 +122,7 @@ impl Host {
     /// instruction. This reaches components in threads without signals.
     ///
     /// # Errors
-    /// `ctypes` is missing.
+    /// Those of `ctypes`.
     pub fn interrupt(&self, py: Python<'_>) -> PyResult<()> {
         let thread = self.calling.load(Ordering::Relaxed);
         if thread == 0 {
