@@ -7,6 +7,7 @@ mod force;
 mod goto;
 mod hover;
 mod launch;
+mod live;
 mod look;
 mod mode;
 mod outside;
@@ -113,8 +114,6 @@ struct Run<'h> {
     exception: Option<(&'static str, String)>,
     /// Events not sent yet, if a client subscribed to the trace.
     traced: Option<Vec<Value>>,
-    /// The time of the last state message.
-    told_at: Wall,
     /// Whether the run was started.
     has_begun: bool,
     /// The last thing that the robot touched.
@@ -123,6 +122,12 @@ struct Run<'h> {
     end: Instant,
     /// Values and outcomes that the operator forces.
     forces: Vec<force::Force>,
+    /// The client that ended a live run.
+    ended_by: Option<String>,
+    /// The breakpoint that a live run will be held for.
+    hit: Option<live::Hit>,
+    /// The earliest time of the next state message.
+    next_state: Wall,
 }
 
 /// The reason for a rejected request.
@@ -181,6 +186,7 @@ impl<'h> Adapter<'h> {
                 self.event_to::<event::Output>(from, &body);
             }
         }
+        self.rewire();
         self.take()
     }
 
@@ -189,6 +195,7 @@ impl<'h> Adapter<'h> {
         self.listen_for_lease(now);
         self.check_lease(now);
         self.drive(now);
+        self.rewire();
         self.take()
     }
 
@@ -219,6 +226,7 @@ impl<'h> Adapter<'h> {
         }
         self.check_part(command)?;
         self.may(command, now)?;
+        self.check_live(command)?;
         match command {
             "initialize" => said(self.initialize(parse(arguments)?)),
             "launch" => said(self.launch(parse(arguments)?, now)),

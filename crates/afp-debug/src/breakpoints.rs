@@ -1,12 +1,13 @@
 //! Breakpoints: where a run pauses.
 
+mod tripwire;
 mod wanted;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use afp_core::Fault;
-use afp_core::trace::{ComponentId, Outcome};
-use afp_session::{EndingKind, EventAt, EventKind, RunEvent};
+use afp_core::trace::{Author, ComponentId, Ending, Outcome, Record};
+use afp_session::{EventKind, RunEvent};
 
 use crate::adapter::ClientId;
 use crate::hit_count::HitCount;
@@ -23,6 +24,8 @@ pub(crate) struct Breakpoints {
     filters: BTreeMap<ClientId, BTreeSet<&'static str>>,
     at: HashMap<Spot, Vec<u64>>,
     made: u64,
+    /// Whether they have changed since a live run got its tripwire.
+    pub changed: bool,
 }
 
 /// Breakpoints that a client sets together.
@@ -98,6 +101,7 @@ impl Breakpoints {
 
     pub fn set_filters(&mut self, owner: ClientId, filters: BTreeSet<&'static str>) {
         self.filters.insert(owner, filters);
+        self.changed = true;
     }
 
     /// Whether a client asks to stop on collisions.
@@ -142,6 +146,7 @@ impl Breakpoints {
             spots.for_each(|spot| at.entry(*spot).or_default().push(each.id));
         }
         self.at = at;
+        self.changed = true;
     }
 
     fn find(&mut self, id: u64) -> Option<(Kind, &mut Breakpoint)> {
@@ -164,7 +169,10 @@ impl Breakpoints {
         let exception = self.filters.values().find_map(|filters| exception(filters, event));
         let mut hits = Hits { exception, ..Hits::default() };
         let mut there = BTreeSet::new();
-        let at: Vec<_> = spots(event, program)
+        let at: Vec<_> = event
+            .record()
+            .into_iter()
+            .flat_map(|record| spots(&record, program))
             .flat_map(|spot| self.at.get(&spot).into_iter().flatten().map(move |id| (*id, spot)))
             .filter(|(id, _)| there.insert(*id))
             .collect();
@@ -208,27 +216,30 @@ fn exception(filters: &BTreeSet<&'static str>, event: &RunEvent) -> Option<&'sta
     names.iter().find_map(|name| filters.get(name).copied())
 }
 
-fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
-    let id = event.component.id;
-    let all = match &event.kind {
-        EventKind::Started => [Some(Spot::Start(id)), None, None],
-        EventKind::Finished(state) => {
-            [Some(Spot::Reports(id)), Some(Spot::Outcome(id, state.outcome)), None]
+fn spots(record: &Record<'_>, program: &Program) -> impl Iterator<Item = Spot> + use<> {
+    let all = match *record {
+        Record::Started { component } => [Some(Spot::Start(component)), None, None],
+        Record::Finished { element, state } => {
+            [Some(Spot::Reports(element)), Some(Spot::Outcome(element, state)), None]
         }
-        EventKind::Event(EventAt { event, element, .. }) => reported(id, event.outcome, element.id),
-        EventKind::Diverted { event, supervisor } => reported(supervisor.id, event.outcome, id),
+        Record::Event { supervisor, event, element }
+        | Record::Diverted { supervisor, event, element } => reported(supervisor, event, element),
         // The plan itself ends, by its own fault or by a component's.
-        EventKind::Faulted(_) if id == ComponentId(0) => [None; 3],
-        EventKind::Faulted(_) => [Some(Spot::Outcome(id, Outcome::Error)), None, None],
-        EventKind::Ended { ending: EndingKind::Error, .. } if id == ComponentId(0) => {
-            [Some(Spot::Outcome(id, Outcome::Error)), None, None]
+        Record::Faulted { component: ComponentId(0), .. } => [None; 3],
+        Record::Faulted { component, .. } => {
+            [Some(Spot::Outcome(component, Outcome::Error)), None, None]
         }
-        EventKind::Missed(_) => [Some(Spot::Outcome(id, Outcome::DeadlineMissed)), None, None],
+        Record::Ended { plan: plan @ ComponentId(0), ending: Ending::Error(_) } => {
+            [Some(Spot::Outcome(plan, Outcome::Error)), None, None]
+        }
+        Record::Missed { supervisor, .. } => {
+            [Some(Spot::Outcome(supervisor, Outcome::DeadlineMissed)), None, None]
+        }
         // The initial values of a plan do not count as writes.
-        EventKind::Committed { entry_id, .. } => {
-            let entry = program.entries.get(entry_id.0 as usize);
-            let written = entry.is_some_and(|entry| entry.plan != id);
-            [written.then_some(Spot::Commit(*entry_id)), None, None]
+        Record::Committed { author, entry, .. } => {
+            let declared = program.entries.get(entry.0 as usize);
+            let written = declared.is_some_and(|it| Author::Component(it.plan) != author);
+            [written.then_some(Spot::Commit(entry)), None, None]
         }
         _ => [None; 3],
     };

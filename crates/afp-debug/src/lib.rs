@@ -17,6 +17,7 @@
 mod adapter;
 mod breakpoints;
 mod hit_count;
+mod live_target;
 mod log_target;
 mod plotted;
 mod program;
@@ -28,6 +29,7 @@ mod text;
 mod watched;
 
 pub use adapter::{Adapter, ClientId, Host, Launch, Outgoing, Surroundings};
+pub use live_target::{LiveTarget, Relay};
 pub use log_target::LogTarget;
 pub use plotted::Plotted;
 pub use program::{Entry, Place, Program, Spot, Times, Unit};

@@ -1,7 +1,7 @@
 //! The robot's signals for display: values as text, and the cones of range sensors.
 
-use afp_core::devices::{DeviceRow, SignalRow, SignalType, signals};
-use afp_session::{AnySession, Datum, Pose2, SampleRef};
+use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, signals};
+use afp_session::{Datum, Pose2, SampleRef};
 
 use crate::plotted::{Plotted, plotted};
 
@@ -49,11 +49,18 @@ impl Sensed {
     }
 }
 
+/// Passes the present sample of a signal on, if there is one.
+type Read<'r> = dyn Fn(SignalId, &mut dyn FnMut(SampleRef<'_>)) + 'r;
+
 /// Reads all signals that a plan may use, in device order and without pictures; `robot` is its
 /// pose.
-pub(crate) fn all(session: &dyn AnySession, robot: Option<Pose2>) -> Vec<Sensed> {
+pub(crate) fn all(
+    devices: &'static [DeviceRow],
+    read: &Read<'_>,
+    robot: Option<Pose2>,
+) -> Vec<Sensed> {
     let mut all = Vec::new();
-    for (signal, device, row) in signals(session.devices()).filter(|(.., row)| !row.truth) {
+    for (signal, device, row) in signals(devices).filter(|(.., row)| !row.truth) {
         let mut take = |sample: SampleRef<'_>| {
             let heard = match (sample, sample.value()) {
                 (SampleRef::Range(heard), _) => heard,
@@ -66,7 +73,7 @@ pub(crate) fn all(session: &dyn AnySession, robot: Option<Pose2>) -> Vec<Sensed>
         };
         match row.ty {
             SignalType::Pose | SignalType::Image | SignalType::Outline => {}
-            _ => session.read(signal, &mut take),
+            _ => read(signal, &mut take),
         }
     }
     all

@@ -263,7 +263,8 @@ impl Target for SessionTarget<'_> {
     }
 
     fn sensed(&self) -> Vec<Sensed> {
-        sensed::all(&*self.run.session, self.pose())
+        let session = &self.run.session;
+        sensed::all(session.devices(), &|signal, to| session.read(signal, to), self.pose())
     }
 
     fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {

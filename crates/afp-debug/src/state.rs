@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use afp_core::trace::{ComponentId, Outcome, TraceEntryId};
 use afp_core::{Duration, Instant};
+use afp_dsl::types::Constant;
 use afp_dsl::unfold::ComponentKind;
 use afp_session::{Datum, EndingKind, EventAt, EventKind, Miss, NamedOutcome, RunEvent};
 
@@ -215,6 +216,12 @@ impl State {
     /// The value of an entry; `None` before the first write.
     pub fn entry(&self, id: TraceEntryId) -> Option<&Datum> {
         self.entries.get(&id)
+    }
+
+    /// The values of all entries, by number, for formulas.
+    pub(crate) fn constants(&self, program: &Program) -> Vec<Constant> {
+        let ids = (0..program.entries.len() as u32).map(TraceEntryId);
+        ids.map(|id| program.constant(id, self.entry(id))).collect()
     }
 
     /// The inputs of a component at its start, by port.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::{ComponentId, TraceHash};
 use afp_core::{Duration, Instant};
-use afp_session::{Figures, Pose2, Request, RunEvent, Stimulus};
+use afp_session::{Figures, Pose2, Request, RunEvent, Stimulus, Tripwire};
 
 use crate::program::Program;
 use crate::sensed::Sensed;
@@ -26,6 +26,20 @@ pub trait Target {
     /// Whether the run is a recording, which cannot change.
     fn is_recorded(&self) -> bool {
         false
+    }
+
+    /// Whether time passes by itself: a robot drives, and it is held instead of paused.
+    fn is_live(&self) -> bool {
+        false
+    }
+
+    /// Replaces the places where a live run is held.
+    ///
+    /// # Errors
+    /// The reason.
+    fn watch(&mut self, tripwire: Option<Box<dyn Tripwire>>) -> Result<(), String> {
+        let _ = tripwire;
+        Ok(())
     }
 
     /// Warnings to show before the run.

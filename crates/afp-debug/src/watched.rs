@@ -4,7 +4,7 @@ use afp_core::Text;
 use afp_core::trace::{ComponentId, TraceEntryId};
 use afp_dsl::graph::EntryId;
 use afp_dsl::toolbox::Constant;
-use afp_dsl::types::Type;
+use afp_dsl::types::{Dimension, Type};
 use afp_dsl::watch::Watch;
 use afp_session::Datum;
 
@@ -61,6 +61,23 @@ impl Watched {
         self.watch.value(&entry).map_err(|why| format!("cannot compute '{}': {why}", self.text))
     }
 
+    /// Whether it is true for the values of all entries, by number. Never allocates.
+    pub fn holds_for(&self, entries: &[Constant]) -> bool {
+        let entry = |id: EntryId| {
+            let value = entries.get(self.first as usize + usize::from(id.0))?;
+            (*value != Constant::Unset).then(|| value.clone())
+        };
+        matches!(self.watch.value(&entry), Ok(Some(Constant::Bool(true))))
+    }
+
+    /// Its constant value, if an entry of this type can take it.
+    pub fn constant_for(&self, ty: &Type) -> Result<Constant, String> {
+        let number = matches!((self.watch.ty(), ty), (Type::Int, Type::Quantity(it)) if *it == Dimension::NONE);
+        let fits = number || self.watch.ty() == ty;
+        let value = self.watch.value(&|_| None).ok().flatten().filter(|_| fits);
+        value.ok_or_else(|| format!("'{}' is not a value of type '{ty}'", self.text))
+    }
+
     /// Whether it is true; an unset value counts as false.
     pub fn holds(&self, program: &Program, state: &State) -> bool {
         matches!(self.value(program, state), Ok(Some(Constant::Bool(true))))
@@ -88,7 +105,13 @@ impl Watched {
 }
 
 impl Program {
-    fn graph_entry(&self, id: TraceEntryId) -> Option<&afp_dsl::graph::Entry> {
+    /// A value of an entry, for formulas; unset for objects.
+    pub(crate) fn constant(&self, id: TraceEntryId, value: Option<&Datum>) -> Constant {
+        let declared = self.graph_entry(id);
+        value.zip(declared).and_then(|(value, it)| constant(value, &it.ty)).unwrap_or_default()
+    }
+
+    pub(crate) fn graph_entry(&self, id: TraceEntryId) -> Option<&afp_dsl::graph::Entry> {
         let plan = self.entries.get(id.0 as usize)?.plan;
         let first = self.entries.iter().position(|entry| entry.plan == plan)?;
         let inside = self.plan_of(plan)?;

@@ -4,6 +4,7 @@
 //! any plan on any simulated robot. Neither depends on the language or a robot.
 
 mod again;
+mod beside;
 mod drawn;
 mod error;
 mod hash;
@@ -35,6 +36,7 @@ use clap::{Args, Command, FromArgMatches};
 
 use crate::options::{OnRobot, RunOptions};
 
+pub use beside::{Beside, Debugger, Extras};
 pub use drawn::{draw_film, draw_log, draw_sonar, is_of_hardware};
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
@@ -108,7 +110,7 @@ where
         OnRobot::Sim => simulate::<R, P>(&program, new, &options),
         OnRobot::Hardware => {
             let open = |settings: &Settings| Opened::new::<P, H>(new(), settings);
-            run_on_hardware(&program, Box::new(open), &options, None)
+            run_on_hardware(&program, Box::new(open), &options, Extras::default())
         }
     })
 }
@@ -127,7 +129,7 @@ where
         let session = Session::<P, R>::in_world(new(), world, seed, measures)?;
         Ok(Box::new(session) as Box<dyn AnySession>)
     };
-    run(program, &kind::<R>(), Box::new(make), options, None)
+    run(program, &kind::<R>(), Box::new(make), options, Extras::default())
 }
 
 /// Parses the command line of a generated binary. `robots` names the linked kinds of robots.

@@ -76,7 +76,7 @@ pub struct RunOptions {
     )]
     pub until: Option<Duration>,
 
-    /// Speed of simulated time: 1x is real time, max has no limit [default: max; 1x with --live]
+    /// Speed of simulated time: 1x is real time, max has no limit [default: max; 1x with --live or --attach]
     #[arg(long, value_name = "SPEED", value_parser = parse::speed, allow_hyphen_values = true)]
     pub speed: Option<Speed>,
 
@@ -138,16 +138,9 @@ pub struct RunOptions {
     #[arg(long)]
     pub rt_report: bool,
 
-    /// Accept a debugger on the real robot (not available yet)
-    #[arg(
-        long,
-        hide = true,
-        value_name = "ADDRESS",
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = ""
-    )]
-    pub debug: Option<String>,
+    /// Let debuggers attach to a simulated run, see 'afpc attach' [default speed: 1x]
+    #[arg(long, hide = cfg!(not(unix)))]
+    pub attach: bool,
 }
 
 /// The robot of a run.
@@ -191,10 +184,10 @@ impl RunOptions {
                 "add '--robot hardware', or leave it out",
             ));
         }
-        if self.debug.is_some() {
+        if self.attach && self.robot == OnRobot::Sim && self.speed() == Speed::Max {
             return Err(RunError::usage(
-                "'--debug' is only for the real robot",
-                "'afpc dap PLAN.afp', as editors start it, debugs the plan in the simulator, with the same trace, and also logs",
+                "'--attach' needs a run in real time, and this one has no limit",
+                "leave '--speed max' out",
             ));
         }
         if self.camera && matches!(self.log, Some(Destination::None)) {
@@ -260,7 +253,7 @@ impl RunOptions {
 
     /// The speed of time; by default unlimited, or real time while other programs watch.
     pub fn speed(&self) -> Speed {
-        let real = self.live.is_some() || self.robot == OnRobot::Hardware;
+        let real = self.live.is_some() || self.attach || self.robot == OnRobot::Hardware;
         let usual = if real { Speed::Times(1.0) } else { Speed::Max };
         self.speed.unwrap_or(usual)
     }

@@ -37,7 +37,7 @@ use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::watchdog::Watchdog;
 use crate::world::{self, BUILT_IN, LoadedWorld};
-use crate::{Program, inputs, requests};
+use crate::{Debugger, Extras, Program, inputs, requests};
 
 use driver::{AnyObserver, Driven, Driver};
 use gate::RunGate;
@@ -51,8 +51,7 @@ pub use hardware::{OpenHardware, run_on_hardware};
 pub type MakeSession<'a> =
     dyn FnOnce(&dyn AnyWorld, u64, &[&str]) -> Result<Box<dyn AnySession>, SessionError> + 'a;
 
-/// Runs a plan on a simulated robot and returns the exit code. A `rasterizer` makes PNG pictures;
-/// without it pictures can only be SVG.
+/// Runs a plan on a simulated robot and returns the exit code.
 ///
 /// # Errors
 /// The options are invalid, or the world or an output fails. A fault of the plan is not an error; it
@@ -62,7 +61,7 @@ pub fn run(
     robot: &dyn AnyRobot,
     make: Box<MakeSession<'_>>,
     options: &RunOptions,
-    rasterizer: Option<Rasterizer<'_>>,
+    extras: Extras<'_>,
 ) -> Result<u8, RunError> {
     options.check()?;
     if options.robot == OnRobot::Hardware {
@@ -95,7 +94,7 @@ pub fn run(
         }
     }
     let (facts, world, again) = (robot.facts(), &world, again.as_ref());
-    let setting = Setting { program, options, recipe, world, facts, again, rasterizer };
+    let setting = Setting { program, options, recipe, world, facts, again, extras };
     drive(&mut *session, Guards::default(), &setting)
 }
 
@@ -174,7 +173,7 @@ struct Setting<'a> {
     again: Option<&'a Again>,
     /// The robot's metadata in the log.
     facts: &'static [(&'static str, &'static str)],
-    rasterizer: Option<Rasterizer<'a>>,
+    extras: Extras<'a>,
 }
 
 fn log_of(
@@ -212,10 +211,10 @@ fn drive(
     guards: Guards,
     setting: &Setting<'_>,
 ) -> Result<u8, RunError> {
-    let Setting { program, options, world, rasterizer, .. } = *setting;
+    let Setting { program, options, world, extras, .. } = *setting;
     let end = setting.recipe.until.unwrap_or(Instant::MAX);
     let paths = Paths::new(program, options, world.path.as_deref())?;
-    let raster = paths.raster(rasterizer)?;
+    let raster = paths.raster(extras.rasterizer)?;
     let keeper = options.time_keeper();
     let stop = stop_flag(keeper).map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     stop.set_last_resort(guards.last_resort);
@@ -236,13 +235,23 @@ fn drive(
         sent = Some(SessionLog::new(recorder, devices, scene, options.camera));
     }
     let pace = Pace::new(keeper).map_err(RunError::file("cannot watch", "the keys".as_ref()))?;
-    let mut gate = RunGate::new(&report, pace, stop.clone(), live.as_deref());
+    let debugger = extras.debugger.filter(|_| keeper != TimeKeeper::Nobody);
+    let debugger = debugger.map(|beside| beside.start(session)).transpose()?;
+    let (mut relay, at_control, end_debugger) = match debugger {
+        Some(Debugger { relay, wire, steering, end }) => {
+            (Some(relay), Some((wire, steering)), Some(end))
+        }
+        None => (None, None, None),
+    };
+    let asked = at_control.as_ref().map(|(_, steering)| steering.asked());
+    let mut gate = RunGate::new(&report, pace, stop.clone(), live.as_deref(), asked);
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
     let mut observers: Vec<&mut AnyObserver<'_>> =
         vec![&mut counts, &mut track, &mut requests, &mut shown];
     let logs = log.iter_mut().chain(&mut sent);
     observers.extend(logs.map(|log| log as &mut AnyObserver<'_>));
+    observers.extend(relay.iter_mut().map(|relay| &mut **relay as &mut AnyObserver<'_>));
     let names = session.owned_names();
     let Guards { watch, realtime, .. } = guards;
     let start =
@@ -250,11 +259,14 @@ fn drive(
     let watchdog = watch.map(start);
     let watchdog =
         watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
-    let driver = Driver { watchdog, realtime, keeper, end, live: live.as_deref() };
+    let driver =
+        Driver { watchdog, realtime, keeper, end, live: live.as_deref(), debugger: at_control };
     armed::notify("READY=1");
     // The robot stops before anything slow is written.
     let driven = driver.drive(session, &mut gate, &mut observers);
     stop.set_last_resort(None);
+    drop(relay);
+    end_debugger.into_iter().for_each(|end| end());
     let Driven { stopped_by, measured, lost } = driven?;
     let speed = session.now().as_secs_f64() / gate.spent();
     drop(gate);

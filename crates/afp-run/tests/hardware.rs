@@ -13,7 +13,7 @@ use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_run::options::RunOptions;
-use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, Program, RunError, run, run_on_hardware};
+use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, Extras, Program, RunError, run, run_on_hardware};
 use afp_session::{
     Hardware, Loader, Open, Opened, Opener, Request, RequestError, Robot, Samples, SessionError,
     Settings, hardware, simulated,
@@ -194,7 +194,7 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
         hardware: &hardware,
     };
     let began = Wall::now();
-    let ran = run_on_hardware(&program, Box::new(open), &options(arguments), None);
+    let ran = run_on_hardware(&program, Box::new(open), &options(arguments), Extras::default());
     (ran, began.elapsed(), seen)
 }
 
@@ -296,7 +296,7 @@ fn a_log_names_the_real_robot_and_is_not_repeated() {
     let make = Box::new(|_: &dyn afp_session::AnyWorld, _: u64, _: &[&str]| {
         panic!("there is nothing to make")
     });
-    let ran = run(&program, robot.kind(), make, &again, None);
+    let ran = run(&program, robot.kind(), make, &again, Extras::default());
     assert!(message(ran).contains("which cannot be repeated"));
 }
 

@@ -9,6 +9,8 @@ use afp_syntax::diagnostics::words::list;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+#[cfg(all(feature = "dap", unix))]
+use crate::commands::attach;
 #[cfg(all(unix, feature = "pi"))]
 use crate::commands::calibrate;
 #[cfg(feature = "dap")]
@@ -93,6 +95,10 @@ enum Command {
     #[cfg(feature = "dap")]
     #[command(after_help = dap::EXAMPLES)]
     Dap(dap::Arguments),
+    /// Attach a debugger to a robot that drives
+    #[cfg(all(feature = "dap", unix))]
+    #[command(after_help = attach::EXAMPLES)]
+    Attach(attach::Arguments),
     /// Draw and edit plans in the browser
     #[cfg(feature = "studio")]
     #[command(after_help = studio::EXAMPLES)]
@@ -140,6 +146,8 @@ pub fn run(linked: &Linked<'_>) -> ExitCode {
         Command::Templates(arguments) => templates::run(arguments),
         #[cfg(feature = "dap")]
         Command::Dap(arguments) => dap::run(arguments, linked),
+        #[cfg(all(feature = "dap", unix))]
+        Command::Attach(arguments) => attach::run(arguments),
         Command::Completions(arguments) => completions::run(arguments, &Cli::command()),
     };
     match result {

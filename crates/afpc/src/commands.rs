@@ -2,6 +2,8 @@
 
 #[cfg(unix)]
 pub mod agent;
+#[cfg(all(feature = "dap", unix))]
+pub mod attach;
 pub mod build;
 #[cfg(all(unix, feature = "pi"))]
 pub mod calibrate;

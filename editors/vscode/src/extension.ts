@@ -3,7 +3,7 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 import { LanguageClient, State } from "vscode-languageclient/node";
 import type { Changed } from "../../../studio/page/drawing/shapes";
-import { adapterOf, argumentsOf, completed, launchOf, programOf, type Launch } from "./launch";
+import { isElsewhere, adapterOf, argumentsOf, completed, launchOf, programOf, type Launch } from "./launch";
 import { Panels } from "./panels";
 
 /**
@@ -100,7 +100,9 @@ const configurations: vscode.DebugConfigurationProvider = {
 
 const adapters: vscode.DebugAdapterDescriptorFactory = {
   createDebugAdapterDescriptor({ configuration }) {
-    // A remote run has its adapter already.
+    // A robot is reached through an adapter on this machine.
+    if (isElsewhere(configuration as Launch)) return new vscode.DebugAdapterExecutable(command(), ["dap"]);
+    // Another run has its adapter already.
     if (configuration.request === "attach") return new vscode.DebugAdapterServer(configuration.port as number);
     if (!vscode.workspace.isTrusted) throw new Error("This folder is not trusted, so its plans do not run.");
     const file = configuration.program ? programOf(configuration.program as string).file : (configuration.log as string);

@@ -10,6 +10,8 @@ export interface Launch {
   log?: string;
   port?: number;
   token?: string;
+  host?: string;
+  socket?: string;
   speed?: number | null;
   [more: string]: unknown;
 }
@@ -39,8 +41,12 @@ export function completed(config: Launch, open: Open | null): Launch | string {
   return full;
 }
 
-/** The configuration to join a run of 'afpc dap --port', or an error message. */
+/** Whether the configuration attaches to a robot, or to a run that drives on this machine. */
+export const isElsewhere = (config: Launch): boolean => config.request === "attach" && Boolean(config.host || config.socket);
+
+/** The configuration to join a run that drives or a run of 'afpc dap --port', or an error message. */
 function joining(config: Launch): Launch | string {
+  if (isElsewhere(config)) return { ...config, type: "afp" };
   const both = Number.isInteger(config.port) && config.token;
   return both ? { ...config, type: "afp" } : "To join a run, the configuration needs the 'port' and the 'token' that 'afpc dap --port' printed.";
 }

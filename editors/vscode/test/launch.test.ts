@@ -5,7 +5,7 @@ import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { DebugClient } from "@vscode/debugadapter-testsupport";
-import { adapterOf, argumentsOf, completed, launchOf, programOf, type Launch } from "../src/launch";
+import { adapterOf, argumentsOf, completed, isElsewhere, launchOf, programOf, type Launch } from "../src/launch";
 import { AFPC, serving } from "./server";
 
 const manifest = JSON.parse(readFileSync("package.json", "utf8"));
@@ -28,6 +28,9 @@ test("a configuration reports missing values and may use full speed", () => {
 test("a run is joined with the output of its server", () => {
   const attach = { type: "afp", request: "attach", name: "x", port: 4711, token: "t" };
   assert.deepEqual(completed(attach, null), attach);
+  const robot = { type: "afp", request: "attach", name: "x", host: "afp@robot.local" };
+  assert.deepEqual(completed(robot, null), robot);
+  assert.deepEqual([isElsewhere(robot), isElsewhere(attach)], [true, false]);
   assert.match(completed({ ...attach, token: "" }, open) as string, /the 'port' and the 'token'/);
   assert.match(completed({ ...attach, port: undefined }, open) as string, /the 'port' and the 'token'/);
 });

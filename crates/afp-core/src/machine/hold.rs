@@ -4,7 +4,7 @@
 //! global supervisors of the outermost plan are polled, and only events that end the plan are
 //! taken.
 
-use super::sweep::{Found, Moment, Occasion};
+use super::sweep::{Found, Moment, Occasion, ends};
 use super::{Edge, Machine, Stepping, Stop};
 use crate::component::Environment;
 use crate::fault::Fault;
@@ -209,9 +209,4 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             .fold(0, |bits, event| bits | 1 << event);
         Events::from_bits(bits)
     }
-}
-
-/// Whether an edge ends the plan.
-pub(super) fn ends(target: Target) -> bool {
-    matches!(target, Target::Terminate | Target::Fail(_))
 }

@@ -2,7 +2,6 @@
 
 use afp_types::{Duration, Instant};
 
-use super::hold::ends;
 use super::leave::after_fault;
 use super::{Edge, Flow, Stepping, Stop};
 use crate::clock::Clock;
@@ -356,6 +355,11 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             self.cx.sink.record(self.cx.now, &record);
         }
     }
+}
+
+/// Whether an edge ends the plan.
+pub(super) fn ends(target: Target) -> bool {
+    matches!(target, Target::Terminate | Target::Fail(_))
 }
 
 impl Fired {

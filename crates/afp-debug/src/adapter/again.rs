@@ -12,6 +12,10 @@ use crate::target::Target;
 /// Returns the command. It is `None` if some input has no option: a value written or forced during
 /// the run, a move in the world, or a button held for an unknown time.
 pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<String> {
+    if target.is_live() {
+        // The run's log repeats it.
+        return None;
+    }
     if let Some(log) = &launch.log {
         return Some(format!("afpc run --again {}", shell_file(log)));
     }

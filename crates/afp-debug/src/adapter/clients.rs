@@ -1,5 +1,6 @@
 //! The clients of a run: their numbering, subscriptions, joining and leaving.
 
+use std::collections::BTreeMap;
 use std::time::Duration as Wall;
 
 use afp_dsl::files::uri_of;
@@ -42,6 +43,8 @@ pub(super) struct Client {
     pub lease: Option<Lease>,
     /// Whether it has disconnected.
     pub over: bool,
+    /// The names of the program's files on the client's machine, if they differ.
+    pub paths: BTreeMap<String, String>,
 }
 
 /// The time of the last question of a lease, and how long it is unanswered.
@@ -84,6 +87,21 @@ pub(super) fn rename_sources(message: &mut Value, rename: fn(&str) -> String) {
     }
 }
 
+/// Gives sources the names that the client's files have. The client shows its own text.
+fn to_client(message: &mut Value, paths: &BTreeMap<String, String>) {
+    if let Some(source) = message.get_mut("source").and_then(Value::as_object_mut)
+        && let Some(path) = source.get("path").and_then(Value::as_str).and_then(|it| paths.get(it))
+    {
+        source.insert("path".to_owned(), json!(path));
+        source.remove("sourceReference");
+    }
+    match message {
+        Value::Object(fields) => fields.values_mut().for_each(|it| to_client(it, paths)),
+        Value::Array(all) => all.iter_mut().for_each(|it| to_client(it, paths)),
+        _ => {}
+    }
+}
+
 impl Adapter<'_> {
     /// Adds a client and returns its id for later messages.
     pub fn join(&mut self) -> ClientId {
@@ -102,6 +120,7 @@ impl Adapter<'_> {
             ours: false,
             lease: None,
             over: false,
+            paths: BTreeMap::new(),
         };
         self.clients.insert(id, client);
         id
@@ -112,6 +131,7 @@ impl Adapter<'_> {
     pub fn leave(&mut self, id: ClientId) -> Vec<Outgoing> {
         self.detach(id);
         self.clients.remove(&id);
+        self.rewire();
         self.take()
     }
 
@@ -119,7 +139,8 @@ impl Adapter<'_> {
     pub(super) fn detach(&mut self, id: ClientId) {
         let Some(client) = self.clients.get_mut(&id) else { return };
         client.attached = false;
-        if self.attached().next().is_none() {
+        let live = self.run.as_ref().is_some_and(|run| run.target.is_live());
+        if self.attached().next().is_none() && !live {
             if let Some(mut run) = self.run.take() {
                 run.target.stop(&mut |_, _| {});
             }
@@ -173,6 +194,9 @@ impl Adapter<'_> {
             let Some(client) = self.clients.get_mut(&to) else { continue };
             client.sent += 1;
             message["seq"] = json!(client.sent);
+            if !client.paths.is_empty() {
+                to_client(&mut message, &client.paths);
+            }
             if client.names_uris {
                 rename_sources(&mut message, uri_of);
             }

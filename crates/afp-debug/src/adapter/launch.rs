@@ -10,9 +10,10 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::clients::Counting;
-use super::mode::{By, Mode, Pace};
+use super::mode::{By, Mode, Pace, STATES};
 use super::stop::stopped_event;
 use super::{Adapter, Answer, Guard, Refusal, Run, parse};
+use crate::target::Target;
 
 /// The arguments of `launch`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -63,21 +64,41 @@ const FILTERS: [(&str, &str, bool); 5] = [
     ("collision", "The robot touches something, in the simulator", false),
 ];
 
-/// The capabilities for a client: a recorded run cannot change, and an observer cannot change a
-/// run.
-pub(super) fn capabilities(steers: bool, is_recorded: bool) -> dapts::Capabilities {
-    let (steers, changes) = (Some(steers), Some(steers && !is_recorded));
+/// The capabilities for a client: a recorded run cannot change, a robot that drives cannot go back,
+/// and an observer cannot change a run.
+pub(super) fn capabilities(steers: bool, of: Of) -> dapts::Capabilities {
+    let changes = Some(steers && of != Of::Log);
+    let turns_back = Some(steers && of != Of::Robot);
     dapts::Capabilities {
-        supports_goto_targets_request: changes,
-        supports_restart_request: steers,
+        supports_goto_targets_request: Some(steers && of == Of::Simulation),
+        supports_restart_request: turns_back,
         supports_set_expression: changes,
         supports_set_variable: changes,
-        supports_step_back: steers,
+        supports_step_back: turns_back,
         ..dapts::Capabilities::default()
     }
 }
 
-impl Adapter<'_> {
+/// The kind of a run, which decides what clients can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Of {
+    Simulation,
+    Log,
+    /// A run whose time passes by itself.
+    Robot,
+}
+
+impl Of {
+    pub(super) fn target(target: &dyn Target) -> Of {
+        match (target.is_recorded(), target.is_live()) {
+            (true, _) => Of::Log,
+            (false, true) => Of::Robot,
+            (false, false) => Of::Simulation,
+        }
+    }
+}
+
+impl<'h> Adapter<'h> {
     pub(super) fn initialize(
         &mut self,
         client: dapts::InitializeRequestArguments,
@@ -118,7 +139,7 @@ impl Adapter<'_> {
             supports_stepping_granularity: yes,
             support_terminate_debuggee: yes,
             supports_terminate_request: yes,
-            ..capabilities(true, false)
+            ..capabilities(true, Of::Simulation)
         })
     }
 
@@ -134,7 +155,7 @@ impl Adapter<'_> {
         self.take_part();
         self.operator = Some(self.asker);
         if self.run()?.target.is_recorded() {
-            let capabilities = capabilities(true, true);
+            let capabilities = capabilities(true, Of::Log);
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
         }
         self.event_to::<event::Initialized>(self.asker, &None);
@@ -156,12 +177,12 @@ impl Adapter<'_> {
                 )));
             }
         }
-        let recorded = self.run()?.target.is_recorded();
+        let of = Of::target(&*self.run()?.target);
         self.take_part();
         match attach.role.as_deref() {
             Some("operator") => self.take_role(attach.lease, now),
             _ => {
-                let capabilities = capabilities(false, recorded);
+                let capabilities = capabilities(false, of);
                 let body = dapts::CapabilitiesEvent { capabilities };
                 self.event_to::<event::Capabilities>(self.asker, &body);
             }
@@ -220,6 +241,12 @@ impl Adapter<'_> {
 
     fn begin(&mut self, launch: Launch, now: Wall) -> Answer<()> {
         let target = self.host.launch(&launch)?;
+        self.begin_with(target, launch, now);
+        Ok(())
+    }
+
+    /// Begins a run.
+    pub(super) fn begin_with(&mut self, target: Box<dyn Target + 'h>, launch: Launch, now: Wall) {
         let pace = Pace::new(launch.speed, target.now(), now);
         let nanos = launch.until.map(Duration::from_secs_f64);
         let end = nanos.map_or(Instant::MAX, |until| target.now() + until);
@@ -231,13 +258,14 @@ impl Adapter<'_> {
             transitions: Vec::new(),
             exception: None,
             traced: None,
-            told_at: now,
             touched: None,
             has_begun: false,
             end,
             forces: Vec::new(),
+            ended_by: None,
+            hit: None,
+            next_state: now + STATES,
         });
-        Ok(())
     }
 
     /// Starts the run after a client's configuration; a client that joined receives the stopped
@@ -316,6 +344,9 @@ impl Adapter<'_> {
 
     /// Ends the plan, stops the robot and sends the result to all clients.
     pub(super) fn terminate(&mut self) -> Answer<()> {
+        if self.run.as_ref().is_some_and(|run| run.target.is_live()) {
+            return self.stop_live();
+        }
         let Some(mut run) = self.run.take() else { return Ok(()) };
         let mut said = Vec::new();
         run.target.stop(&mut |happened, _| said.push(happened.clone()));

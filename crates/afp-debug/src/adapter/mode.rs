@@ -5,6 +5,20 @@ use std::time::Duration as Wall;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
 
+/// The instants computed between two checks for messages at unlimited speed.
+pub(super) const BATCH: usize = 2_000;
+
+/// The wall-clock time between two state messages.
+pub(super) const STATES: Wall = Wall::from_millis(50);
+
+/// The most bytes of state messages of a live run for a client in a second.
+const BYTES: f64 = 16_000.0;
+
+/// The pause after state messages of this size, in a live run.
+pub(super) fn pause_after(bytes: usize) -> Wall {
+    Wall::from_secs_f64(bytes as f64 / BYTES)
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
     /// Stopped.

@@ -13,7 +13,16 @@ impl Adapter<'_> {
         &mut self,
         asked: dapts::SetBreakpointsArguments,
     ) -> Answer<dapts::SetBreakpointsResponse> {
-        let path = self.host.path(asked.source.path.as_deref().unwrap_or_default());
+        let named = asked.source.path.as_deref().unwrap_or_default();
+        let path = self.host.path(named);
+        let target = &self.run()?.target;
+        let live = target.is_live() && target.program().file(&path).is_some();
+        if live
+            && path != named
+            && let Some(client) = self.clients.get_mut(&self.asker)
+        {
+            client.paths.insert(path.clone(), named.to_owned());
+        }
         let first = self.counting().first_line;
         let wanted = asked.breakpoints.unwrap_or_default().into_iter().map(|it| Wanted {
             at: At::Line(path.clone(), it.line.saturating_sub(first)),

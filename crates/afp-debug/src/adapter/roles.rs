@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::clients::Lease;
-use super::launch::capabilities;
+use super::launch::{Of, capabilities};
 use super::{Adapter, Answer, ClientId, Refusal};
 
 /// The interval of questions to the operator.
@@ -78,6 +78,8 @@ impl Adapter<'_> {
     /// Makes the asking client the operator.
     pub(super) fn take_role(&mut self, lease: bool, now: Wall) {
         let (asker, before) = (self.asker, self.operator);
+        // The operator of a robot that drives must prove its presence.
+        let lease = lease || self.run.as_ref().is_some_and(|run| run.target.is_live());
         self.operator = Some(asker);
         if let Some(client) = self.clients.get_mut(&asker) {
             client.lease = lease.then_some(Lease { asked: now, open: None });
@@ -110,7 +112,7 @@ impl Adapter<'_> {
 
     fn send_capabilities(&mut self, id: ClientId) {
         let Some(run) = &self.run else { return };
-        let capabilities = capabilities(self.operator == Some(id), run.target.is_recorded());
+        let capabilities = capabilities(self.operator == Some(id), Of::target(&*run.target));
         self.event_to::<event::Capabilities>(id, &dapts::CapabilitiesEvent { capabilities });
     }
 
@@ -141,8 +143,10 @@ impl Adapter<'_> {
         let Some(run) = &mut self.run else { return };
         run.forces.clear();
         let steps = run.mode.is_step();
+        let live = run.target.is_live();
         self.output("important", &format!("{why}: this run has no operator\n"));
         match steps {
+            true if live => self.hold_without_operator(),
             true => self.stopped(Reason::Pause, &why, Vec::new()),
             // A stopped run stays stopped, and a running one continues.
             false => self.send_state(),

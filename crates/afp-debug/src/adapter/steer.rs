@@ -2,6 +2,7 @@
 
 use std::time::Duration as Wall;
 
+use afp_core::Release;
 use afp_core::trace::ComponentId;
 use afp_session::EventKind;
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
@@ -9,17 +10,11 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::goto::is_there;
-use super::mode::{By, Mode, Pace};
+use super::mode::{BATCH, By, Mode, Pace, STATES, pause_after};
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Hits;
 use crate::program::Program;
 use crate::target::{Advance, Happened};
-
-/// The instants computed between two checks for messages at unlimited speed.
-pub(super) const BATCH: usize = 2_000;
-
-/// The wall-clock time between two state messages.
-const STATES: Wall = Wall::from_millis(50);
 
 #[derive(Deserialize)]
 pub(super) struct Step {
@@ -51,7 +46,9 @@ impl Adapter<'_> {
     pub fn due(&self) -> Option<Wall> {
         let run = self.run.as_ref()?;
         let due = match run.mode {
-            Mode::Held | Mode::Over => None,
+            Mode::Over => None,
+            _ if run.target.is_live() => Some(self.live_due()),
+            Mode::Held => None,
             Mode::Seek { .. } => Some(Wall::ZERO),
             _ if run.pace.factor.is_none() => Some(Wall::ZERO),
             _ => Some(Wall::from_millis(10)),
@@ -74,11 +71,17 @@ impl Adapter<'_> {
     }
 
     pub(super) fn go_on(&mut self, now: Wall) -> Answer<Value> {
-        self.go(Mode::On, now)?;
+        match self.run()?.target.is_live() {
+            true => self.release_live(Mode::On, Release::Continue)?,
+            false => self.go(Mode::On, now)?,
+        }
         Ok(json!({"allThreadsContinued": true}))
     }
 
     pub(super) fn step(&mut self, command: &str, step: Step, now: Wall) -> Answer<()> {
+        if self.run()?.target.is_live() {
+            return self.release_live(Mode::Next(ComponentId(0)), Release::Step);
+        }
         let stack = self.run()?.target.state().stack();
         let program = self.run()?.target.program().clone();
         let plan =
@@ -94,6 +97,9 @@ impl Adapter<'_> {
 
     pub(super) fn pause(&mut self) -> Answer<()> {
         let run = self.run()?;
+        if run.target.is_live() {
+            return self.hold_live();
+        }
         if !matches!(run.mode, Mode::Held | Mode::Over) {
             self.stopped(Reason::Pause, "paused", Vec::new());
         }
@@ -105,14 +111,17 @@ impl Adapter<'_> {
     pub(super) fn drive(&mut self, now: Wall) {
         let Some(mut run) = self.run.take() else { return };
         match run.mode {
-            Mode::Held | Mode::Over => {}
+            Mode::Over => {}
+            _ if run.target.is_live() => self.drive_live(&mut run, now),
+            Mode::Held => {}
             Mode::Seek { to, goes_on } => self.seek_on(&mut run, to, goes_on, now),
             _ => self.drive_run(&mut run, now),
         }
-        if run.mode != Mode::Held && now.saturating_sub(run.told_at) >= STATES {
-            run.told_at = now;
+        if run.mode != Mode::Held && now >= run.next_state {
             self.send_trace(&mut run);
-            self.send_state_of(&run);
+            let bytes = self.send_state_of(&run);
+            let pause = if run.target.is_live() { pause_after(bytes) } else { Wall::ZERO };
+            run.next_state = now + pause.max(STATES);
         }
         self.run = Some(run);
     }
@@ -186,7 +195,7 @@ impl Adapter<'_> {
         {
             run.note(steps);
         }
-        self.hold(run, &all, happened, steps > before)
+        self.pause_at(run, &all, happened, steps > before)
     }
 
     /// Stops on a new contact of the robot, if a client asked for that.
@@ -206,7 +215,7 @@ impl Adapter<'_> {
         true
     }
 
-    fn hold(
+    fn pause_at(
         &mut self,
         run: &mut Run<'_>,
         hits: &Hits,

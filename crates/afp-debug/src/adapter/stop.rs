@@ -125,10 +125,11 @@ impl Adapter<'_> {
         self.run = Some(run);
     }
 
-    pub(super) fn send_state_of(&mut self, run: &Run<'_>) {
-        self.send_sensed_of(run);
+    /// Sends the state to its subscribers; returns the size of the messages to one of them.
+    pub(super) fn send_state_of(&mut self, run: &Run<'_>) -> usize {
+        let sensed = self.send_sensed_of(run);
         if !self.clients.values().any(|client| client.attached && client.state) {
-            return;
+            return sensed;
         }
         let (program, state) = (run.target.program(), run.target.state());
         let path = |id| program.unit(id).map_or("", |unit| &*unit.path);
@@ -158,16 +159,19 @@ impl Adapter<'_> {
             "pose": run.target.pose().map(|it| [it.x, it.y, it.heading].map(rounded)),
         });
         self.send_event_where(|client| client.attached && client.state, "afp/state", &body);
+        sensed + body.to_string().len()
     }
 
     /// Sends the robot's signals to their subscribers.
-    fn send_sensed_of(&mut self, run: &Run<'_>) {
+    fn send_sensed_of(&mut self, run: &Run<'_>) -> usize {
         let wanted = |client: &Client| client.attached && client.sensed;
-        if self.clients.values().any(wanted) {
-            let sensed: Vec<_> = run.target.sensed().iter().map(in_json).collect();
-            let body = json!({"at": run.target.now().as_secs_f64(), "sensed": sensed});
-            self.send_event_where(wanted, "afp/sensed", &body);
+        if !self.clients.values().any(wanted) {
+            return 0;
         }
+        let sensed: Vec<_> = run.target.sensed().iter().map(in_json).collect();
+        let body = json!({"at": run.target.now().as_secs_f64(), "sensed": sensed});
+        self.send_event_where(wanted, "afp/sensed", &body);
+        body.to_string().len()
     }
 }
 

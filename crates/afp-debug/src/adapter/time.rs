@@ -6,8 +6,8 @@ use afp_core::{Duration, Instant};
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 
-use super::mode::{Mode, Pace};
-use super::steer::{BATCH, Step, is_transition};
+use super::mode::{BATCH, Mode, Pace};
+use super::steer::{Step, is_transition};
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Hits;
 use crate::target::{Advance, Position};
@@ -120,7 +120,8 @@ impl Adapter<'_> {
                 Ok(Advance::Limit) if goes_on && limit < run.end => {
                     run.pace = Pace::new(run.pace.factor, run.target.now(), now);
                     run.mode = Mode::On;
-                    return self.send_state_of(run);
+                    self.send_state_of(run);
+                    return;
                 }
                 Ok(Advance::Limit) => {
                     return self.stopped_at(run, Reason::Goto, "went to another time", Vec::new());

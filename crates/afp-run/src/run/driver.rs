@@ -5,7 +5,7 @@ use std::thread;
 
 use afp_core::{Duration, Instant, StartError};
 use afp_project::Realtime;
-use afp_session::{AnySession, Figures, Go, Observer, QueueReader, queue};
+use afp_session::{AnySession, Figures, Go, Observer, QueueReader, Steering, Wire, queue};
 
 use super::gate::{Halt, RunGate};
 use super::realtime;
@@ -34,6 +34,8 @@ pub(super) struct Driver<'a> {
     /// The time at which the plan is stopped.
     pub end: Instant,
     pub live: Option<&'a dyn Live>,
+    /// The parts of a debugger on the control thread.
+    pub debugger: Option<(Wire, Steering)>,
 }
 
 /// A session at the end of its run.
@@ -60,7 +62,7 @@ impl Driver<'_> {
     /// # Errors
     /// The plan or the thread cannot start.
     pub fn drive(
-        self,
+        mut self,
         session: &mut dyn AnySession,
         gate: &mut RunGate<'_>,
         observers: &mut [&mut AnyObserver<'_>],
@@ -68,7 +70,10 @@ impl Driver<'_> {
         if matches!(self.keeper, TimeKeeper::Robot) {
             return self.drive_apart(session, gate, observers);
         }
-        let went = self.run_to_end(session, gate, &mut plain(observers));
+        let (mut wire, steering) = self.debugger.take().unzip();
+        let mut observers = plain(observers);
+        observers.extend(wire.iter_mut().map(|wire| wire as &mut dyn Observer));
+        let went = self.run_to_end(session, gate, steering, &mut observers);
         let measured = session.end();
         let stopped_by = went.map_err(|error| inputs::missing(error, session.names()))?;
         Ok(Driven { stopped_by, measured, lost: 0 })
@@ -94,7 +99,13 @@ impl Driver<'_> {
             writer.set_wake(Box::new(move || thread.unpark()));
             realtime::apply(self.realtime);
             let stop = Stop(session);
-            let went = self.run_to_end(&mut *stop.0, gate, &mut [&mut writer]);
+            let went = match self.debugger.take() {
+                None => self.run_to_end(&mut *stop.0, gate, None, &mut [&mut writer]),
+                Some((mut wire, steering)) => {
+                    let observers: &mut [&mut dyn Observer] = &mut [&mut writer, &mut wire];
+                    self.run_to_end(&mut *stop.0, gate, Some(steering), observers)
+                }
+            };
             drop(self.watchdog.take());
             let measured = stop.0.end();
             // The robot is stopped before the wait for the observers.
@@ -111,6 +122,7 @@ impl Driver<'_> {
         &self,
         session: &mut dyn AnySession,
         gate: &mut RunGate<'_>,
+        mut steering: Option<Steering>,
         observers: &mut [&mut dyn Observer],
     ) -> Result<Option<StoppedBy>, StartError> {
         let itself = matches!(self.keeper, TimeKeeper::Robot);
@@ -123,7 +135,12 @@ impl Driver<'_> {
                 // The robot's own buttons are out of reach here, so the key stops the plan.
                 (Some((Halt::Escape, _)), _) if itself => break StoppedBy::Signal,
                 (Some((Halt::Escape, at)), _) => requests::press_stop(session, at),
-                (Some((Halt::Asked, at)), Some(live)) => live.serve(session, at),
+                (Some((Halt::Asked, at)), live) => {
+                    let at = if itself { session.now() } else { at };
+                    live.into_iter().for_each(|live| live.serve(session, at));
+                    let steering = steering.as_mut().filter(|it| it.is_asked());
+                    steering.into_iter().for_each(|it| it.apply(session, at, observers));
+                }
                 _ if session.ending().is_some() => return Ok(None),
                 _ if went == Go::Stop => break StoppedBy::Signal,
                 _ if !itself || session.now() >= self.end => break StoppedBy::Until,

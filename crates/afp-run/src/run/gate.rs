@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 use afp_core::Instant;
-use afp_session::{Gate, Go};
+use afp_session::{Asked, Gate, Go};
 
 use crate::live::Live;
 use crate::pace::{Pace, Waited};
@@ -20,6 +20,10 @@ pub(super) struct RunGate<'a> {
     pace: Pace,
     stop: StopFlag,
     live: Option<&'a dyn Live>,
+    /// Whether a debugger has requests.
+    debugger: Option<Asked>,
+    /// Whether requests were handled after the last event of the run.
+    served: bool,
     /// The reason and time of the last halt, until it is handled.
     halt: Option<(Halt, Instant)>,
 }
@@ -39,11 +43,12 @@ impl<'a> RunGate<'a> {
         pace: Pace,
         stop: StopFlag,
         live: Option<&'a dyn Live>,
+        debugger: Option<Asked>,
     ) -> Self {
         let closed = report::of(report).closed();
         // The control thread of a real robot must not wait for a lock.
         let report = (!pace.is_of_robot()).then_some(report);
-        RunGate { report, closed, pace, stop, live, halt: None }
+        RunGate { report, closed, pace, stop, live, debugger, served: false, halt: None }
     }
 
     /// Seconds of real time so far.
@@ -72,8 +77,14 @@ impl Gate for RunGate<'_> {
         if self.closed.load(Ordering::Relaxed) {
             return Go::Stop;
         }
-        let asked = || self.live.is_some_and(|live| live.is_asked());
-        match self.pace.wait(target, &self.stop, &asked) {
+        // Requests of a debugger never come between two others without a step.
+        let debugger = self.debugger.as_ref().filter(|_| !self.served);
+        let asked = || {
+            self.live.is_some_and(|live| live.is_asked()) || debugger.is_some_and(Asked::is_asked)
+        };
+        let waited = self.pace.wait(target, &self.stop, &asked);
+        self.served = waited == Waited::Asked;
+        match waited {
             Waited::Due => Go::On,
             Waited::Escape => self.halt(Halt::Escape, target, now),
             Waited::Asked => self.halt(Halt::Asked, target, now),

@@ -8,16 +8,15 @@ use afp_session::{NoWorld, Opened, Recipe, STALL, SessionError, Settings};
 use super::{Guards, Setting, armed, drive, recipe};
 use crate::error::{EXIT_OK, RunError};
 use crate::options::{OF_ROBOT as PREFIX, RunOptions};
-use crate::picture::Rasterizer;
 use crate::world::LoadedWorld;
-use crate::{Program, inputs};
+use crate::{Extras, Program, inputs};
 
 /// The name of a real robot in recipes.
 pub(crate) const HARDWARE: &str = "hardware";
 
 pub type OpenHardware<'a> = dyn Fn(&Settings) -> Result<Opened, SessionError> + 'a;
 
-/// Runs a plan on a real robot; returns the exit code. PNG pictures need a `rasterizer`.
+/// Runs a plan on a real robot; returns the exit code.
 ///
 /// The robot is stopped after every end of the run: normal, by a signal, by a panic, by an output
 /// error.
@@ -28,7 +27,7 @@ pub fn run_on_hardware(
     program: &Program<'_>,
     open: Box<OpenHardware<'_>>,
     options: &RunOptions,
-    rasterizer: Option<Rasterizer<'_>>,
+    extras: Extras<'_>,
 ) -> Result<u8, RunError> {
     options.check()?;
     let world =
@@ -57,7 +56,7 @@ pub fn run_on_hardware(
         ..recipe(program, options, &world, None)?
     };
     let (world, facts, again) = (&world, &[][..], None);
-    let setting = Setting { program, options, recipe, world, facts, again, rasterizer };
+    let setting = Setting { program, options, recipe, world, facts, again, extras };
     drive(&mut *session, guards, &setting)
 }
 

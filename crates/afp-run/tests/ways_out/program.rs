@@ -13,7 +13,7 @@ use afp_dsl::files::Texts;
 use afp_dsl::{Toolboxes, compile};
 use afp_platform::{Hardware, LastResort, RealTime, Robot, Samples, Settings, open_device};
 use afp_run::options::RunOptions;
-use afp_run::{Program, run_on_hardware};
+use afp_run::{Extras, Program, run_on_hardware};
 use afp_session::{Opened, SessionError};
 use afp_syntax::source::Source;
 use clap::{Args, Command, FromArgMatches};
@@ -198,7 +198,7 @@ pub fn drive(plan: &str, port: &str, options: &[&str]) -> ! {
         let plan = LoadedPlan::new(&graph, &registry).map_err(SessionError::Load)?;
         Opened::new::<_, Rover>(plan, settings)
     };
-    let code = match run_on_hardware(&program, Box::new(open), &options, None) {
+    let code = match run_on_hardware(&program, Box::new(open), &options, Extras::default()) {
         Ok(code) => code,
         Err(error) => {
             eprintln!("{error}");

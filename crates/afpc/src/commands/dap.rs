@@ -1,8 +1,16 @@
 //! `afpc dap`: the debug adapter on standard input and output, or on a port.
 
+#[cfg(unix)]
+mod beside;
+#[cfg(unix)]
+mod elsewhere;
+#[cfg(unix)]
+mod link;
 mod listen;
 mod senses;
 mod simulator;
+#[cfg(unix)]
+mod sockets;
 mod talk;
 
 use std::path::{Path, PathBuf};
@@ -16,7 +24,13 @@ use crate::no_plan::NoPlan;
 use crate::plan_file::PlanFile;
 use crate::{Linked, runner};
 
+#[cfg(unix)]
+pub use beside::Socket;
+#[cfg(unix)]
+pub use link::{Begun, Link};
 pub use simulator::Simulator;
+#[cfg(unix)]
+pub use sockets::{connect, connect_to_only};
 use talk::serve;
 #[cfg(feature = "studio")]
 pub use talk::{Arrived, converse, read, wait};

@@ -5,14 +5,8 @@ use afp_run::RunError;
 use clap::Args;
 
 /// Name, reason, and alternative.
-const LATER: &[(&str, &str, &str)] = &[
-    ("replay", "replay of logs", "'afpc run --again RUN.mcap' repeats the run of a log"),
-    (
-        "attach",
-        "the debugger for real robots",
-        "'afpc dap --port 4711' serves a simulated run that editors join with 'attach'; from another machine through 'ssh -L 4711:localhost:4711 HOST'",
-    ),
-];
+const LATER: &[(&str, &str, &str)] =
+    &[("replay", "replay of logs", "'afpc run --again RUN.mcap' repeats the run of a log")];
 
 /// The option for remote clients.
 #[cfg(feature = "dap")]
@@ -40,8 +34,10 @@ impl Listen {
     }
 }
 
-/// Commands that this program was built without. Each is a feature with the command's name.
+/// Commands that this program was built without.
 const LEFT_OUT: &[&str] = &[
+    #[cfg(not(all(feature = "dap", unix)))]
+    "attach",
     #[cfg(not(all(unix, feature = "pi")))]
     "calibrate",
     #[cfg(not(feature = "dap"))]

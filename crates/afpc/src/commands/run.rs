@@ -5,7 +5,7 @@ use std::path::Path;
 
 use afp_project::Robot;
 use afp_run::options::{OnRobot, RunOptions};
-use afp_run::{Program, RunError, check_apart};
+use afp_run::{Extras, Program, RunError, check_apart};
 use afp_session::{AnyWorld, Settings};
 use clap::Args;
 
@@ -82,13 +82,20 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         hardware: &settings,
     };
     let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);
-    let (options, pixels) = (&arguments.options, Some(&pixels as _));
+    let options = &arguments.options;
+    #[cfg(all(feature = "dap", unix))]
+    let socket = super::dap::Socket { graph: &graph, file: &file };
+    let mut extras = Extras { rasterizer: Some(&pixels), debugger: None };
+    #[cfg(all(feature = "dap", unix))]
+    if itself || options.attach {
+        extras.debugger = Some(&socket);
+    }
     if itself {
         let open = |settings: &Settings| real::open(&file.own.project, &graph, settings, linked);
-        return Ok(afp_run::run_on_hardware(&program, Box::new(open), options, pixels)?);
+        return Ok(afp_run::run_on_hardware(&program, Box::new(open), options, extras)?);
     }
     let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
         linked.robot.session(&graph, world, seed, measures)
     };
-    Ok(afp_run::run(&program, linked.robot.kind(), Box::new(make), options, pixels)?)
+    Ok(afp_run::run(&program, linked.robot.kind(), Box::new(make), options, extras)?)
 }

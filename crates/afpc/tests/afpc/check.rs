@@ -191,7 +191,7 @@ fn an_invalid_plan_is_not_charted_run_or_built() {
 #[test]
 fn commands_of_later_releases_and_other_builds_are_explained() {
     let place = Place::new();
-    for name in ["replay", "attach"] {
+    for name in ["replay"] {
         let said = place.afpc(&format!("{name} some --option"));
         let why = [&format!("'afpc {name}' is not in release"), "it comes with", "  help: 'afpc "];
         said.fails(2, &why);
@@ -226,7 +226,7 @@ fn help_has_examples_and_shells_have_completions() {
         for there in ["afpc", "explain", "until", "at-least"] {
             assert!(said.out.contains(there), "{shell}: no {there}");
         }
-        for later in ["replay", "attach", "listen"] {
+        for later in ["replay", "listen"] {
             assert!(!said.out.contains(later), "{shell}: {later}");
         }
     }

@@ -4,7 +4,7 @@ mod failures;
 #[cfg(feature = "pi")]
 mod real;
 mod setup;
-mod ssh;
+pub mod ssh;
 #[cfg(feature = "pi")]
 mod whole;
 

@@ -1,6 +1,8 @@
 //! The command line: the real binary, in temporary folders.
 
 mod again;
+#[cfg(all(feature = "dap", feature = "pi", target_os = "linux"))]
+mod attach;
 mod book;
 mod build;
 #[cfg(unix)]

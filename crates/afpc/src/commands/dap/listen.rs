@@ -1,10 +1,10 @@
 //! Clients on a socket. All clients share one adapter: one client launches a run and others join.
 
 use std::collections::BTreeMap;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use afp_debug::{Adapter, ClientId, Outgoing};
@@ -27,36 +27,64 @@ const ADMISSION: Duration = Duration::from_secs(5);
 const ARRIVALS: usize = 64;
 /// The maximum number of messages that wait for a client.
 const WAITING: usize = 1024;
-/// The time that the run waits for a client that does not read. After it, the client is
-/// disconnected. The run does not wait for clients without a token.
+/// The time that a simulated run waits for a client that does not read. After it, the client is
+/// disconnected. The run does not wait for clients without a token, and a robot for no client.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// The longest time for the last messages of a run.
+const LAST: Duration = Duration::from_millis(500);
 /// The interval between two checks of such a client.
 const LOOK: Duration = Duration::from_millis(1);
 
+/// A connection of a client.
+pub(super) trait Stream: Read + Write + Send + Sized + 'static {
+    /// Another handle to the connection.
+    fn copy(&self) -> std::io::Result<Self>;
+
+    /// Ends one or both directions.
+    fn close(&self, how: Shutdown);
+}
+
+impl Stream for TcpStream {
+    fn copy(&self) -> std::io::Result<Self> {
+        // Without it, small messages wait.
+        let _ = self.set_nodelay(true);
+        self.try_clone()
+    }
+
+    fn close(&self, how: Shutdown) {
+        let _ = self.shutdown(how);
+    }
+}
+
 /// An event from outside.
-enum Arrival {
-    Client(TcpStream),
+pub(super) enum Arrival<S> {
+    Client(S),
     Bytes(usize, Vec<u8>),
     Gone(usize),
+    /// The run beside the adapter is over.
+    End,
 }
 
 /// A connected client.
-struct Peer {
+struct Peer<S> {
     id: ClientId,
     since: Instant,
-    stream: TcpStream,
+    stream: S,
     frames: Frames,
     /// The channel to the writer thread.
     to: SyncSender<Vec<u8>>,
+    writer: JoinHandle<()>,
 }
 
 /// All clients, by connection number.
-struct Peers<'a> {
+pub(super) struct Peers<'a, S> {
     adapter: Adapter<'a>,
     clock: Clock,
-    all: BTreeMap<usize, Peer>,
+    all: BTreeMap<usize, Peer<S>>,
     connected: usize,
-    sender: SyncSender<Arrival>,
+    sender: SyncSender<Arrival<S>>,
+    /// The time that the run waits for a client that does not read.
+    patience: Duration,
 }
 
 /// Serves clients on a port of this machine, without end.
@@ -70,7 +98,7 @@ pub(super) fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
     let token = Token::new().map_err(RunError::file("cannot make", "a token".as_ref()))?;
     let port = listener.local_addr().map_or(port, |address| address.port());
     say(format!("listening on 127.0.0.1:{port}, token {}", token.word()));
-    let (sender, arrived) = sync_channel(ARRIVALS);
+    let (sender, arrived) = arrivals();
     let connected = sender.clone();
     thread::spawn(move || {
         for stream in listener.incoming().flatten() {
@@ -80,13 +108,27 @@ pub(super) fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
         }
     });
     let adapter = Adapter::guarded(Box::new(Simulator::new(linked)), &token, CLIENTS);
-    let all = BTreeMap::new();
-    Peers { adapter, clock: Clock::new(), all, connected: 0, sender }.serve(&arrived);
+    Peers::new(adapter, sender, PATIENCE).serve(&arrived);
     Ok(())
 }
 
-impl Peers<'_> {
-    fn serve(&mut self, arrived: &Receiver<Arrival>) {
+/// A channel for arrivals.
+pub(super) fn arrivals<S>() -> (SyncSender<Arrival<S>>, Receiver<Arrival<S>>) {
+    sync_channel(ARRIVALS)
+}
+
+impl<'a, S: Stream> Peers<'a, S> {
+    pub(super) fn new(
+        adapter: Adapter<'a>,
+        sender: SyncSender<Arrival<S>>,
+        patience: Duration,
+    ) -> Self {
+        let all = BTreeMap::new();
+        Peers { adapter, clock: Clock::new(), all, connected: 0, sender, patience }
+    }
+
+    /// Serves clients until the end of the run beside the adapter, or without end.
+    pub(super) fn serve(&mut self, arrived: &Receiver<Arrival<S>>) {
         loop {
             let run = self.clock.rest(&self.adapter);
             let arrival = wait(arrived, run.into_iter().chain(self.admission_due()).min());
@@ -95,6 +137,7 @@ impl Peers<'_> {
                 Ok(Arrival::Client(stream)) => self.connect(stream),
                 Ok(Arrival::Bytes(from, bytes)) => self.on_bytes(from, &bytes),
                 Ok(Arrival::Gone(from)) => self.forget(from),
+                Ok(Arrival::End) => return self.finish(),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
             }
@@ -110,8 +153,22 @@ impl Peers<'_> {
         }
     }
 
+    /// Sends the last messages to all clients.
+    fn finish(&mut self) {
+        while !self.adapter.has_ended() {
+            let outgoing = self.adapter.tick(self.clock.now());
+            self.send(outgoing);
+        }
+        let writers: Vec<_> =
+            std::mem::take(&mut self.all).into_values().map(|peer| peer.writer).collect();
+        let since = Instant::now();
+        while writers.iter().any(|writer| !writer.is_finished()) && since.elapsed() < LAST {
+            thread::sleep(LOOK);
+        }
+    }
+
     /// The clients without a token, in order of arrival.
-    fn strangers(&self) -> impl Iterator<Item = (usize, &Peer)> {
+    fn strangers(&self) -> impl Iterator<Item = (usize, &Peer<S>)> {
         let all = self.all.iter().map(|(number, peer)| (*number, peer));
         all.filter(|(_, peer)| !self.adapter.is_admitted(peer.id))
     }
@@ -122,13 +179,12 @@ impl Peers<'_> {
         Some(ADMISSION.saturating_sub(first.since.elapsed()))
     }
 
-    fn connect(&mut self, stream: TcpStream) {
+    fn connect(&mut self, stream: S) {
         let strangers: Vec<_> = self.strangers().map(|(number, _)| number).collect();
         if strangers.len() >= STRANGERS {
             self.send_away(strangers[0], "too many connections without a token");
         }
-        let _ = stream.set_nodelay(true);
-        let (Ok(from), Ok(back)) = (stream.try_clone(), stream.try_clone()) else { return };
+        let (Ok(from), Ok(back)) = (stream.copy(), stream.copy()) else { return };
         self.connected += 1;
         let (number, sender) = (self.connected, self.sender.clone());
         thread::spawn(move || {
@@ -137,9 +193,9 @@ impl Peers<'_> {
             let _ = sender.send(Arrival::Gone(number));
         });
         let (to, messages) = sync_channel(WAITING);
-        thread::spawn(move || write(back, &messages));
+        let writer = thread::spawn(move || write(back, &messages));
         let (id, since) = (self.adapter.join(), Instant::now());
-        let peer = Peer { id, since, stream, frames: Frames::default(), to };
+        let peer = Peer { id, since, stream, frames: Frames::default(), to, writer };
         self.all.insert(number, peer);
     }
 
@@ -181,7 +237,7 @@ impl Peers<'_> {
     fn send_away(&mut self, number: usize, why: &str) {
         say(format_args!("warning: a client was disconnected: {why}"));
         if let Some(peer) = self.all.get(&number) {
-            let _ = peer.stream.shutdown(Shutdown::Both);
+            peer.stream.close(Shutdown::Both);
         }
         self.drop_client(number);
     }
@@ -191,7 +247,7 @@ impl Peers<'_> {
         let Some(Peer { id, stream, to, .. }) = self.all.remove(&number) else { return };
         drop(to);
         // The reader ends now, and the writer ends after the last message.
-        let _ = stream.shutdown(Shutdown::Read);
+        stream.close(Shutdown::Read);
         let outgoing = self.adapter.leave(id);
         self.send(outgoing);
     }
@@ -202,7 +258,7 @@ impl Peers<'_> {
             let found = self.all.iter().find(|(_, peer)| peer.id == to);
             let Some((&number, peer)) = found else { continue };
             let is_known = self.adapter.is_admitted(to);
-            let patience = if is_known { PATIENCE } else { Duration::ZERO };
+            let patience = if is_known { self.patience } else { Duration::ZERO };
             if !is_sent(&peer.to, frame(&message), patience) {
                 self.send_away(number, "it reads no messages");
             }
@@ -223,13 +279,14 @@ fn is_sent(to: &SyncSender<Vec<u8>>, mut bytes: Vec<u8>, patience: Duration) -> 
     }
 }
 
-fn write(mut to: TcpStream, messages: &Receiver<Vec<u8>>) {
+/// Writes each message in one piece.
+fn write(mut to: impl Stream, messages: &Receiver<Vec<u8>>) {
     for message in messages {
         if to.write_all(&message).is_err() {
             return;
         }
     }
-    let _ = to.shutdown(Shutdown::Both);
+    to.close(Shutdown::Both);
 }
 
 fn warn(why: WireError) {

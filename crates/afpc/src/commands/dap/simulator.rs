@@ -226,7 +226,7 @@ fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, Str
 }
 
 /// A plan with its places and its sources, including sources that are not files.
-fn program(graph: &Graph, file: &PlanFile, path: &dyn Fn(&str) -> String) -> Program {
+pub(super) fn program(graph: &Graph, file: &PlanFile, path: &dyn Fn(&str) -> String) -> Program {
     let mut program = Program::new(graph, &file.compiled.sources, path);
     program.keep_texts(&file.compiled.sources, &|path, text| {
         fs::read_to_string(path).is_ok_and(|known| known == text)
@@ -235,7 +235,7 @@ fn program(graph: &Graph, file: &PlanFile, path: &dyn Fn(&str) -> String) -> Pro
 }
 
 /// A canonical absolute path if the file exists.
-fn absolute(path: &str) -> String {
+pub(super) fn absolute(path: &str) -> String {
     let path = path_of(path);
     fs::canonicalize(&path).map_or(path, |path| path.display().to_string())
 }

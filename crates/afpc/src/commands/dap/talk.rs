@@ -110,17 +110,23 @@ pub fn converse(
 pub(super) fn serve(
     adapter: Adapter<'_>,
     from: impl Read + Send + 'static,
-    mut to: impl Write,
+    mut to: impl Write + Send + 'static,
 ) -> Result<(), WireError> {
     let (sender, arrived) = channel();
     // The thread ends with the stream or with the program.
     thread::spawn(move || read(from, |bytes| sender.send(bytes).is_ok()));
     let mut frames = Frames::default();
+    #[cfg(unix)]
+    let mut elsewhere = super::elsewhere::Elsewhere::default();
     let next = |due: Option<Duration>| match wait(&arrived, due) {
         Ok(bytes) => {
             frames.push(&bytes);
             let mut messages = Vec::new();
             while let Some(message) = frames.next_message()? {
+                #[cfg(unix)]
+                if elsewhere.takes(&message) {
+                    return Ok(Arrived::End);
+                }
                 messages.push(message);
             }
             Ok(Arrived::Messages(messages))
@@ -134,7 +140,10 @@ pub(super) fn serve(
         let bytes: Vec<u8> = out.iter().flat_map(|message| frame(message)).collect();
         to.write_all(&bytes).and_then(|()| to.flush()).is_ok()
     };
-    converse(adapter, next, send)
+    converse(adapter, next, send)?;
+    #[cfg(unix)]
+    elsewhere.go_on(frames, &arrived, to)?;
+    Ok(())
 }
 
 /// Waits for an arrival until the next step of the run.

@@ -26,7 +26,7 @@ impl Remote {
     /// # Errors
     /// There is no `ssh`, or the host has no agent.
     pub fn connect(host: &str) -> Result<Self, RunError> {
-        let mut command = command(host)?;
+        let mut command = command(host, "afpc agent")?;
         let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let spawned = piped.spawn();
         let name = command.get_program().to_string_lossy().into_owned();
@@ -75,16 +75,20 @@ impl Drop for Remote {
     }
 }
 
-fn command(host: &str) -> Result<Command, RunError> {
+/// The command that starts a program of the robot, or a local command instead.
+///
+/// # Errors
+/// The host is not a host.
+pub fn command(host: &str, program: &str) -> Result<Command, RunError> {
     if let Some(local) = host.strip_prefix(LOCAL) {
         let mut words = local.split_whitespace();
-        let Some(program) = words.next() else {
+        let Some(first) = words.next() else {
             return Err(RunError::usage(
                 format!("'{host}' names no command"),
-                "write 'exec:afpc agent'",
+                format!("write 'exec:{program}'"),
             ));
         };
-        let mut command = Command::new(program);
+        let mut command = Command::new(first);
         command.args(words);
         return Ok(command);
     }
@@ -95,7 +99,7 @@ fn command(host: &str) -> Result<Command, RunError> {
         ));
     }
     let mut command = Command::new("ssh");
-    command.args(["-T", host, "afpc agent"]);
+    command.args(["-T", host, program]);
     Ok(command)
 }
 

@@ -26,12 +26,16 @@ pub struct Server {
 impl Server {
     /// A server whose only key runs the agent of a robot.
     fn new(robot: &Robot) -> Server {
-        let agent = robot.host().replace("exec:", "exec ");
-        let asked = r#"test \"$SSH_ORIGINAL_COMMAND\" = 'afpc agent' && "#;
+        Server::only("afpc agent", &robot.host().replace("exec:", "exec "))
+    }
+
+    /// A server whose only key runs a command if the client asks for `asked`.
+    pub fn only(asked: &str, command: &str) -> Server {
+        let asked = format!(r#"test \"$SSH_ORIGINAL_COMMAND\" = '{asked}' && "#);
         // The folder that the server needs if root starts it.
         std::fs::create_dir_all("/run/sshd").ok();
         Server::started(|place| {
-            let keys = format!("command=\"{asked}{agent}\" {}", place.read("user.pub"));
+            let keys = format!("command=\"{asked}{command}\" {}", place.read("user.pub"));
             place.write("keys", &keys);
             let more = format!(
                 "AuthorizedKeysFile {}\nPermitRootLogin yes\n",
@@ -100,12 +104,16 @@ impl Server {
         self.place.write("known", &format!("[127.0.0.1]:{} {public}", self.port));
     }
 
+    /// The search path with the clients of this server.
+    pub fn path(&self) -> String {
+        let path = std::env::var("PATH").unwrap();
+        format!("{}:{path}", self.place.path("bin").display())
+    }
+
     /// Runs `afpc` in a folder, with the clients of this server.
     pub fn afpc(&self, folder: &Place, arguments: &str) -> Said {
-        let path = std::env::var("PATH").unwrap();
-        let bin = self.place.path("bin").display().to_string();
         let mut command = folder.command();
-        command.args(arguments.split_whitespace()).env("PATH", format!("{bin}:{path}"));
+        command.args(arguments.split_whitespace()).env("PATH", self.path());
         said(command.stdin(Stdio::null()).output().unwrap())
     }
 }

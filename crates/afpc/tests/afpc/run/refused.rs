@@ -8,10 +8,8 @@ fn options_that_need_another_option_name_it() {
     let place = Place::with_plan();
     let why = "'--rt-report' measures the real robot's control loop";
     place.afpc("run wall_following.afp --rt-report").fails(2, &[why, "help: "]);
-    for debug in ["--debug", "--debug=0.0.0.0:4711"] {
-        let why = ["'--debug' is only for the real robot", "'afpc dap PLAN.afp'"];
-        place.afpc(&format!("run wall_following.afp {debug}")).fails(2, &why);
-    }
+    let why = "'--attach' needs a run in real time";
+    place.afpc("run wall_following.afp --attach --speed max").fails(2, &[why, "help: "]);
     place
         .afpc("run wall_following.afp --press start@1s")
         .fails(2, &["no control 'start'; it has 'touch', 'escape'"]);
