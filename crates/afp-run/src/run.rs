@@ -39,7 +39,7 @@ use crate::watchdog::Watchdog;
 use crate::world::{self, BUILT_IN, LoadedWorld};
 use crate::{Debugger, Extras, Program, inputs, requests};
 
-use driver::{AnyObserver, Driven, Driver};
+use driver::{AnyObserver, Driven, Driver, StartWatchdog};
 use gate::RunGate;
 use paths::Paths;
 
@@ -254,11 +254,10 @@ fn drive(
     observers.extend(relay.iter_mut().map(|relay| &mut **relay as &mut AnyObserver<'_>));
     let names = session.owned_names();
     let Guards { watch, realtime, .. } = guards;
-    let start =
-        |(watch, stall)| Watchdog::start(watch, stall, realtime.priority, stop.clone(), names);
-    let watchdog = watch.map(start);
-    let watchdog =
-        watchdog.transpose().map_err(RunError::file("cannot watch", "the run".as_ref()))?;
+    let flag = stop.clone();
+    let watchdog = watch.map(|(watch, stall)| -> StartWatchdog {
+        Box::new(move || Watchdog::start(watch, stall, realtime.priority, flag, names))
+    });
     let driver =
         Driver { watchdog, realtime, keeper, end, live: live.as_deref(), debugger: at_control };
     armed::notify("READY=1");

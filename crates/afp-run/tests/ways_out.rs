@@ -272,17 +272,19 @@ fn the_control_loop_has_its_priority_or_a_warning_names_the_reason() {
 fn a_component_that_hangs_is_named_and_the_robot_is_stopped() {
     let mut robot = Robot::new();
     let stall = ["--set", "robot.realtime.stall=500ms"];
-    let child = start(&robot, "hangs", &stall).spawn().unwrap();
+    let mut child = start(&robot, "hangs", &stall).spawn().unwrap();
     robot.waits_for("drive", PATIENCE);
     robot.waits_for("cut", PATIENCE);
+    // The watchdog prints the reason after the stop.
+    let mut stderr = BufReader::new(child.stderr.take().unwrap());
+    let reason = "since the call of 'go' (Go): the robot was stopped from another thread";
+    let mut lines = stderr.by_ref().lines().map_while(Result::ok);
+    assert!(lines.any(|line| line.contains(reason)));
+    child.stderr = Some(stderr.into_inner());
     // The program hangs, so one signal ends it.
     send(&child, Signal::TERM);
     let (status, said) = ended(child);
     assert_eq!(status.code(), Some(130), "{said}");
-    assert!(
-        said.contains("since the call of 'go' (Go): the robot was stopped from another thread"),
-        "{said}"
-    );
     assert_eq!(robot.rest(), [""; 0]);
 }
 

@@ -1,5 +1,6 @@
 //! Drives a session to the end of its run, and handles keys, signals and viewers on the way.
 
+use std::io;
 use std::panic::resume_unwind;
 use std::thread;
 
@@ -26,9 +27,12 @@ const LOOK: std::time::Duration = std::time::Duration::from_millis(250);
 /// An observer that may work on another thread.
 pub(super) type AnyObserver<'a> = dyn Observer + Send + 'a;
 
+/// Starts the watchdog of a real robot.
+pub(super) type StartWatchdog = Box<dyn FnOnce() -> io::Result<Watchdog>>;
+
 /// The driver of a session.
 pub(super) struct Driver<'a> {
-    pub watchdog: Option<Watchdog>,
+    pub watchdog: Option<StartWatchdog>,
     pub realtime: Realtime,
     pub keeper: TimeKeeper,
     /// The time at which the plan is stopped.
@@ -99,6 +103,9 @@ impl Driver<'_> {
             writer.set_wake(Box::new(move || thread.unpark()));
             realtime::apply(self.realtime);
             let stop = Stop(session);
+            // It starts after the settings, which may take long, and before the first call.
+            let watchdog = self.watchdog.take().map(|start| start()).transpose();
+            let watchdog = watchdog.map_err(RunError::file("cannot watch", "the run".as_ref()))?;
             let went = match self.debugger.take() {
                 None => self.run_to_end(&mut *stop.0, gate, None, &mut [&mut writer]),
                 Some((mut wire, steering)) => {
@@ -106,7 +113,7 @@ impl Driver<'_> {
                     self.run_to_end(&mut *stop.0, gate, Some(steering), observers)
                 }
             };
-            drop(self.watchdog.take());
+            drop(watchdog);
             let measured = stop.0.end();
             // The robot is stopped before the wait for the observers.
             drop(writer);

@@ -15,7 +15,8 @@ use super::{LIMIT, PATIENCE, Robot, ended, send, start};
 /// The environment variable with the number of runs.
 const RUNS: &str = "AFP_WAYS_OUT";
 /// Settings of the control loop in a series.
-const FIFO: [&str; 2] = ["--set", "robot.realtime.priority=50"];
+const FIFO: [&str; 4] =
+    ["--set", "robot.realtime.priority=50", "--set", "robot.realtime.stall=100ms"];
 
 /// Programs that use the processors until they are dropped.
 struct Busy(Vec<Child>);
@@ -125,6 +126,7 @@ fn ways_out_in_series() {
     {
         series(name, runs, Some([15.0, 30.0]), || to_stop(signal));
     }
-    series("hang", runs, Some([100.0, 130.0]), to_cut);
+    // Up to 10 ms pass between the last command and the call that hangs.
+    series("hang", runs, Some([110.0, 140.0]), to_cut);
     series("resume", runs, None, stays_stopped);
 }
