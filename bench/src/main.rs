@@ -45,12 +45,22 @@ struct Options {
     /// Only do arithmetic for a while: the baseline of the sweep.
     #[arg(long, hide = true)]
     arithmetic: bool,
+    /// Only repeat a step: the work whose instructions are counted.
+    #[arg(long, hide = true)]
+    steps: Option<u64>,
+    /// Repeat the step of the plan with `suspend`.
+    #[arg(long, hide = true)]
+    suspending: bool,
 }
 
 fn main() -> ExitCode {
     let options = Options::parse();
     if options.arithmetic {
         sweep::work();
+        return ExitCode::SUCCESS;
+    }
+    if let Some(steps) = options.steps {
+        step::repeat(steps, options.suspending);
         return ExitCode::SUCCESS;
     }
     let mut report = Report::default();

@@ -12,6 +12,11 @@ pub mod step {
     afp_macros::plan!("plans/step.afp", toolboxes = { "toolbox/board.afp" => crate::board });
 }
 
+pub mod suspending {
+    //! As [`step`], with a suspension that no event takes.
+    afp_macros::plan!("plans/suspending.afp", toolboxes = { "toolbox/board.afp" => crate::board });
+}
+
 pub mod transition {
     //! Two actors that hand over to each other.
     afp_macros::plan!("plans/transition.afp", toolboxes = { "toolbox/board.afp" => crate::board });

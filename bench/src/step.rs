@@ -2,6 +2,7 @@
 
 mod bonsai;
 mod hand;
+mod instructions;
 
 use afp_core::StillClock;
 use afp_core::trace::NoTrace;
@@ -12,6 +13,8 @@ use crate::measure::Race;
 use crate::plans::{loaded_step, step::Step};
 use crate::report::{Report, Row};
 use crate::steps::{any_session_steps, session_steps, steps};
+
+pub use instructions::repeat;
 
 /// The largest ratio of a generated plan to a hand-written loop, and to a behaviour tree.
 const GENERATED: (f64, f64) = (6.0, 0.5);
@@ -50,6 +53,7 @@ pub fn run(rounds: u32, report: &mut Report) {
             report.race("step", case, bonsai, Some(INTERPRETED));
         }
     }
+    instructions::run(report);
     let best = |name: &str| times.iter().find(|case| case.name == name).map(|case| case.best);
     for (name, most) in SESSION {
         if let (Some(session), Some(bare)) = (best(name), best("generated")) {

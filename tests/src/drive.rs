@@ -77,6 +77,7 @@ where
     run.set_inputs();
     if let Some(wake) = run.start() {
         run.run(wake);
+        run.check_end();
         if run.scheduler.misses() > 0 {
             run.log.note(format!("[deadlines missed: {}]", run.scheduler.misses()));
         }
@@ -173,6 +174,14 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
         match catch_unwind(AssertUnwindSafe(step)) {
             Ok(wake) => self.noted(wake),
             Err(_) => self.abort(),
+        }
+    }
+
+    /// Checks that a plan that has ended left no actor.
+    fn check_end(&self) {
+        let stopped = self.log.lines().iter().any(|line| line == "[emergency stop]");
+        if self.scheduler.ending().is_some() && !stopped {
+            self.platform.check_end();
         }
     }
 

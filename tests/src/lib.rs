@@ -10,6 +10,7 @@ pub mod compare;
 mod components;
 pub mod drive;
 pub mod interpret;
+mod life;
 mod names;
 pub mod platform;
 pub mod random;

@@ -4,11 +4,17 @@ use std::cell::{Cell, RefCell};
 use std::panic::resume_unwind;
 use std::rc::Rc;
 
-use afp_core::{Clock, Duration, Environment, Fault, Instant, Reason};
+use afp_core::{Clock, Duration, Environment, Fault, Instant, Reason, Text};
 
+use crate::life::Lives;
 use crate::script::{Act, Phase, Script};
 
+pub use crate::life::Life;
+
 pub const SCRIPTED: Fault = Fault::new(&Reason { code: "scripted", text: "as the script says" });
+
+/// The beginning of a line about a call that may not happen.
+pub const WRONG_CALL: &str = "[wrong call:";
 
 /// Lines written alternately by trace and platform.
 #[derive(Clone, Default)]
@@ -23,6 +29,7 @@ pub struct Platform {
     script: Script,
     log: Log,
     clock: CostClock,
+    lives: Lives,
 }
 
 impl Log {
@@ -52,7 +59,7 @@ impl Clock for CostClock {
 
 impl Platform {
     pub fn new(script: Script, log: Log, clock: CostClock) -> Self {
-        Platform { script, log, clock }
+        Platform { script, log, clock, lives: Lives::default() }
     }
 
     /// Starts, polls or interrupts a component: it may fail, panic or take time.
@@ -60,7 +67,11 @@ impl Platform {
     /// # Errors
     /// The script's fault.
     pub fn call(&mut self, channel: &str, phase: Phase, now: Instant) -> Result<(), Fault> {
-        let shown = phase == Phase::Interrupt || self.script.show_polls && phase == Phase::Poll;
+        let shown = match phase {
+            Phase::Start => false,
+            Phase::Poll => self.script.show_polls,
+            Phase::Suspend | Phase::Resume | Phase::Interrupt => true,
+        };
         if shown && !self.script.show_nothing {
             self.log.note(format!("{now} [{phase} {channel}]"));
         }
@@ -77,6 +88,48 @@ impl Platform {
         }
         self.clock.0.set(self.clock.0.get().max(now) + cost);
         result
+    }
+
+    /// Starts an actor.
+    ///
+    /// # Errors
+    /// The script's fault.
+    pub fn begin(&mut self, channel: &str, now: Instant) -> Result<Life, Fault> {
+        let name = Text::try_from(channel)?;
+        self.call(channel, Phase::Start, now)?;
+        let (life, wrong) = self.lives.begin(name, now);
+        self.note(wrong);
+        Ok(life)
+    }
+
+    /// A call of a started actor.
+    ///
+    /// # Errors
+    /// The script's fault.
+    pub fn act(&mut self, life: &Life, phase: Phase, now: Instant) -> Result<(), Fault> {
+        let wrong = self.lives.call(life, phase, now);
+        self.note(wrong);
+        let result = self.call(life.name(), phase, now);
+        if result.is_ok() {
+            self.lives.called(life, phase, now);
+        }
+        result
+    }
+
+    /// An actor is ready.
+    pub fn end(&mut self, life: &Life) {
+        self.lives.ready(life);
+    }
+
+    /// Checks that every actor has ended.
+    pub fn check_end(&self) {
+        self.note(self.lives.left());
+    }
+
+    fn note(&self, wrong: Option<String>) {
+        if let Some(wrong) = wrong {
+            self.log.note(format!("{WRONG_CALL} {wrong}]"));
+        }
     }
 
     /// The current outcomes, each with its number, in the order of the script.

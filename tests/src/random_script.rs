@@ -40,7 +40,7 @@ fn during(dice: &mut Dice) -> String {
 }
 
 fn answers(channel: &Channel, dice: &mut Dice, text: &mut String) {
-    let times = if channel.actor { dice.between(2, 6) } else { dice.between(0, 3) };
+    let times = if channel.actor { dice.between(2, 6) } else { dice.between(0, 5) };
     for _ in 0..times {
         let (when, outcome) = (during(dice), dice.pick(channel.outcomes));
         let number = match dice.between(0, 12) {
@@ -68,6 +68,11 @@ fn troubles(channel: &Channel, dice: &mut Dice, text: &mut String) {
     }
     if channel.actor && dice.percent(20) {
         let _ = writeln!(text, "{}: {name} interrupt fault", during(dice));
+    }
+    for phase in ["suspend", "resume"] {
+        if channel.actor && dice.percent(20) {
+            let _ = writeln!(text, "{}: {name} {phase} fault", during(dice));
+        }
     }
     if dice.percent(3) {
         let _ = writeln!(text, "{}: {name} panic", during(dice));

@@ -5,7 +5,8 @@
 //! at 10 ms: g First = 7               from 10 ms until before 11 ms, 'g' reports 'First'
 //! from 10 ms to 50 ms: a Done
 //! always: g costs 6 ms                polls take their time
-//! at 10 ms: a interrupt fault         'start', 'poll' (the default) or 'interrupt'
+//! at 10 ms: a interrupt fault         'start', 'poll' (the default), 'suspend',
+//!                                     'resume' or 'interrupt'
 //! at 10 ms: a panic
 //! at 15 ms: write x = 3
 //! at 20 ms: stop
@@ -71,6 +72,8 @@ pub struct Signal {
 pub enum Phase {
     Start,
     Poll,
+    Suspend,
+    Resume,
     Interrupt,
 }
 
@@ -112,6 +115,8 @@ impl fmt::Display for Phase {
         f.write_str(match self {
             Phase::Start => "start",
             Phase::Poll => "poll",
+            Phase::Suspend => "suspend",
+            Phase::Resume => "resume",
             Phase::Interrupt => "interrupt",
         })
     }

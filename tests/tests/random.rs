@@ -6,6 +6,7 @@
 mod rules;
 
 use afp_tests::interpret::{graph, interpret};
+use afp_tests::platform::WRONG_CALL;
 use afp_tests::random::RandomPlan;
 use afp_tests::random_script::script;
 use afp_tests::script::Script;
@@ -18,7 +19,7 @@ mod plans {
     include!(concat!(env!("OUT_DIR"), "/random.rs"));
 }
 
-const SCRIPTS: u64 = 10;
+const SCRIPTS: u64 = 20;
 
 /// While a plan is held, no component starts and no actor is polled.
 fn nothing_acts_in_a_hold(trace: &[String], plan: &RandomPlan, script: u64) {
@@ -39,11 +40,12 @@ fn nothing_acts_in_a_hold(trace: &[String], plan: &RandomPlan, script: u64) {
 
 #[test]
 fn interpreter_and_generated_code_agree() {
-    let mut exercised = Exercised::default();
+    let (mut exercised, mut suspending) = (Exercised::default(), 0);
     for (seed, generated) in plans::PLANS {
         let plan = random::plan(*seed);
         let graph =
             graph(&format!("seed{seed}"), &plan.text).unwrap_or_else(|errors| panic!("{errors}"));
+        suspending += usize::from(plan.text.contains(" -> suspend "));
         for script_seed in 0..SCRIPTS {
             let text = script(&plan, script_seed);
             let script: Script = text.parse().expect("a script that can be read");
@@ -52,9 +54,12 @@ fn interpreter_and_generated_code_agree() {
                 panic!("seed {seed}, script {script_seed}: {parted}\n\n{text}\n{}", plan.text);
             }
             nothing_acts_in_a_hold(&interpreted, &plan, script_seed);
+            let wrong = interpreted.iter().find(|line| line.starts_with(WRONG_CALL));
+            assert_eq!(wrong, None, "seed {seed}, script {script_seed}\n\n{text}\n{}", plan.text);
             exercised.count(&interpreted);
         }
     }
     exercised.print();
+    println!("{suspending} of {} plans suspend", plans::PLANS.len());
     assert_eq!(exercised.missing(), [""; 0], "rules that no run exercised");
 }

@@ -26,9 +26,16 @@ fn the_readme_shows_the_plan_of_the_introduction() {
 }
 
 #[test]
-fn the_drawing_in_the_readme_is_up_to_date() {
-    let file = root().join("docs/images/careful.svg");
-    let source = Source::new("careful.afp", plan(README));
+fn drawings_of_pages_are_up_to_date() {
+    let paused = include_str!("../../crates/afp-draw/tests/draw/paused.afp");
+    is_drawn("careful", plan(README));
+    is_drawn("handler", paused);
+}
+
+/// Compares a picture of the book with the drawing of a plan.
+fn is_drawn(name: &str, plan: &str) {
+    let file = root().join(format!("docs/images/{name}.svg"));
+    let source = Source::new("plan.afp", plan);
     let compiled = compile(&source, &afp_toolboxes::sources().collect(), &Texts::default());
     let icons = |_: &Toolbox, name: &str| afp_toolboxes::icon(name).map(str::to_owned);
     let options = Options { icons: Some(&icons), ..Options::default() };

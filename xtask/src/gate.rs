@@ -1,4 +1,4 @@
-//! The microcontroller gate: a plan with core and templates links without any panic.
+//! The microcontroller gate: plans with core and templates link without any panic.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,12 +9,13 @@ use crate::shell::{Failure, cargo, program, run as run_command, target};
 
 const TARGET: &str = "thumbv7em-none-eabihf";
 const MANIFEST: &str = "firmware/wall_following/Cargo.toml";
-const IMAGE: &str = "firmware-wall-following";
+/// The plan of the paper, and a plan that suspends it.
+const IMAGES: [&str; 2] = ["firmware-wall-following", "paused"];
 /// Debian's compiler and the sources of its library.
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_SOURCES: &str = "/usr/lib/rustlib/src/rust/library";
 
-/// Builds and checks the image.
+/// Builds and checks the images.
 ///
 /// # Errors
 /// The build fails, or panics are linked.
@@ -34,9 +35,15 @@ pub fn run() -> Result<(), Failure> {
             .env_remove("RUSTUP_TOOLCHAIN");
         build(command.arg("-Zbuild-std=core,alloc"), &folder)
     };
-    let image = image::read(&fs::read(built?)?)?;
+    let folder = built?;
+    IMAGES.iter().try_for_each(|name| check(name, &folder.join(name)))
+}
+
+/// Checks an image.
+fn check(name: &str, path: &Path) -> Result<(), Failure> {
+    let image = image::read(&fs::read(path)?)?;
     let (symbols, text) = (image.symbols.len(), image.text);
-    println!("{IMAGE} for {TARGET}: {text} bytes of text, {symbols} symbols");
+    println!("{name} for {TARGET}: {text} bytes of text, {symbols} symbols");
     let panics = image.panics();
     if panics.is_empty() {
         println!("no panic is linked");
@@ -48,7 +55,7 @@ pub fn run() -> Result<(), Failure> {
 fn build(command: &mut Command, folder: &Path) -> Result<PathBuf, Failure> {
     let build = ["build", "--release", "--target", TARGET, "--manifest-path", MANIFEST];
     run_command(command.args(build).env("CARGO_TARGET_DIR", folder))?;
-    Ok(folder.join(TARGET).join("release").join(IMAGE))
+    Ok(folder.join(TARGET).join("release"))
 }
 
 /// Installs the target's library by rustup.

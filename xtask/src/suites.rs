@@ -80,10 +80,17 @@ pub const LINT: &[Suite] = &[
     ("docs", &[], docs),
 ];
 
-/// Seeds of the nightly random plans, each compiled to Rust, in parts that fit into memory.
-const RANDOM_PLANS: &[&str] = &["0..400", "400..800", "800..1200", "1200..1600", "1600..2000"];
+/// Seeds of the nightly random plans, each compiled to Rust, in parts that fit into memory. Nine in
+/// ten of them have `suspend`.
+const RANDOM_PLANS: &[&str] = &["0..450", "450..900", "900..1350", "1350..1800", "1800..2250"];
+
+/// Random plans of the scheduler's tests, each without and with faults.
+const SCHEDULES: &str = "50000";
 
 const RANDOM_WORLDS: &str = "10000";
+
+/// Seeds of the nightly runs with pauses.
+const PAUSES: &str = "50";
 
 /// First room and number of rooms in which the nightly run counts reached goals.
 const GOALS: &str = "1000..100";
@@ -310,16 +317,18 @@ fn by_night(package: &str, test: &str) -> Result<(), Failure> {
 /// The interpreter against generated code on many random plans.
 fn random_plans() -> Result<(), Failure> {
     let test = ["test", "--package", "afp-tests", "--test", "random", "--", "--nocapture"];
+    let rules = ["test", "--release", "--package", "afp-core", "--test", "rules", "--", "random"];
+    run_command(cargo().args(rules).env("AFP_SCHEDULES", SCHEDULES))?;
     for part in RANDOM_PLANS {
         run_command(cargo().args(test).env("AFP_RANDOM_PLANS", part))?;
     }
     Ok(())
 }
 
-/// Plans in random rooms with random faults; and the recorded traces, optimised.
+/// Plans in random rooms with random faults, runs with pauses, and the recorded traces, optimised.
 fn random_worlds() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--", "--nocapture"];
-    run_command(cargo().args(test).env("AFP_WORLDS", RANDOM_WORLDS))
+    run_command(cargo().args(test).env("AFP_WORLDS", RANDOM_WORLDS).env("AFP_PAUSES", PAUSES))
 }
 
 fn single_faults() -> Result<(), Failure> {

@@ -1,6 +1,6 @@
 //! The components of the toolbox `board`.
 
-use afp_core::{Actor, Events, Fault, Instant, Poll, Supervisor};
+use afp_core::{Actor, Duration, Events, Fault, Instant, Poll, Resumable, Supervisor};
 
 use super::{Board, speed, templates};
 use templates::{check_battery, check_button, check_range, check_touch, drive, hop};
@@ -56,6 +56,17 @@ impl Actor<templates::Drive, Board> for Drive {
 
     fn interrupt(&mut self, board: &mut Board, _: Instant) -> Result<(), Fault> {
         board.command = 0.0;
+        Ok(())
+    }
+}
+
+impl Resumable<templates::Drive, Board> for Drive {
+    fn suspend(&mut self, board: &mut Board, _: Instant) -> Result<(), Fault> {
+        board.command = 0.0;
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut Board, _: Instant, _: Duration) -> Result<(), Fault> {
         Ok(())
     }
 }

@@ -32,6 +32,8 @@ mod forward;
 mod hold;
 mod learn_object;
 mod look_around;
+#[cfg(test)]
+mod resuming;
 mod retrace;
 mod search_wall;
 mod signal;

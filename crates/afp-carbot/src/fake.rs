@@ -18,7 +18,7 @@ use picture::Picture;
 use std::collections::VecDeque;
 use std::vec::Vec;
 
-mod pause;
+pub(crate) mod pause;
 mod picture;
 mod place;
 

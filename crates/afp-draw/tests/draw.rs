@@ -10,6 +10,10 @@ use serde_json::Value;
 const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");
 const EVERY_PART: &str = include_str!("draw/every_part.afp");
 
+/// A handler and the element that it pauses.
+const PAUSED: &str = include_str!("draw/paused.afp");
+const PAUSED_DOT: &str = include_str!("draw/paused.dot");
+
 /// Table I and Fig. 2 of the paper: its numbers are centimetres and degrees.
 const EXPECTED: &str = include_str!("draw/wall_following.json");
 
@@ -171,4 +175,19 @@ fn declared_computations_show_their_conditions() {
     assert!(drawing.contains(&tooltip), "{drawing}");
     let plain = svg(&outline, &Options { data: false, ..Options::default() });
     assert!(!plain.contains(">error &gt;"), "{plain}");
+}
+
+#[test]
+fn a_handler_is_dashed_its_suspension_has_a_ring_and_its_return_a_hook() {
+    let compiled = compiled(PAUSED);
+    assert_eq!(dot(&compiled.outline, &Options::default()), PAUSED_DOT);
+    let drawn = svg(&compiled.outline, &Options::default());
+    for part in ["box actor handler", "flow hollow event", "resume"] {
+        assert_eq!(drawn.matches(&format!("class=\"{part}\"")).count(), 1, "{part}");
+    }
+    let json = json_of(PAUSED);
+    let events = &json["global_supervisors"][0]["events"];
+    assert_eq!(events["TouchSensorClicked"], "suspend pause");
+    let reactions = &json["actors"][1]["reactions"][0]["events"];
+    assert_eq!(reactions["TouchSensorClicked"], "return");
 }

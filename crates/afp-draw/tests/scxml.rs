@@ -10,6 +10,7 @@ use afp_syntax::source::Source;
 use roxmltree::{Document, Node};
 
 const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");
+const PAUSED: &str = include_str!("draw/paused.afp");
 const EVERY_PART: &str = include_str!("draw/every_part.afp");
 
 fn chart(text: &str, data: bool) -> String {
@@ -175,4 +176,21 @@ fn a_thousand_nested_sub_plans_fit_on_the_stack() {
     text += "plan P1000 { start w actor w: Wait(duration = 1 s) { Elapsed -> terminate } }\n";
     let text = chart(&text, true);
     assert_eq!(text.matches("<state ").count(), 1002);
+}
+
+#[test]
+fn a_return_leads_to_the_history_of_the_suspended_state() {
+    let text = chart(PAUSED, false);
+    let document = Document::parse(&text).unwrap();
+    let named = |id: &str| {
+        let mut nodes = document.descendants();
+        nodes.find(|node| node.attribute("id") == Some(id)).unwrap()
+    };
+    assert_eq!(named("P-suspended").attribute("type"), Some("deep"));
+    let drives =
+        named("P.drive").parent().and_then(|outer| outer.attribute("id").map(str::to_owned));
+    assert_eq!(drives.as_deref(), Some("P-flowing"));
+    let mut exits = named("P.pause").children().filter(Node::is_element);
+    let clicked = exits.find(|node| node.attribute("event") == Some("button.TouchSensorClicked"));
+    assert_eq!(clicked.unwrap().attribute("target"), Some("P-suspended"));
 }

@@ -168,3 +168,22 @@ fn scenarios_notice_mutants_of_declared_computations() {
     let missed: Vec<_> = missed.map(|it| (&it.mutant.is, it.mutant.column, &it.status)).collect();
     assert!(missed.is_empty(), "{missed:?}");
 }
+
+#[test]
+fn a_suspension_is_ignored_and_a_return_ends_the_plan() {
+    let text = "use std
+plan P {
+    start work
+    supervise tick: Every(period = 1 s) { Due -> suspend rest }
+    actor work: Wait { Elapsed -> terminate }
+    actor rest: Wait { Elapsed -> return }
+}
+";
+    let changes: Vec<_> = mutants(text, 0).into_iter().map(|it| (it.line, it.was, it.is)).collect();
+    let has = |line, was: &str, is: &str| {
+        let wanted = (line, format!("-> {was}"), format!("-> {is}"));
+        assert!(changes.contains(&wanted), "{wanted:?}: {changes:?}");
+    };
+    has(4, "suspend rest", "ignore");
+    has(6, "return", "terminate");
+}

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use afp::quantity::{AngularSpeed, Speed};
-use afp::{Actor, Duration, Fault, Instant, Poll, Reason};
+use afp::{Actor, Duration, Fault, Instant, Poll, Reason, Resumable};
 
 use crate::supervisors::current;
 use crate::templates::{self, roll, spin, spiral, suction};
@@ -14,6 +14,14 @@ const BLOCKED: Fault =
     Fault::new(&Reason { code: "wheels-blocked", text: "the wheels have not turned for 2 s" });
 /// The time after which this is a fault.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// The wheels have moved the robot away from the place where its actor was suspended.
+const MOVED: Fault = Fault::new(&Reason {
+    code: "moved-away",
+    text: "the robot moved by more than 10 cm or 15 deg while its action was suspended",
+});
+/// This is the largest motion, in metres and radians.
+const FARTHEST: f64 = 0.1;
+const WIDEST: f64 = 15.0 / 360.0 * TAU;
 /// The smallest motion that counts as turning, in metres or radians.
 const PROGRESS: f64 = 0.01;
 
@@ -23,11 +31,22 @@ struct Counted {
     from: Way,
     last: f64,
     since: Instant,
+    /// The counters at a suspension, until they are compared.
+    aside: Option<Way>,
 }
 
 impl Counted {
     fn new(env: &(impl Wheels + ?Sized), now: Instant) -> Result<Self, Fault> {
-        Ok(Counted { from: current(env.way(), now)?, last: 0.0, since: now })
+        Ok(Counted { from: current(env.way(), now)?, last: 0.0, since: now, aside: None })
+    }
+
+    fn suspend(&mut self, env: &(impl Wheels + ?Sized), now: Instant) {
+        self.aside = current(env.way(), now).ok();
+    }
+
+    /// Continues after a suspension. The counters still show how much is left.
+    fn resume(&mut self, now: Instant) {
+        self.since = now;
     }
 
     /// Returns the distance and the angle so far; a fault if `which` of them has not changed for
@@ -38,13 +57,42 @@ impl Counted {
         which: fn(Way) -> f64,
         now: Instant,
     ) -> Result<f64, Fault> {
-        let so_far = which(current(env.way(), now)?) - which(self.from);
+        let way = current(env.way(), now)?;
+        if let Some(before) = self.aside.take()
+            && ((way.ahead - before.ahead).si().abs() > FARTHEST
+                || (way.turned - before.turned).si().abs() > WIDEST)
+        {
+            return Err(MOVED);
+        }
+        let so_far = which(way) - which(self.from);
         if (so_far - self.last).abs() > PROGRESS {
             (self.last, self.since) = (so_far, now);
         }
         if now.since(self.since) > PATIENCE { Err(BLOCKED) } else { Ok(so_far) }
     }
 }
+
+/// Stops the wheels on suspension, and continues by the counters.
+macro_rules! resumable {
+    ($actor:ident) => {
+        impl<E: Wheels + ?Sized> Resumable<templates::$actor, E> for $actor {
+            fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+                env.halt();
+                self.counted.suspend(env, now);
+                Ok(())
+            }
+
+            fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+                self.counted.resume(now);
+                Ok(())
+            }
+        }
+    };
+}
+
+resumable!(Roll);
+resumable!(Spin);
+resumable!(Spiral);
 
 /// Drives a distance.
 #[derive(Clone, Debug)]
@@ -177,6 +225,17 @@ impl<E: Nozzle + ?Sized> Actor<templates::Suction, E> for Suction {
     }
 
     fn interrupt(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+}
+
+/// The motor keeps running or stays off meanwhile.
+impl<E: Nozzle + ?Sized> Resumable<templates::Suction, E> for Suction {
+    fn suspend(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, _: Instant, _: Duration) -> Result<(), Fault> {
         Ok(())
     }
 }

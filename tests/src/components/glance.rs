@@ -1,6 +1,6 @@
 //! The smallest supervisor.
 
-use afp_core::{Events, Fault, Instant, Supervisor, Text};
+use afp_core::{Duration, Events, Fault, Instant, OnReturn, Supervisor, Text};
 
 use crate::platform::Platform;
 use crate::script::Phase;
@@ -28,5 +28,10 @@ impl Supervisor<templates::Glance, Platform> for Glance {
         env.call(self.name.as_str(), Phase::Poll, now)?;
         let seen = env.outcomes(self.name.as_str(), now).next().is_some();
         Ok((seen && wanted.contains(0)).then_some(glance::Event::Seen))
+    }
+
+    fn resume(&mut self, env: &mut Platform, now: Instant, _: Duration) -> Result<OnReturn, Fault> {
+        env.call(self.name.as_str(), Phase::Resume, now)?;
+        Ok(OnReturn::Continues)
     }
 }

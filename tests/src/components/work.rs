@@ -1,15 +1,15 @@
 //! An actor with scripted states.
 
-use afp_core::{Actor, Fault, Instant, Poll, Text};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable, Text};
 
-use crate::platform::Platform;
+use crate::platform::{Life, Platform};
 use crate::script::Phase;
 use crate::templates::{self, Side, work};
 
 /// Acts until the script reports a state.
 #[derive(Clone, Debug)]
 pub struct Work {
-    name: Text,
+    life: Life,
     label: Text,
     side: Side,
     value: f64,
@@ -18,10 +18,10 @@ pub struct Work {
 
 impl Actor<templates::Work, Platform> for Work {
     fn start(inputs: work::Inputs<'_>, env: &mut Platform, now: Instant) -> Result<Self, Fault> {
-        env.call(inputs.name, Phase::Start, now)?;
+        let label = Text::try_from(inputs.label)?;
         Ok(Work {
-            name: Text::try_from(inputs.name)?,
-            label: Text::try_from(inputs.label)?,
+            life: env.begin(inputs.name, now)?,
+            label,
             side: inputs.side,
             value: inputs.value,
             polls: 0,
@@ -34,19 +34,31 @@ impl Actor<templates::Work, Platform> for Work {
         env: &mut Platform,
         now: Instant,
     ) -> Result<Poll<work::State>, Fault> {
-        env.call(self.name.as_str(), Phase::Poll, now)?;
+        env.act(&self.life, Phase::Poll, now)?;
         self.polls += 1;
-        let Some((outcome, number)) = env.outcomes(self.name.as_str(), now).next() else {
+        let Some((outcome, number)) = env.outcomes(self.life.name(), now).next() else {
             return Ok(Poll::Pending);
         };
         let result = number.unwrap_or(self.value);
-        Ok(Poll::Ready(match outcome {
+        let state = match outcome {
             "Done" => work::State::Done { result, count: self.polls, last: live.seen },
             _ => work::State::Other { result, text: self.label.clone(), chosen: self.side },
-        }))
+        };
+        env.end(&self.life);
+        Ok(Poll::Ready(state))
     }
 
     fn interrupt(&mut self, env: &mut Platform, now: Instant) -> Result<(), Fault> {
-        env.call(self.name.as_str(), Phase::Interrupt, now)
+        env.act(&self.life, Phase::Interrupt, now)
+    }
+}
+
+impl Resumable<templates::Work, Platform> for Work {
+    fn suspend(&mut self, env: &mut Platform, now: Instant) -> Result<(), Fault> {
+        env.act(&self.life, Phase::Suspend, now)
+    }
+
+    fn resume(&mut self, env: &mut Platform, now: Instant, _: Duration) -> Result<(), Fault> {
+        env.act(&self.life, Phase::Resume, now)
     }
 }

@@ -1,5 +1,8 @@
 //! Random plans: elements that are all reachable, supervisors, edges.
 
+#[path = "plan/handler.rs"]
+mod handler;
+
 use std::fmt::Write;
 
 use super::Channel;
@@ -8,6 +11,7 @@ use super::dice::Dice;
 use super::element::{Made, actor, computation, guard, sub_plan};
 use super::entries::{Entries, Type};
 use super::table::Table;
+use handler::Handlers;
 
 /// A finished plan for use as a sub-plan.
 #[derive(Clone, Debug)]
@@ -24,7 +28,7 @@ struct Builder<'a> {
     number: u64,
     tables: &'a [Table],
     declared: &'a [Declared],
-    entries: Entries,
+    pub entries: Entries,
     dice: &'a mut Dice,
     channels: &'a mut Vec<Channel>,
     elements: u64,
@@ -33,6 +37,7 @@ struct Builder<'a> {
     interruptible: bool,
     /// Whether an event leads to computations that may resume.
     resumes: bool,
+    handlers: Handlers,
     text: String,
 }
 
@@ -46,6 +51,7 @@ impl Shape {
     ) -> Self {
         let entries = Entries::new(number, dice);
         let elements = dice.between(4, 8);
+        let handlers = Handlers::new(number, dice);
         let mut builder = Builder {
             number,
             tables,
@@ -57,6 +63,7 @@ impl Shape {
             globals: Vec::new(),
             interruptible: false,
             resumes: false,
+            handlers,
             text: String::new(),
         };
         builder.write(others);
@@ -77,7 +84,7 @@ impl Builder<'_> {
     fn write(&mut self, others: &[Shape]) {
         self.text = format!("plan Plan{} {{\n    start e0\n{}", self.number, self.entries.text);
         for global in 0..self.dice.between(0, 3) {
-            let events = self.guard(&format!("g{global}"), 4, None);
+            let events = self.guard(&format!("g{global}"), 4, "");
             self.globals.push(events);
         }
         self.map_maker();
@@ -85,9 +92,7 @@ impl Builder<'_> {
         while index < self.elements {
             index += self.element(index, others);
         }
-        if self.resumes {
-            self.chain();
-        }
+        self.write_handlers(others);
         self.text.push_str("}\n");
     }
 
@@ -131,13 +136,11 @@ impl Builder<'_> {
     }
 
     fn write_element(&mut self, index: u64, made: &Made) {
-        let _ = writeln!(self.text, "    {} e{index}: {} {{", made.word, made.call);
+        let name = format!("e{index}");
+        let _ = writeln!(self.text, "    {} {name}: {} {{", made.word, made.call);
         let computes = made.word == "computation";
         if !computes {
-            for local in 0..self.dice.between(0, 3) {
-                self.guard(&format!("w{local}"), 8, Some(index));
-            }
-            self.reactions(index);
+            self.watch(&name);
         }
         for (n, state) in made.outcomes.iter().enumerate() {
             // The first state leads to the next element, so that all are reachable.
@@ -152,6 +155,14 @@ impl Builder<'_> {
             let _ = writeln!(self.text, "        Error -> {target}");
         }
         self.text.push_str("    }\n");
+    }
+
+    /// The supervisors of an element, and its reactions.
+    fn watch(&mut self, name: &str) {
+        for local in 0..self.dice.between(0, 3) {
+            self.guard(&format!("w{local}"), 8, name);
+        }
+        self.reactions(name);
     }
 
     /// `for i in 0..limit`, without time.
@@ -192,17 +203,19 @@ impl Builder<'_> {
         3
     }
 
-    /// Two computations after an event: they resume or lead to an element.
+    /// Two computations after an event: they resume, suspend or lead to an element.
     fn chain(&mut self) {
         let int = self.dice.pick(&self.entries.changing(Type::Int));
         let float = self.dice.pick(&self.entries.changing(Type::Float));
         let (limit, elsewhere) = (self.dice.between(1, 5), self.target(None));
         let error = self.dice.pick(&["", " Error -> resume", " Error -> terminate"]);
+        let again = if self.dice.percent(50) { self.suspend() } else { None };
+        let again = again.unwrap_or_else(|| "resume".to_owned());
         let _ = write!(
             self.text,
             "    computation chain: Assign(value = {float} + 1, result => {float}) {{ Done -> link{error} }}
     computation link: Count(value = {int}, limit = {limit}, next => {int}) {{
-        Again -> resume
+        Again -> {again}
         Done -> {elsewhere}
     }}
 "
@@ -223,7 +236,7 @@ impl Builder<'_> {
     }
 
     /// An element's reactions to global supervisors.
-    fn reactions(&mut self, index: u64) {
+    fn reactions(&mut self, element: &str) {
         for (global, mut events) in self.globals.clone().into_iter().enumerate() {
             if !self.dice.percent(40) {
                 continue;
@@ -236,7 +249,7 @@ impl Builder<'_> {
                 }
                 let target = self.event_target(false);
                 // It is already active.
-                let itself = target == format!("e{index}");
+                let itself = target.strip_prefix("suspend ").unwrap_or(&target) == element;
                 let _ =
                     write!(self.text, " {event} -> {}", if itself { "ignore" } else { &target });
             }
@@ -244,12 +257,9 @@ impl Builder<'_> {
         }
     }
 
-    /// A global supervisor, or a local one of the element with that index; returns its events.
-    fn guard(&mut self, name: &str, indent: usize, owner: Option<u64>) -> Vec<String> {
-        let channel = match owner {
-            Some(owner) => format!("p{}e{owner}{name}", self.number),
-            None => format!("p{}{name}", self.number),
-        };
+    /// A global supervisor, or a local one of the element `owner`; returns its events.
+    fn guard(&mut self, name: &str, indent: usize, owner: &str) -> Vec<String> {
+        let channel = format!("p{}{owner}{name}", self.number);
         let made = guard(&channel, &self.entries, self.dice, self.channels);
         let every = self.dice.pick(&[5, 7, 10, 15, 20]);
         let deadline = self.dice.between(1, every + 1);
@@ -270,6 +280,14 @@ impl Builder<'_> {
     fn event_target(&mut self, connected: bool) -> String {
         if !connected && self.dice.percent(25) {
             return "ignore".to_owned();
+        }
+        if let Some(target) = self.way_back(30) {
+            return target;
+        }
+        if self.dice.percent(25)
+            && let Some(target) = self.suspend()
+        {
+            return target;
         }
         if self.dice.percent(15) {
             let chained = self.dice.percent(60);

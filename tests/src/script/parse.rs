@@ -91,6 +91,8 @@ fn read_steering(text: &str) -> Option<Outside> {
 fn read_act(text: &str) -> Option<(Phase, Act)> {
     let (phase, text) = match text.split_once(' ') {
         Some(("start", rest)) => (Phase::Start, rest),
+        Some(("suspend", rest)) => (Phase::Suspend, rest),
+        Some(("resume", rest)) => (Phase::Resume, rest),
         Some(("interrupt", rest)) => (Phase::Interrupt, rest),
         _ => (Phase::Poll, text),
     };

@@ -15,6 +15,9 @@ pub enum Seen {
     Diverted(ComponentId),
     Resumed(ComponentId),
     Interrupted(ComponentId),
+    Suspended(ComponentId),
+    Returned(ComponentId),
+    Abandoned(ComponentId),
     Finished(ComponentId, Outcome),
     Started(ComponentId),
     Faulted(ComponentId),
@@ -33,6 +36,9 @@ impl Seen {
             Record::Diverted { element, .. } => Seen::Diverted(element),
             Record::Resumed { element, .. } => Seen::Resumed(element),
             Record::Interrupted { element } => Seen::Interrupted(element),
+            Record::Suspended { element, .. } => Seen::Suspended(element),
+            Record::Returned { component, .. } => Seen::Returned(component),
+            Record::Abandoned { element, .. } => Seen::Abandoned(element),
             Record::Finished { element, state } => Seen::Finished(element, state),
             Record::Started { component } => Seen::Started(component),
             // The record names the panicking component; the whole plan fails.
@@ -64,6 +70,10 @@ pub struct Steps {
     /// The step that ended with the last event or fault, before computations that could have
     /// resumed.
     found: usize,
+    /// The elements that have started, and are neither left nor suspended.
+    active: Vec<ComponentId>,
+    /// The elements that are suspended.
+    aside: Vec<ComponentId>,
 }
 
 impl Steps {
@@ -74,6 +84,38 @@ impl Steps {
             json!({ "event": event, "active": active, "only": only, "same": same })
         };
         self.steps.iter().map(step).collect()
+    }
+
+    /// Notes which elements are active and which are suspended.
+    fn follow(&mut self, record: Seen) {
+        match record {
+            Seen::Started(element) | Seen::Returned(element) => {
+                self.forget(element);
+                self.active.push(element);
+            }
+            Seen::Suspended(element) => {
+                self.forget(element);
+                self.aside.push(element);
+            }
+            Seen::Interrupted(element) | Seen::Finished(element, _) | Seen::Abandoned(element) => {
+                self.forget(element);
+            }
+            _ => {}
+        }
+    }
+
+    fn forget(&mut self, element: ComponentId) {
+        self.active.retain(|other| *other != element);
+        self.aside.retain(|other| *other != element);
+    }
+
+    /// Whether an element is inside a suspended sub-plan.
+    fn is_aside(&self, places: &Places, element: ComponentId) -> bool {
+        let state = &places.get(element).state;
+        self.aside.iter().any(|outer| {
+            let inner = state.strip_prefix(&places.get(*outer).state);
+            inner.is_some_and(|rest| rest.starts_with('.'))
+        })
     }
 
     fn feed(&mut self, event: String) {
@@ -108,10 +150,18 @@ impl Step {
 
 pub fn steps(places: &Places, seen: &[Seen]) -> Steps {
     let start = Step::default();
-    let mut steps = Steps { steps: vec![start], cut: false, stopping: false, found: 0 };
+    let mut steps = Steps {
+        steps: vec![start],
+        cut: false,
+        stopping: false,
+        found: 0,
+        active: Vec::new(),
+        aside: Vec::new(),
+    };
     for (at, record) in seen.iter().enumerate() {
         let previous = at.checked_sub(1).map(|previous| seen[previous]);
         step(places, &mut steps, previous, *record, &seen[at + 1..]);
+        steps.follow(*record);
         if steps.cut {
             break;
         }
@@ -137,10 +187,16 @@ fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen
         // Both come after the event that caused them.
         Seen::Diverted(element) => steps.before().is_at_least(places.get(element)),
         Seen::Resumed(element) => steps.last().is_at_least(places.get(element)),
+        // The chart has left it with the suspended sub-plan.
+        Seen::Interrupted(element) if steps.is_aside(places, element) => {}
         Seen::Interrupted(element) => {
             let step = if steps.stopping { steps.last() } else { steps.before() };
             step.is_at(places.get(element));
         }
+        Seen::Suspended(element) => steps.before().is_at_least(places.get(element)),
+        Seen::Returned(component) if places.get(component).kind == Kind::Supervisor => {}
+        Seen::Returned(element) => steps.last().is_at_least(places.get(element)),
+        Seen::Abandoned(_) => {}
         Seen::Started(component) => steps.last().is_at(places.get(component)),
         // The chart itself makes the event for the end of a sub-plan's body.
         Seen::Finished(element, _) if places.get(element).kind == Kind::SubPlan => {}
@@ -186,6 +242,12 @@ fn faulted(
         return;
     }
     let place = places.get(component);
+    // The element could not be suspended, but the chart is already at the handler.
+    let by_event = matches!(previous, Some(Seen::Event(..) | Seen::Finished(..)));
+    if by_event && place.kind != Kind::Computation && steps.active.contains(&component) {
+        steps.cut = true;
+        return;
+    }
     steps.last().is_at_least(place);
     if place.kind != Kind::Computation {
         steps.found = steps.steps.len() - 1;

@@ -37,6 +37,31 @@ const RULES: &[Rule] = &[
     ("computations lead elsewhere", |trace| {
         any(trace, |line| line.contains("link finished Done -> "))
     }),
+    ("an element is suspended", |trace| any(trace, |line| line.contains(" suspended by "))),
+    ("an element is suspended before its start", |trace| {
+        any(trace, |line| line.ends_with(" before its start"))
+    }),
+    ("computations suspend", |trace| {
+        any(trace, |line| line.contains("link finished Again -> suspend"))
+    }),
+    ("a missed deadline suspends", |trace| {
+        any(trace, |line| line.contains("event DeadlineMissed -> suspend"))
+    }),
+    ("an event suspends in the look of a return", suspends_again),
+    ("an element returns", |trace| any(trace, |line| line.contains(" returned after "))),
+    ("computations return", |trace| {
+        any(trace, |line| line.contains("home finished Again -> return"))
+    }),
+    ("an event returns", |trace| {
+        any(trace, |line| line.contains(" event ") && line.ends_with(" -> return"))
+    }),
+    ("a sub-plan returns with what is active inside", returns_inside),
+    ("a supervisor continues", |trace| {
+        any(trace, |line| line.contains(" returned after ") && is_supervisor(line))
+    }),
+    ("an element is abandoned", |trace| any(trace, |line| line.contains(" abandoned"))),
+    ("an actor cannot be suspended", |trace| fails_after(trace, "[suspend ")),
+    ("an actor cannot resume", |trace| fails_after(trace, "[resume ")),
     ("a formula has no value", |trace| any(trace, |line| line.contains(" fault arithmetic"))),
     ("a value is out of range", |trace| any(trace, |line| line.contains(" fault range"))),
     ("a text does not convert", |trace| any(trace, |line| line.contains(" fault conversion"))),
@@ -175,6 +200,44 @@ fn interrupts_inside(trace: &[String]) -> bool {
 
 fn both_interrupted(lines: &[String]) -> bool {
     lines.iter().all(|line| line.ends_with(" interrupted") && !line.contains('['))
+}
+
+/// A handler returns, and the next handler starts although nothing was suspended in between.
+fn suspends_again(trace: &[String]) -> bool {
+    let at = |line: &String| line.split(' ').next().map(str::to_owned);
+    trace.iter().enumerate().any(|(index, line)| {
+        let rest = trace[index..].iter().skip(1).take_while(|next| at(next) == at(line));
+        let mut rest = rest.take_while(|next| {
+            ![" returned ", " suspended ", " diverted "].iter().any(|word| next.contains(word))
+        });
+        line.ends_with(" -> return") && rest.any(|next| next.contains(" -> suspend "))
+    })
+}
+
+fn returns_inside(trace: &[String]) -> bool {
+    let of = |line: &str| {
+        let (_, component, rest) = parts(line)?;
+        rest.starts_with("returned after ").then(|| component.to_owned())
+    };
+    let is_inside = |outer: &str, inner: &str| {
+        let rest = inner.strip_prefix(outer).and_then(|rest| rest.strip_prefix('.'));
+        rest.is_some_and(|rest| rest.starts_with(['e', 'h']))
+    };
+    trace.iter().enumerate().any(|(index, line)| {
+        let Some(outer) = of(line) else { return false };
+        trace[index..].iter().filter_map(|line| of(line)).any(|inner| is_inside(&outer, &inner))
+    })
+}
+
+fn is_supervisor(line: &str) -> bool {
+    let name = parts(line).and_then(|(_, component, _)| component.rsplit('.').next());
+    name.is_some_and(|name| name.starts_with(['g', 'w']))
+}
+
+/// A call of an actor that the next line reports as failed.
+fn fails_after(trace: &[String], call: &str) -> bool {
+    let failed = |line: &str| line.contains(" fault scripted");
+    trace.windows(2).any(|lines| lines[0].contains(call) && failed(&lines[1]))
 }
 
 /// `e3 finished OK ...`, then `e3 commits ...`.

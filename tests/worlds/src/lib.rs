@@ -23,7 +23,7 @@ pub use chance::{Chance, Stimulus};
 pub use contact::Contact;
 pub use drive::{Outcome, run};
 pub use errand::Errand;
-pub use plans::{Plan, plan, plans};
+pub use plans::{Plan, plan, plan_of, plans};
 pub use push::{Push, Pushes};
 pub use reach::Reach;
 pub use single::{Account, Single};

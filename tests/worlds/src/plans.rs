@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use afp_dsl::Toolboxes;
 use afp_dsl::compile_plan;
-use afp_dsl::files::Disk;
+use afp_dsl::files::{Disk, Texts};
 use afp_dsl::graph::Graph;
 use afp_syntax::source::Source;
 
@@ -52,6 +52,18 @@ pub fn plan(name: &str) -> &'static Plan {
 pub fn part(file: &str, name: &str) -> Plan {
     let folder = folder(SHIPPED);
     compiled(&folder, &folder.join(format!("{file}.afp")), Some(name))
+}
+
+/// The first plan of a text.
+///
+/// # Panics
+/// It does not compile.
+pub fn plan_of(name: &str, text: &str) -> Plan {
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let compiled = compile_plan(&Source::new(name, text), &toolboxes, &Texts::default(), None);
+    let said = compiled.render(false);
+    let graph = compiled.graph.unwrap_or_else(|| panic!("{said}"));
+    Plan { name: name.into(), shipped: false, graph }
 }
 
 fn of(name: &str) -> Vec<Plan> {

@@ -6,7 +6,7 @@ use crate::helpers::guard::{FROZEN_INFRARED, NO_INFRARED};
 use crate::helpers::repeats::Repeats;
 use crate::templates;
 use crate::templates::approach_infrared::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Steers by the light's direction and brightness, and stops at the wanted brightness.
 #[derive(Clone, Debug)]
@@ -43,6 +43,19 @@ where
     }
 
     halts_when_interrupted!();
+}
+
+/// The robot drives on from its current place, towards the target's last place at first.
+impl<E: Navigator + Odometry + InfraredSensor + ?Sized> Resumable<templates::ApproachInfrared, E>
+    for ApproachInfrared
+{
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, away: Duration) -> Result<(), Fault> {
+        self.approaching.resume(now, away);
+        self.repeats.resume();
+        Ok(())
+    }
 }
 
 impl ApproachInfrared {

@@ -6,7 +6,7 @@ use crate::objects::Path;
 use crate::templates;
 use crate::templates::choose_view::{Inputs, Live, State};
 use afp_core::quantity::Length;
-use afp_core::{Actor, Fault, Instant, Poll, Ticket};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable, Ticket};
 
 /// Lets the platform search from the robot's estimated position.
 #[derive(Clone, Debug)]
@@ -15,7 +15,8 @@ pub struct ChooseView {
     sight: Length,
     odometry: Guard,
     position: Guard,
-    under_way: Option<Ticket>,
+    /// The search and its first place, metres.
+    under_way: Option<(Ticket, [f64; 2])>,
 }
 
 impl<E> Actor<templates::ChooseView, E> for ChooseView
@@ -39,9 +40,10 @@ where
         self.odometry.current(env.motion(), now)?;
         let reading = env.belief(now)?;
         let here = self.position.current(reading, now)?;
-        if let Some(ticket) = self.under_way {
+        if let Some((ticket, from)) = self.under_way {
             let Poll::Ready(path) = env.found(ticket, now)? else { return Ok(Poll::Pending) };
             let end = path.as_ref().and_then(Path::end);
+            self.seen.note(from);
             return Ok(Poll::Ready(end.map_or(State::NoView, |end| {
                 let [x, y] = end.map(Length::from_si);
                 State::ViewChosen { x, y, next: self.seen.clone() }
@@ -49,15 +51,31 @@ where
         }
         if let Some(here) = here {
             let to = Aim::View { seen: &self.seen, sight: self.sight };
-            self.under_way = env.search(&Trip { from: (here.x, here.y), to }, now)?;
-            if self.under_way.is_some() {
-                self.seen.note([here.x.si(), here.y.si()]);
-            }
+            let ticket = env.search(&Trip { from: (here.x, here.y), to }, now)?;
+            self.under_way = ticket.map(|ticket| (ticket, [here.x.si(), here.y.si()]));
         }
         Ok(Poll::Pending)
     }
 
     halts_when_interrupted!();
+}
+
+/// The search begins again, because its result may be gone.
+impl<E> Resumable<templates::ChooseView, E> for ChooseView
+where
+    E: Navigator + Odometry + Localisation + PathPlanner + ?Sized,
+{
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        self.under_way = None;
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.odometry.restart(now);
+        self.position.restart(now);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

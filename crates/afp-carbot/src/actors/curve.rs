@@ -1,15 +1,22 @@
 //! Drive along an arc.
 
 use crate::devices::{Motion, Navigator, Odometry};
+use crate::helpers::aside::Aside;
+use crate::helpers::motion::wrap;
 use crate::helpers::tracking::{DRIVE_STALLED, Tracking};
 use crate::helpers::turning::{CLOSE, Progress, Turning};
 use crate::templates;
 use crate::templates::curve::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// An arc is complete when the distance left is below this, metres, and the angle below that of a
 /// turn in place.
 const CLOSE_WAY: f64 = 0.004;
+/// Turn rate per radian of heading error, heading towards the arc per metre beside it, and the
+/// largest of these, after a suspension.
+const HOLD: f64 = 2.5;
+const APPROACH: f64 = 4.0;
+const STEEPEST: f64 = 0.5;
 /// Tolerated difference from the arc's length: this share of it, plus this many metres while the
 /// wheels are being steered.
 const OFF_ARC: f64 = 0.25;
@@ -26,6 +33,11 @@ pub struct Curve {
     /// Distance driven so far, metres, and the motion counted there.
     driven: f64,
     last: Option<Motion>,
+    /// The centre of the arc, metres; `None` before the first poll.
+    centre: Option<[f64; 2]>,
+    aside: Aside,
+    /// Whether it was suspended, and steers back to the arc.
+    resumed: bool,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
@@ -39,6 +51,9 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
             tracking: Tracking::new(now),
             driven: 0.0,
             last: None,
+            centre: None,
+            aside: Aside::default(),
+            resumed: false,
         })
     }
 
@@ -46,9 +61,10 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
         match self.turning.progress(env, now)? {
             Progress::Unknown => self.tracking.halt(env, now),
             Progress::Left(left, motion) => {
+                self.resumed |= self.aside.check(&motion)?;
                 self.check_arc(self.angle - left, motion)?;
                 let speed = self.tracking.speed(left.abs() * self.radius, self.speed, now);
-                let rate = speed.copysign(left) / self.radius;
+                let rate = speed.copysign(left) / self.radius + self.correction(&motion);
                 self.tracking.drive(env, &motion, (speed, rate), now)?;
             }
             Progress::Turned { by, stands } => {
@@ -64,18 +80,57 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
     halts_when_interrupted!();
 }
 
+/// The arc and its end stay in place.
+impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Curve, E> for Curve {
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.tracking.halt(env, now);
+        self.aside = Aside::at(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.tracking = Tracking::new(now);
+        self.turning.resume(now);
+        self.last = None;
+        Ok(())
+    }
+}
+
 impl Curve {
-    /// Compares the distance driven with the angle turned.
+    /// The additional turn rate towards the arc, radians a second. A stop on the way leads the
+    /// robot off the arc, because the inner wheel stops earlier.
+    fn correction(&mut self, motion: &Motion) -> f64 {
+        let side = 1_f64.copysign(self.angle);
+        let (x, y, heading) = (motion.x.si(), motion.y.si(), motion.heading.si());
+        let (sin, cos) = libm::sincos(heading);
+        let to_centre = side * self.radius;
+        let [centre_x, centre_y] =
+            *self.centre.get_or_insert([x - to_centre * sin, y + to_centre * cos]);
+        if !self.resumed {
+            return 0.0;
+        }
+        let (dx, dy) = (x - centre_x, y - centre_y);
+        let outside = libm::hypot(dx, dy) - self.radius;
+        let along = libm::atan2(dy, dx) + side * core::f64::consts::FRAC_PI_2;
+        let wanted = along + side * (APPROACH * outside).clamp(-STEEPEST, STEEPEST);
+        HOLD * wrap(wanted - heading)
+    }
+
+    /// Compares the distance driven with the angle turned. The distance of a suspension is not
+    /// counted.
     ///
     /// A wheel that lags changes the arc, even if each part of the arc is close to the command.
     ///
     /// # Errors
     /// [`DRIVE_STALLED`] if the robot drives a different arc.
     fn check_arc(&mut self, turned: f64, motion: Motion) -> Result<(), Fault> {
-        if let Some(last) = self.last.replace(motion) {
-            self.driven += libm::hypot((motion.x - last.x).si(), (motion.y - last.y).si());
-        }
         let arc = self.radius * turned.abs();
+        match self.last.replace(motion) {
+            Some(last) => {
+                self.driven += libm::hypot((motion.x - last.x).si(), (motion.y - last.y).si());
+            }
+            None => self.driven = arc,
+        }
         let off = (self.driven - arc).abs();
         if off > STEERED + OFF_ARC * arc { Err(DRIVE_STALLED) } else { Ok(()) }
     }

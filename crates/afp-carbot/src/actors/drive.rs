@@ -39,7 +39,7 @@ impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Drive, E> for Drive 
 
     fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
         self.tracking = Tracking::new(now);
-        self.odometry = Guard::new(NO_ODOMETRY, now);
+        self.odometry.restart(now);
         Ok(())
     }
 }

@@ -5,7 +5,7 @@ use crate::helpers::pursuit::{Pursued, Pursuit};
 use crate::objects::Path;
 use crate::templates;
 use crate::templates::drive_to::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Drives a straight line from the robot's estimated position, then turns to the heading.
 #[derive(Clone, Debug)]
@@ -55,6 +55,16 @@ impl<E: Navigator + Odometry + Localisation + ?Sized> Actor<templates::DriveTo, 
     }
 
     halts_when_interrupted!();
+}
+
+/// The path stays in place, and the robot returns to it from nearby.
+impl<E: Navigator + Odometry + Localisation + ?Sized> Resumable<templates::DriveTo, E> for DriveTo {
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.pursuit.resume(now);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

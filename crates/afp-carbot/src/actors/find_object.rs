@@ -6,7 +6,7 @@ use crate::helpers::guard::NO_PICTURE;
 use crate::helpers::seeking::{Seeking, Sought};
 use crate::templates;
 use crate::templates::find_object::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Turns left until the camera shows the object, then towards it.
 #[derive(Clone, Debug)]
@@ -33,6 +33,16 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::FindObject, E> 
     }
 
     halts_when_interrupted!();
+}
+
+/// The search continues from the heading where it began.
+impl<E: Navigator + Odometry + Camera + ?Sized> Resumable<templates::FindObject, E> for FindObject {
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, away: Duration) -> Result<(), Fault> {
+        self.seeking.resume(now, away);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

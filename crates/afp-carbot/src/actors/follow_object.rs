@@ -7,7 +7,7 @@ use crate::helpers::guard::NO_PICTURE;
 use crate::helpers::sighting::Sighting;
 use crate::templates;
 use crate::templates::follow_object::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Assumed distance of an object whose foot is not on the floor, metres.
 const FAR: f64 = 10.0;
@@ -44,6 +44,18 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::FollowObject, E
     }
 
     halts_when_interrupted!();
+}
+
+/// The robot drives on from its current place, towards the target's last place at first.
+impl<E: Navigator + Odometry + Camera + ?Sized> Resumable<templates::FollowObject, E>
+    for FollowObject
+{
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, away: Duration) -> Result<(), Fault> {
+        self.approaching.resume(now, away);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

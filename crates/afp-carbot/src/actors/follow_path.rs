@@ -4,7 +4,7 @@ use crate::devices::{Localisation, Navigator, Odometry};
 use crate::helpers::pursuit::{Pursued, Pursuit};
 use crate::templates;
 use crate::templates::follow_path::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Keeps to the latest path on the map. A new path takes effect without a stop.
 #[derive(Clone, Debug)]
@@ -30,6 +30,18 @@ impl<E: Navigator + Odometry + Localisation + ?Sized> Actor<templates::FollowPat
     }
 
     halts_when_interrupted!();
+}
+
+/// The path stays in place, and the robot returns to it from nearby.
+impl<E: Navigator + Odometry + Localisation + ?Sized> Resumable<templates::FollowPath, E>
+    for FollowPath
+{
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.pursuit.resume(now);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -77,7 +77,7 @@ impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Forward, E> for Forw
 
     fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
         self.tracking = Tracking::new(now);
-        self.odometry = Guard::new(NO_ODOMETRY, now);
+        self.odometry.restart(now);
         Ok(())
     }
 }
@@ -86,7 +86,6 @@ impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Forward, E> for Forw
 mod tests {
     use super::*;
     use crate::fake::Fake;
-    use crate::helpers::aside::MOVED_AWAY;
     use crate::helpers::tracking::{DRIVE_BLOCKED, DRIVE_STALLED};
     use afp_core::quantity::Speed;
 
@@ -104,32 +103,6 @@ mod tests {
             assert!((driven.si() - distance).abs() < 0.01, "{driven:?}");
             assert!((robot.motion.x.si() - distance).abs() < 0.01);
         }
-    }
-
-    fn drive_with_a_pause(robot: &mut Fake, pushed: f64) -> Result<Option<State>, Fault> {
-        let inputs = Inputs { distance: Length::from_si(1.0), speed: Speed::from_si(0.2) };
-        robot.run_with_a_pause::<templates::Forward, Forward>(
-            inputs,
-            || Live {},
-            |robot| {
-                robot.motion.x = robot.motion.x + Length::from_si(pushed);
-            },
-        )
-    }
-
-    #[test]
-    fn a_pause_does_not_change_the_end_of_the_line() {
-        for pushed in [0.0, 0.08, -0.08] {
-            let mut robot = Fake::new(&[]);
-            let state = drive_with_a_pause(&mut robot, pushed);
-            assert!(matches!(state, Ok(Some(State::ForwardSuccessful { .. }))), "{state:?}");
-            assert!((robot.motion.x.si() - 1.0).abs() < 0.01, "{:?}", robot.motion);
-        }
-    }
-
-    #[test]
-    fn a_robot_that_was_moved_away_is_a_fault() {
-        assert_eq!(drive_with_a_pause(&mut Fake::new(&[]), 0.3), Err(MOVED_AWAY));
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! Learn an object from one picture.
 
-use crate::devices::{Camera, Frame, Invalid, Navigator, Odometry, Reading};
+use crate::devices::{Camera, Frame, Invalid, Motion, Navigator, Odometry, Reading};
+use crate::helpers::aside::Aside;
 use crate::helpers::guard::{Guard, NO_ODOMETRY, NO_PICTURE};
 use crate::objects::Appearance;
 use crate::templates;
 use crate::templates::learn_object::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Stops, takes one picture, and keeps the colours that occur only in its middle.
 #[derive(Clone, Debug)]
@@ -16,6 +17,7 @@ pub struct LearnObject {
     /// When the robot had stopped, and the camera's picture number then. Only a later picture
     /// counts.
     stood: Option<(Instant, u64)>,
+    aside: Aside,
 }
 
 impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::LearnObject, E> for LearnObject {
@@ -26,6 +28,7 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::LearnObject, E>
             odometry: Guard::new(NO_ODOMETRY, now),
             pictures: Guard::new(NO_PICTURE, now),
             stood: None,
+            aside: Aside::default(),
         })
     }
 
@@ -33,7 +36,8 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::LearnObject, E>
         env.halt(now);
         let Some((since, number)) = self.stood else {
             let motion = self.odometry.current(env.motion(), now)?;
-            if motion.is_some_and(|motion| motion.stands()) {
+            if let Some(motion) = motion.filter(Motion::stands) {
+                self.aside.check(&motion)?;
                 let number = env.frame().value.map_or(0, |frame| frame.number);
                 (self.stood, self.pictures) = (Some((now, number)), Guard::new(NO_PICTURE, now));
             }
@@ -53,6 +57,23 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::LearnObject, E>
     }
 
     halts_when_interrupted!();
+}
+
+/// Takes a picture that is newer than the suspension.
+impl<E: Navigator + Odometry + Camera + ?Sized> Resumable<templates::LearnObject, E>
+    for LearnObject
+{
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        self.aside = Aside::at(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.odometry.restart(now);
+        self.stood = None;
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use crate::helpers::sweep::Sweep;
 use crate::objects::DistanceMap;
 use crate::templates;
 use crate::templates::look_around::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Sweeps the range sensor from side to side and makes a map of the echoes.
 #[derive(Clone, Debug)]
@@ -34,6 +34,22 @@ where
     }
 
     halts_when_interrupted!();
+}
+
+/// The distances that were heard before count on, because the robot stays in place.
+impl<E> Resumable<templates::LookAround, E> for LookAround
+where
+    E: Navigator + Odometry + Ultrasonic + Rotator + RotatingTelemetry + ?Sized,
+{
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.sweep.suspend(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.sweep.resume(now);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

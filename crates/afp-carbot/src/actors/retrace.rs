@@ -1,6 +1,7 @@
 //! Drive back along the robot's path.
 
 use crate::devices::{Motion, Navigator, Odometry};
+use crate::helpers::aside::Aside;
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
 use crate::helpers::history::Pose;
 use crate::helpers::tracking::Tracking;
@@ -8,7 +9,7 @@ use crate::helpers::trail::Trail;
 use crate::templates;
 use crate::templates::retrace::{Inputs, Live, State};
 use afp_core::quantity::Length;
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// A place is reached within this distance, metres.
 const CLOSE: f64 = 0.004;
@@ -23,6 +24,7 @@ pub struct Retrace {
     odometry: Guard,
     /// `None` until the first reading.
     path: Option<PathBack>,
+    aside: Aside,
 }
 
 /// The rest of the path back.
@@ -97,6 +99,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
             tracking: Tracking::new(now),
             odometry: Guard::new(NO_ODOMETRY, now),
             path: None,
+            aside: Aside::default(),
         };
         retrace.look(env, now)?;
         Ok(retrace)
@@ -107,6 +110,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
             self.tracking.halt(env, now);
             return Ok(Poll::Pending);
         };
+        self.aside.check(&motion)?;
         let Some((ahead, turn, rest)) = self.path.as_mut().and_then(|path| path.ahead(&motion))
         else {
             self.tracking.halt(env, now);
@@ -119,6 +123,21 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
     }
 
     halts_when_interrupted!();
+}
+
+/// The path back stays in place.
+impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Retrace, E> for Retrace {
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.tracking.halt(env, now);
+        self.aside = Aside::at(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.tracking = Tracking::new(now);
+        self.odometry.restart(now);
+        Ok(())
+    }
 }
 
 impl Retrace {

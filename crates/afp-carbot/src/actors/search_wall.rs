@@ -13,7 +13,7 @@ use crate::helpers::sweep::Sweep;
 use crate::templates;
 use crate::templates::search_wall::{Inputs, Live, State};
 use afp_core::quantity::Angle;
-use afp_core::{Actor, Duration, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 use heapless::Vec;
 
 /// The turn from a wall's bearing that puts it on the right side.
@@ -77,6 +77,22 @@ where
     }
 
     halts_when_interrupted!();
+}
+
+/// The distances that were heard before count on, because the robot stays in place.
+impl<E> Resumable<templates::SearchWall, E> for SearchWall
+where
+    E: Navigator + Odometry + Ultrasonic + Rotator + RotatingTelemetry + ?Sized,
+{
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.sweep.suspend(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.sweep.resume(now);
+        Ok(())
+    }
 }
 
 impl SearchWall {

@@ -4,7 +4,8 @@ use crate::devices::{Navigator, Signals};
 use crate::templates;
 use crate::templates::signal_::{Inputs, Live, State};
 use afp_core::quantity::Frequency;
-use afp_core::{Actor, Duration, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
+use core::mem;
 
 /// Blinks and beeps a number of times while the robot is stationary.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub struct Signal {
     /// Remaining changes between on and off, and the time of the next one.
     left: i64,
     next: Instant,
+    /// Whether the lamp and the tone are still off after a suspension.
+    resumed: bool,
 }
 
 impl<E: Navigator + Signals + ?Sized> Actor<templates::Signal, E> for Signal {
@@ -27,6 +30,7 @@ impl<E: Navigator + Signals + ?Sized> Actor<templates::Signal, E> for Signal {
             half,
             left: 2 * inputs.times,
             next: now,
+            resumed: false,
         };
         signal.change(env, now);
         Ok(signal)
@@ -39,6 +43,8 @@ impl<E: Navigator + Signals + ?Sized> Actor<templates::Signal, E> for Signal {
                 return Ok(Poll::Ready(State::Signalled));
             }
             self.change(env, now);
+        } else if mem::take(&mut self.resumed) {
+            self.show(env, now);
         }
         Ok(Poll::Pending)
     }
@@ -50,10 +56,30 @@ impl<E: Navigator + Signals + ?Sized> Actor<templates::Signal, E> for Signal {
     }
 }
 
+/// The lamp and the tone are off meanwhile.
+impl<E: Navigator + Signals + ?Sized> Resumable<templates::Signal, E> for Signal {
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        env.signal(false, None, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, _: Instant, away: Duration) -> Result<(), Fault> {
+        self.next += away;
+        self.resumed = true;
+        Ok(())
+    }
+}
+
 impl Signal {
     fn change<E: Signals + ?Sized>(&mut self, env: &mut E, now: Instant) {
         self.left -= 1;
         self.next += self.half;
+        self.resumed = false;
+        self.show(env, now);
+    }
+
+    fn show<E: Signals + ?Sized>(&self, env: &mut E, now: Instant) {
         let on = self.left % 2 == 1;
         env.signal(on && self.light, self.tone.filter(|_| on), now);
     }

@@ -32,7 +32,7 @@ impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Stop, E> for Stop {
     halts_when_suspended!();
 
     fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
-        self.odometry = Guard::new(NO_ODOMETRY, now);
+        self.odometry.restart(now);
         Ok(())
     }
 }

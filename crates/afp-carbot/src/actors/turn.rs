@@ -67,7 +67,6 @@ impl<E: Navigator + Odometry + ?Sized> Resumable<templates::Turn, E> for Turn {
 mod tests {
     use super::*;
     use crate::fake::Fake;
-    use crate::helpers::aside::MOVED_AWAY;
     use crate::helpers::guard::NO_ODOMETRY;
     use afp_core::quantity::{Angle, AngularSpeed};
 
@@ -86,29 +85,6 @@ mod tests {
             assert!((turned.si().to_degrees() - degrees).abs() < 1.0, "{turned:?}");
             assert_eq!(robot.motion.x.si(), 0.0);
         }
-    }
-
-    fn turn_with_a_pause(robot: &mut Fake, turned: f64) -> Result<Option<State>, Fault> {
-        let inputs = Inputs { angle: Angle::from_deg(90.0), speed: AngularSpeed::from_si(0.8) };
-        robot.run_with_a_pause::<templates::Turn, Turn>(
-            inputs,
-            || Live {},
-            |robot| {
-                robot.motion.heading = robot.motion.heading + Angle::from_deg(turned);
-            },
-        )
-    }
-
-    #[test]
-    fn a_pause_does_not_change_the_final_heading() {
-        for turned in [0.0, 10.0, -10.0] {
-            let mut robot = Fake::new(&[]);
-            let state = turn_with_a_pause(&mut robot, turned);
-            assert!(matches!(state, Ok(Some(State::TurnSuccessful { .. }))), "{state:?}");
-            let heading = robot.motion.heading.si().to_degrees();
-            assert!((heading - 90.0).abs() < 1.0, "{heading}");
-        }
-        assert_eq!(turn_with_a_pause(&mut Fake::new(&[]), 30.0), Err(MOVED_AWAY));
     }
 
     #[test]

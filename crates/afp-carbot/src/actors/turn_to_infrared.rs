@@ -6,7 +6,7 @@ use crate::helpers::repeats::Repeats;
 use crate::helpers::seeking::{Seeking, Sought};
 use crate::templates;
 use crate::templates::turn_to_infrared::{Inputs, Live, State};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 
 /// Turns left until the sensor sees light, then towards it.
 #[derive(Clone, Debug)]
@@ -38,6 +38,19 @@ where
     }
 
     halts_when_interrupted!();
+}
+
+/// The search continues from the heading where it began.
+impl<E: Navigator + Odometry + InfraredSensor + ?Sized> Resumable<templates::TurnToInfrared, E>
+    for TurnToInfrared
+{
+    halts_when_suspended!();
+
+    fn resume(&mut self, _: &mut E, now: Instant, away: Duration) -> Result<(), Fault> {
+        self.seeking.resume(now, away);
+        self.repeats.resume();
+        Ok(())
+    }
 }
 
 #[cfg(test)]

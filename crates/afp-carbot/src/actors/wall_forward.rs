@@ -12,13 +12,14 @@ mod track;
 mod tests;
 
 use crate::devices::{Echo, Motion, Navigator, Odometry, Rotator, Ultrasonic};
+use crate::helpers::aside::Aside;
 use crate::helpers::guard::{Arrival, Guard, LATE, NO_ODOMETRY};
 use crate::helpers::motion::wrap;
 use crate::helpers::tracking::Tracking;
 use crate::templates;
 use crate::templates::wall_forward::{Inputs, Live, State};
 use afp_core::quantity::Angle;
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 use glance::Glance;
 use track::Track;
 
@@ -53,6 +54,7 @@ pub struct WallForward {
     course: Option<Course>,
     /// The final state, reported when the robot has stopped.
     ending: Option<State>,
+    aside: Aside,
 }
 
 /// Progress since the first odometry.
@@ -84,6 +86,7 @@ where
             last_ping: now,
             course: None,
             ending: None,
+            aside: Aside::default(),
         })
     }
 
@@ -96,9 +99,13 @@ where
             self.tracking.halt(env, now);
             return Ok(if motion.stands() { Poll::Ready(ending) } else { Poll::Pending });
         }
+        let resumed = self.aside.check(&motion)?;
         let heard = (env.beam().max + env.beam().forward - env.body().front).si();
         let course = self.course.get_or_insert_with(|| Course::new(motion, &self.inputs, heard));
-        course.advance(motion);
+        match resumed {
+            true => course.resume(motion, &self.inputs, heard),
+            false => course.advance(motion),
+        }
         let reading = env.echo();
         if let Some(echo) = self.range.next(reading, self.last_ping, now)? {
             self.last_ping = reading.time;
@@ -118,6 +125,27 @@ where
     }
 
     halts_when_interrupted!();
+}
+
+/// The line of the wall stays in place. The robot looks ahead again before it drives on.
+impl<E> Resumable<templates::WallForward, E> for WallForward
+where
+    E: Navigator + Odometry + Ultrasonic + Rotator + ?Sized,
+{
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.tracking.halt(env, now);
+        self.aside = Aside::at(env, now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, now: Instant, _: Duration) -> Result<(), Fault> {
+        self.tracking = Tracking::new(now);
+        self.odometry.restart(now);
+        self.range.restart(now);
+        self.last_ping = now;
+        self.arrival = Arrival::new(now);
+        Ok(())
+    }
 }
 
 impl WallForward {
@@ -173,6 +201,15 @@ impl Course {
         let (dx, dy) = ((motion.x - self.last.x).si(), (motion.y - self.last.y).si());
         self.driven += libm::sqrt(dx * dx + dy * dy);
         self.last = motion;
+    }
+
+    /// Continues after a suspension. The distance along the wall counts, back and forth.
+    fn resume(&mut self, motion: Motion, inputs: &Inputs, heard: f64) {
+        let (sin, cos) = libm::sincos(self.track.heading());
+        let (dx, dy) = ((motion.x - self.last.x).si(), (motion.y - self.last.y).si());
+        self.driven += dx * cos + dy * sin;
+        self.last = motion;
+        self.glance = Glance::new(inputs.lanedist.si(), inputs.speed.si(), heard);
     }
 
     /// The sensor's target bearing: square at the wall, or ahead for a glance.

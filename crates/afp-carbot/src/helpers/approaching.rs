@@ -6,7 +6,7 @@ use crate::helpers::history::{History, Pose};
 use crate::helpers::motion::wrap;
 use crate::helpers::tracking::Tracking;
 use afp_core::quantity::Speed;
-use afp_core::{Fault, Instant};
+use afp_core::{Duration, Fault, Instant};
 
 /// The target is reached when the distance left is below this, metres.
 const CLOSE: f64 = 0.005;
@@ -79,6 +79,15 @@ impl Approaching {
             target: None,
             ending: None,
         }
+    }
+
+    /// Continues after a suspension `away` ago. The target stays in place.
+    pub(crate) fn resume(&mut self, now: Instant, away: Duration) {
+        self.tracking = Tracking::new(now);
+        self.sensor.restart(now);
+        self.odometry.restart(now);
+        self.last_look += away;
+        self.seen += away;
     }
 
     /// Steers by the sensor's current reading; `None` in a reading means that nothing is in sight.

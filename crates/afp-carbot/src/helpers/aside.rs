@@ -3,6 +3,7 @@
 use crate::devices::{Motion, Odometry};
 use crate::helpers::guard::{Guard, NO_ODOMETRY};
 use afp_core::{Fault, Instant, faults};
+use core::mem;
 
 faults! {
     /// The robot is too far from the place where its action was suspended.
@@ -17,24 +18,35 @@ const WIDEST: f64 = 15.0 / 180.0 * core::f64::consts::PI;
 
 /// The place at the last suspension, until it is checked.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Aside(Option<Motion>);
+pub(crate) enum Aside {
+    /// There was no suspension since the last check.
+    #[default]
+    No,
+    /// Without odometry nothing is checked later.
+    Unknown,
+    At(Motion),
+}
 
 impl Aside {
-    /// The current place. Without odometry nothing is checked later.
+    /// The current place.
     pub(crate) fn at<E: Odometry + ?Sized>(env: &E, now: Instant) -> Self {
         let motion = Guard::new(NO_ODOMETRY, now).current(env.motion(), now);
-        Aside(motion.ok().flatten())
+        motion.ok().flatten().map_or(Aside::Unknown, Aside::At)
     }
 
-    /// Checks the place at the first poll after a suspension.
+    /// Checks the place at the first poll after a suspension, and returns whether it is the first.
     ///
     /// # Errors
     /// [`MOVED_AWAY`] if the robot is elsewhere.
-    pub(crate) fn check(&mut self, motion: &Motion) -> Result<(), Fault> {
-        let Some(before) = self.0.take() else { return Ok(()) };
+    pub(crate) fn check(&mut self, motion: &Motion) -> Result<bool, Fault> {
+        let before = match mem::take(self) {
+            Aside::No => return Ok(false),
+            Aside::Unknown => return Ok(true),
+            Aside::At(before) => before,
+        };
         let (ahead, left) = motion.seen_from(&before);
         let far = libm::hypot(ahead.si(), left.si()) > FARTHEST;
         let wide = (motion.heading - before.heading).abs().si() > WIDEST;
-        if far || wide { Err(MOVED_AWAY) } else { Ok(()) }
+        if far || wide { Err(MOVED_AWAY) } else { Ok(true) }
     }
 }

@@ -62,6 +62,11 @@ impl Guard {
         Guard { usable: now, oldest: PATIENCE, fault }
     }
 
+    /// Starts the timeout again after a suspension.
+    pub(crate) fn restart(&mut self, now: Instant) {
+        self.usable = now;
+    }
+
     /// For the range sensor of a driving robot.
     pub(crate) fn of_echoes(now: Instant) -> Self {
         Guard { oldest: LATE, ..Guard::new(NO_RANGE, now) }

@@ -87,6 +87,14 @@ impl Pursuit {
         }
     }
 
+    /// Continues after a suspension. The path stays in place.
+    pub(crate) fn resume(&mut self, now: Instant) {
+        self.tracking = Tracking::new(now);
+        self.odometry.restart(now);
+        self.position.restart(now);
+        self.doubt = None;
+    }
+
     /// The robot's pose. While it is unknown, returns `None` and stops the drive.
     ///
     /// # Errors

@@ -35,6 +35,11 @@ impl<T: Copy + PartialEq> Repeats<T> {
         Repeats { fault, time: now, same: None, times: 0, way: 0.0, last: None }
     }
 
+    /// Continues after a suspension, whose distance is not counted.
+    pub(crate) fn resume(&mut self) {
+        self.last = None;
+    }
+
     /// Checks a sensor's reading against the odometry. `None`, silence or darkness, may repeat.
     /// Distance without odometry is not counted.
     ///

@@ -5,7 +5,7 @@ use crate::helpers::guard::{Guard, NO_ODOMETRY, PATIENCE};
 use crate::helpers::history::History;
 use crate::helpers::tracking::Tracking;
 use afp_core::quantity::{Angle, AngularSpeed};
-use afp_core::{Fault, Instant};
+use afp_core::{Duration, Fault, Instant};
 
 /// Readings in a row that must show it ahead.
 const SURE: u8 = 3;
@@ -71,6 +71,18 @@ impl Seeking {
             towards: None,
             ahead: 0,
         }
+    }
+
+    /// Continues after a suspension `away` ago. The target stays in place.
+    pub(crate) fn resume(&mut self, now: Instant, away: Duration) {
+        self.tracking = Tracking::new(now);
+        self.sensor.restart(now);
+        self.odometry.restart(now);
+        self.last_look += away;
+        if let Some((_, seen)) = &mut self.towards {
+            *seen += away;
+        }
+        self.ahead = 0;
     }
 
     /// Turns by the sensor's current reading: the target's bearing, or `None` if out of sight.

@@ -1,6 +1,7 @@
 //! A sweep of the range sensor over both sides of a stationary robot.
 
-use crate::devices::{Echo, Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
+use crate::devices::{Echo, Motion, Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
+use crate::helpers::aside::Aside;
 use crate::helpers::guard::{Arrival, Guard, NO_ODOMETRY, NO_RANGE};
 use afp_core::quantity::Angle;
 use afp_core::{Fault, Instant};
@@ -27,6 +28,7 @@ pub(crate) struct Sweep {
     odometry: Guard,
     range_guard: Guard,
     arrival: Arrival,
+    aside: Aside,
 }
 
 /// One completed ping of a sweep.
@@ -57,7 +59,23 @@ impl Sweep {
             odometry: Guard::new(NO_ODOMETRY, now),
             range_guard: Guard::new(NO_RANGE, now),
             arrival: Arrival::new(now),
+            aside: Aside::default(),
         }
+    }
+
+    /// Stops; the rotator stays where it is.
+    pub(crate) fn suspend<E>(&mut self, env: &mut E, now: Instant)
+    where
+        E: Navigator + Odometry + ?Sized,
+    {
+        env.halt(now);
+        self.aside = Aside::at(env, now);
+    }
+
+    /// Continues with the next bearing when the robot has stopped.
+    pub(crate) fn resume(&mut self, now: Instant) {
+        self.sweeping = false;
+        self.odometry.restart(now);
     }
 
     /// The completed ping at the current bearing, if any.
@@ -90,10 +108,19 @@ impl Sweep {
         Ok(Some(Heard { echo, last }))
     }
 
-    /// Starts the sweep if the robot has stopped.
-    fn begin<E: Odometry + ?Sized>(&mut self, env: &mut E, now: Instant) -> Result<bool, Fault> {
+    /// Starts or continues the sweep if the robot has stopped.
+    ///
+    /// # Errors
+    /// The odometry is silent, or the robot was moved away while the sweep was suspended.
+    fn begin<E>(&mut self, env: &mut E, now: Instant) -> Result<bool, Fault>
+    where
+        E: Odometry + Rotator + ?Sized,
+    {
         let motion = self.odometry.current(env.motion(), now)?;
-        if motion.is_some_and(|motion| motion.stands()) {
+        if let Some(motion) = motion.filter(Motion::stands) {
+            if self.aside.check(&motion)? {
+                env.point(Angle::from_si(self.target), now);
+            }
             self.sweeping = true;
             // Only pings sent from now on count.
             self.last_ping = now;

@@ -45,7 +45,7 @@ impl Turning {
 
     /// Continues after a suspension: the odometry gets a new timeout.
     pub(crate) fn resume(&mut self, now: Instant) {
-        self.odometry = Guard::new(NO_ODOMETRY, now);
+        self.odometry.restart(now);
     }
 
     /// The current progress.

@@ -1,5 +1,8 @@
 //! Random plans with `suspend` and `return`, nested and with faults. The scripted components check
-//! the calls of rule 17: start, then any number of suspend and resume, then one end.
+//! the calls of rule 17: start, then any number of suspend and resume, then one end. They also check
+//! that one actor moves at a time, that suspended components are not polled, and that each start and
+//! return has a look. `AFP_SCHEDULES` sets the number of plans, each of which runs without and with
+//! faults.
 
 use afp_core::trace::{Ending, NoTrace};
 use afp_core::{Fault, Instant, Scheduler, StillClock, Wake};
@@ -285,7 +288,9 @@ fn run(seed: u64, faults: bool) -> (usize, usize) {
 #[test]
 fn rule_17_components_are_called_in_order_in_random_plans() {
     let (mut suspended, mut resumed) = (0, 0);
-    for seed in 0..2000 {
+    let seeds =
+        std::env::var("AFP_SCHEDULES").map_or(2000, |count| count.parse().expect("a number"));
+    for seed in 0..seeds {
         for faults in [false, true] {
             let counted = std::panic::catch_unwind(|| run(seed, faults));
             let (of_suspend, of_resume) =

@@ -7,7 +7,7 @@ use afp_core::rt::{
     PlanState, PlanTable, Polled, Run, SetAside, Slot, Started, SupervisorId, Tables,
 };
 use afp_core::trace::{EntryKind, Sink};
-use afp_core::{Duration, Fault, Value, ValueRef, WriteError};
+use afp_core::{Duration, Fault, Instant, Value, ValueRef, WriteError};
 
 use super::build::{ElementSpec, Spec};
 use super::world::{Phase, World};
@@ -30,7 +30,12 @@ pub struct Scripted {
     running: [Option<ElementId>; 2],
     suspended: Vec<bool>,
     watching: Vec<bool>,
+    /// The last poll of each supervisor since it started or continued; [`SILENT`] if its element is
+    /// suspended.
+    asked: Vec<Option<Instant>>,
 }
+
+const SILENT: Option<Instant> = Some(Instant::MAX);
 
 impl Scripted {
     pub fn new(spec: Arc<Spec>) -> Self {
@@ -44,6 +49,7 @@ impl Scripted {
             running: [None; 2],
             suspended: vec![false; spec.elements.len()],
             watching: vec![false; spec.supervisors.len()],
+            asked: vec![None; spec.supervisors.len()],
             spec,
         }
     }
@@ -55,6 +61,14 @@ impl Scripted {
 
     pub fn get(&self, entry: &str) -> Value {
         self.entries[usize::from(self.spec.entry(entry))].clone()
+    }
+
+    /// Checks that all supervisors of an element were polled in the look before it starts or
+    /// continues.
+    fn looked(&self, element: ElementId, now: Instant) {
+        let locals = self.spec.element_rows[element.index()].locals.indices();
+        let all = self.asked[locals].iter().all(|asked| *asked == Some(now));
+        assert!(all, "{} moves without a look", self.spec.elements[element.index()].name);
     }
 
     /// Whether no component is left.
@@ -131,6 +145,7 @@ impl PlanState for Scripted {
             running: self.running,
             suspended: self.suspended.clone(),
             watching: self.watching.clone(),
+            asked: self.asked.clone(),
         })
     }
 
@@ -207,6 +222,7 @@ impl Plan<World> for Scripted {
         let name = self.spec.supervisors[supervisor.index()].name;
         cx.env.call(name, Phase::Start, cx.now)?;
         self.watching[supervisor.index()] = true;
+        self.asked[supervisor.index()] = None;
         Ok(())
     }
 
@@ -222,6 +238,7 @@ impl Plan<World> for Scripted {
             return Ok(OnReturn::Restarts);
         }
         cx.env.resumes(guard.name, away, cx.now)?;
+        self.asked[supervisor.index()] = None;
         Ok(OnReturn::Continues)
     }
 
@@ -235,12 +252,17 @@ impl Plan<World> for Scripted {
         assert_eq!(*self.place(element), Some(element), "{} is suspended, not running", row.name);
         let suspended = std::mem::replace(&mut self.suspended[element.index()], true);
         assert!(!suspended, "{} is suspended twice", row.name);
+        self.asked[spec.element_rows[element.index()].locals.indices()].fill(SILENT);
         if row.kind == ElementKind::SubPlan {
             let child = spec.element_rows[element.index()].child;
-            return self
-                .with_child(element, |_, machine| cx.inside(child, |cx| machine.suspend(cx)));
+            return self.with_child(element, |_, machine| {
+                machine.plan_mut().asked.fill(SILENT);
+                cx.inside(child, |cx| machine.suspend(cx))
+            });
         }
-        cx.env.call(row.name, Phase::Suspend, cx.now).map(|()| Kept::Yes)
+        cx.env.call(row.name, Phase::Suspend, cx.now)?;
+        cx.env.rests();
+        Ok(Kept::Yes)
     }
 
     fn refresh_element<R: Run<Env = World>>(
@@ -261,6 +283,7 @@ impl Plan<World> for Scripted {
         let row = &spec.elements[element.index()];
         let suspended = std::mem::replace(&mut self.suspended[element.index()], false);
         assert!(suspended, "{} resumes but is not suspended", row.name);
+        self.looked(element, cx.now);
         if row.kind == ElementKind::SubPlan {
             let child = spec.element_rows[element.index()].child;
             return self.with_child(element, |plan, machine| {
@@ -273,7 +296,10 @@ impl Plan<World> for Scripted {
             });
         }
         match cx.env.resumes(row.name, away, cx.now) {
-            Ok(()) => Started::Running,
+            Ok(()) => {
+                cx.env.moves(row.name);
+                Started::Running
+            }
             Err(fault) => {
                 self.suspended[element.index()] = true;
                 Started::Failed(fault)
@@ -291,6 +317,8 @@ impl Plan<World> for Scripted {
         let index = supervisor.index();
         let guard = &spec.supervisors[index];
         assert!(self.watching[index], "{} is polled but does not watch", guard.name);
+        assert_ne!(self.asked[index], SILENT, "{} is polled while suspended", guard.name);
+        self.asked[index] = Some(cx.now);
         if let Err(fault) = cx.env.call(guard.name, Phase::Poll, cx.now) {
             return Fired::fault(fault);
         }
@@ -316,6 +344,9 @@ impl Plan<World> for Scripted {
             let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].as_deref());
             cx.env.saw(cx.now, row.name, &value);
         }
+        if !computes {
+            self.looked(element, cx.now);
+        }
         if row.kind == ElementKind::SubPlan {
             let child = spec.element_rows[element.index()].child;
             *self.place(element) = Some(element);
@@ -335,6 +366,7 @@ impl Plan<World> for Scripted {
             return Started::Failed(fault);
         }
         if row.kind == ElementKind::Actor {
+            cx.env.moves(row.name);
             *self.place(element) = Some(element);
             return Started::Running;
         }
@@ -375,7 +407,10 @@ impl Plan<World> for Scripted {
         };
         self.stage_writes(&row.writes, row.states[usize::from(state)].0);
         match cx.env.output(row.name, cx.now) {
-            Ok(()) => Polled::Done(state),
+            Ok(()) => {
+                cx.env.rests();
+                Polled::Done(state)
+            }
             Err(fault) => Polled::Failed(fault),
         }
     }
@@ -393,7 +428,9 @@ impl Plan<World> for Scripted {
             return self
                 .with_child(element, |_, machine| cx.inside(child, |cx| machine.interrupt(cx)));
         }
-        cx.env.call(row.name, Phase::Interrupt, cx.now)
+        cx.env.call(row.name, Phase::Interrupt, cx.now)?;
+        cx.env.rests();
+        Ok(())
     }
 
     fn leave(&mut self, element: ElementId) {

@@ -58,6 +58,8 @@ pub struct World {
     chance: Option<Chance>,
     /// Every call, as `5 interrupt go`.
     pub calls: Vec<String>,
+    /// The actor that moves the robot.
+    moving: Option<&'static str>,
     /// Records nothing.
     quiet: bool,
     pub clock: CostClock,
@@ -205,6 +207,17 @@ impl World {
         let millis = away.as_nanos() / 1_000_000;
         self.note(now, &format!("back after {millis}"), who);
         self.call(who, Phase::Resume, now)
+    }
+
+    /// An actor starts or continues, while all others are stationary.
+    pub fn moves(&mut self, who: &'static str) {
+        let other = self.moving.replace(who);
+        assert_eq!(other, None, "{who} moves at the same time");
+    }
+
+    /// The actor ends or is suspended.
+    pub fn rests(&mut self) {
+        self.moving = None;
     }
 
     /// The result of passing outputs; records nothing.

@@ -101,6 +101,12 @@ impl Call {
                 "'{element}' reacts as a whole to supervisors of '{plan}'; write its reactions into the elements first"
             )));
         }
+        let leads = refer::to_element(&project, home, &Item::inner(plan, element));
+        if leads.iter().any(tree::suspends) {
+            return Err(Refused::new(format!(
+                "'{element}' handles an interruption as a whole, which its elements cannot do"
+            )));
+        }
         let start = children(&inner, Kind::Start).next().and_then(|start| name_token(&start));
         let names = new_names(&outer, &inner, element);
         let first = start.and_then(|start| {

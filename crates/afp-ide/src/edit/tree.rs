@@ -178,6 +178,12 @@ pub(super) fn target(node: &Node) -> Option<Token> {
     children(node, Kind::Target).next().and_then(|target| name_token(&target))
 }
 
+/// Whether `suspend` is written before a target.
+pub(super) fn suspends(target: &Token) -> bool {
+    let target = target.parent().filter(|node| node.kind() == Kind::Target);
+    target.is_some_and(|node| tokens(&node, Kind::Keyword).next().is_some())
+}
+
 /// The edges of a component, without those of its supervisors.
 pub(super) fn edges(component: &Node) -> impl Iterator<Item = Node> {
     children(component, Kind::Edge)

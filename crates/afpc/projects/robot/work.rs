@@ -1,7 +1,9 @@
 //! The templates of the robot's toolbox: its actions and its supervisors.
 
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
-use afp::{Actor, Duration, Events, Fault, Instant, Poll, Reason, Supervisor};
+use afp::{
+    Actor, Duration, Events, Fault, Instant, Poll, Reason, Resumable, Supervisor,
+};
 
 use crate::templates::{self, check_bumper, drive, turn};
 use crate::{Bumper, Wheels};
@@ -42,6 +44,18 @@ impl<E: Wheels + ?Sized> Actor<templates::Drive, E> for Drive {
     }
 }
 
+/// `suspend` in a plan stops the robot. Afterwards the counters still show the distance that is left.
+impl<E: Wheels + ?Sized> Resumable<templates::Drive, E> for Drive {
+    fn suspend(&mut self, env: &mut E, _: Instant) -> Result<(), Fault> {
+        env.halt();
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, _: Instant, _: Duration) -> Result<(), Fault> {
+        Ok(())
+    }
+}
+
 /// Turns by an angle.
 #[derive(Clone, Debug)]
 pub struct Turn {
@@ -73,6 +87,18 @@ impl<E: Wheels + ?Sized> Actor<templates::Turn, E> for Turn {
 
     fn interrupt(&mut self, env: &mut E, _: Instant) -> Result<(), Fault> {
         env.halt();
+        Ok(())
+    }
+}
+
+/// `suspend` in a plan stops the robot. Afterwards the counters still show the angle that is left.
+impl<E: Wheels + ?Sized> Resumable<templates::Turn, E> for Turn {
+    fn suspend(&mut self, env: &mut E, _: Instant) -> Result<(), Fault> {
+        env.halt();
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, _: Instant, _: Duration) -> Result<(), Fault> {
         Ok(())
     }
 }

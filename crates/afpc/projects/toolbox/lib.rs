@@ -6,7 +6,7 @@ pub mod templates {
 }
 
 use afp::quantity::{AngularSpeed, Speed};
-use afp::{Actor, Fault, Instant, Poll};
+use afp::{Actor, Duration, Fault, Instant, Poll, Resumable};
 use afp_carbot::devices::Navigator;
 use templates::wag;
 
@@ -42,6 +42,19 @@ impl<E: Navigator + ?Sized> Actor<templates::Wag, E> for Wag {
 
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
         env.halt(now);
+        Ok(())
+    }
+}
+
+/// `suspend` in a plan stops the robot. The time until `return` does not count.
+impl<E: Navigator + ?Sized> Resumable<templates::Wag, E> for Wag {
+    fn suspend(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+
+    fn resume(&mut self, _: &mut E, _: Instant, away: Duration) -> Result<(), Fault> {
+        self.began += away;
         Ok(())
     }
 }

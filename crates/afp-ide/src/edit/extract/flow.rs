@@ -35,7 +35,8 @@ impl Flow {
         let ways_in = ways_in(selection);
         let states = exits(selection, false);
         let events = exits(selection, true);
-        let across = ways_in.iter().chain(&states).chain(&events).find(|token| suspends(token));
+        let across =
+            ways_in.iter().chain(&states).chain(&events).find(|token| tree::suspends(token));
         if let Some(name) = across {
             return Err(Refused::new(format!(
                 "'suspend {}' leads across the border of the selection, which a sub-plan cannot do",
@@ -61,13 +62,6 @@ impl Flow {
         }
         Ok(Flow { first, ok, interrupted, ways_in, ways_out })
     }
-}
-
-/// Whether `suspend` is written before a target.
-fn suspends(target: &Token) -> bool {
-    target.parent().is_some_and(|node| {
-        node.kind() == Kind::Target && tree::tokens(&node, Kind::Keyword).next().is_some()
-    })
 }
 
 /// Computations that lead to `resume` through computations only.

@@ -147,6 +147,29 @@ fn an_earlier_value_becomes_an_input() {
 }
 
 #[test]
+fn a_handler_stays_a_sub_plan() {
+    let text = "\
+plan P {
+    start go
+
+    supervise escape: E { Pressed -> suspend align }
+
+    actor go: Forward { Done -> terminate }
+
+    subplan align: Align { OK -> return }
+}
+
+plan Align {
+    start go
+
+    actor go: Forward { Done -> terminate }
+}
+";
+    let whole = "'align' handles an interruption as a whole, which its elements cannot do";
+    refused(text, inline(), whole);
+}
+
+#[test]
 fn a_flow_that_a_sub_plan_cannot_have_is_refused() {
     let ways = |what: &str| format!("{what}, but a sub-plan has only one target for them");
     refused(PLAN, extract(&["find", "turn"]), &ways("states lead to 'back' and 'follow'"));
