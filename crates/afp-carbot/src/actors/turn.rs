@@ -69,6 +69,7 @@ mod tests {
     use crate::fake::Fake;
     use crate::helpers::aside::MOVED_AWAY;
     use crate::helpers::guard::NO_ODOMETRY;
+    use crate::helpers::tracking::NO_TURN_IN_PLACE;
     use afp_core::quantity::{Angle, AngularSpeed};
 
     fn turn(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
@@ -109,6 +110,14 @@ mod tests {
             assert!((heading - 90.0).abs() < 1.0, "{heading}");
         }
         assert_eq!(turn_with_a_pause(&mut Fake::new(&[]), 30.0), Err(MOVED_AWAY));
+    }
+
+    #[test]
+    fn a_robot_that_steers_like_a_car_faults_instead_of_waiting() {
+        let mut robot = Fake::new(&[]);
+        robot.steers_like_a_car = true;
+        assert_eq!(turn(&mut robot, 90.0), Err(NO_TURN_IN_PLACE));
+        assert!(robot.millis() < 100, "{}", robot.millis());
     }
 
     #[test]
