@@ -2,7 +2,7 @@
 (() => {
   const words =
     "active actor afp after always and as at before budget by commit computation const deadline device end " +
-    "enum event every exclusive expect fail false fault for forever from heading icon ignore in interrupt live never object " +
+    "enum event every exclusive expect fail false fault for forever from heading icon ignore in interrupt live needs never object " +
     "of on once out over plan press resumable resume return robot running scenario seed seeds sensor set signal start state states stop subplan " +
     "supervise supervisor suspend suspended table terminate times to toolbox true truth until use uses var version when within " +
     "world worlds";

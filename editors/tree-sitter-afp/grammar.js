@@ -119,7 +119,7 @@ module.exports = grammar({
 
     icon: ($) => seq('icon', $.string),
 
-    uses: ($) => seq('uses', $.name),
+    uses: ($) => seq(choice('uses', 'needs'), $.name),
 
     outcome: ($) =>
       choice(

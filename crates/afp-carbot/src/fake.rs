@@ -88,6 +88,7 @@ pub(crate) struct Fake {
     /// Error of the turn rate, radians a second.
     pub(crate) drifts: f64,
     pub(crate) top_speed: f64,
+    pub(crate) steers_like_a_car: bool,
     /// Start position on the map.
     pub(crate) map_offset: [f64; 2],
     /// Uncertainty of the position estimate, metres.
@@ -154,6 +155,7 @@ impl Fake {
             blocked: 0,
             drifts: 0.0,
             top_speed: f64::INFINITY,
+            steers_like_a_car: false,
             map_offset: [0.0, 0.0],
             spread: 0.05,
             lost_from: u64::MAX,
@@ -340,7 +342,8 @@ impl Navigator for Fake {
     }
 
     fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
-        (Speed::from_si(speed.si().clamp(-self.top_speed, self.top_speed)), turn)
+        let share = if self.steers_like_a_car && speed.si() == 0.0 { 0.0 } else { 1.0 };
+        (Speed::from_si(speed.si().clamp(-self.top_speed, self.top_speed)), turn * share)
     }
 
     fn note_blocked(&mut self, _: Instant) {
@@ -348,11 +351,8 @@ impl Navigator for Fake {
     }
 
     fn body(&self) -> Body {
-        Body {
-            front: Length::from_si(0.2),
-            rear: Length::from_si(0.2),
-            half_width: Length::from_si(0.175),
-        }
+        let [front, half_width] = [0.2, 0.175].map(Length::from_si);
+        Body { front, rear: front, half_width }
     }
 }
 

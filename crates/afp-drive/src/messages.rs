@@ -44,6 +44,8 @@ pub struct Setup {
     pub fastest: f32,
     /// The time from standstill to the top speed, in seconds.
     pub ramp: f32,
+    /// The radius of the narrowest curve, in metres; 0 for a robot that turns in place.
+    pub narrowest: f32,
     /// Whether a pressed bumper opens its switch.
     pub bumper_opens: bool,
     /// Whether a pressed button opens its switch.
@@ -91,6 +93,7 @@ impl Default for Setup {
             metres_per_tick: [0.000_142; 2],
             fastest: 0.5,
             ramp: 0.15,
+            narrowest: 0.0,
             bumper_opens: true,
             button_opens: true,
         }
@@ -105,11 +108,20 @@ impl Setup {
             && self.metres_per_tick.iter().all(|it| within(*it, 1e-8..=0.3))
             && within(self.fastest, 0.01..=5.0)
             && within(self.ramp, 0.005..=1.0)
+            && within(self.narrowest, 0.0..=10.0)
     }
 
     /// The speeds of the left and the right rim for a command, in m/s. If a rim would be too fast,
-    /// both are reduced by the same factor, so that the robot keeps to the curve.
+    /// both are reduced by the same factor, so that the robot keeps to the curve. A curve that is
+    /// too narrow becomes the narrowest one.
     pub fn rims(&self, speed: f32, turn: f32) -> [f32; 2] {
+        let turn = match self.narrowest > 0.0 {
+            true => {
+                let most = libm::fabsf(speed) / self.narrowest;
+                libm::fmaxf(-most, libm::fminf(turn, most))
+            }
+            false => turn,
+        };
         let across = turn * self.track / 2.0;
         let rims = [speed - across, speed + across];
         let outer = libm::fmaxf(libm::fabsf(rims[0]), libm::fabsf(rims[1]));
@@ -172,7 +184,7 @@ mod tests {
         let mut buffer = [0; LONGEST];
         assert!(sender.send(&report, &mut buffer).is_ok());
         let longest = Command::Setup(Setup::default());
-        assert!(sender.send(&longest, &mut buffer).is_ok_and(|frame| frame.len() <= 40));
+        assert!(sender.send(&longest, &mut buffer).is_ok_and(|frame| frame.len() <= 44));
     }
 
     #[test]
@@ -198,5 +210,15 @@ mod tests {
         let (speed, turn) = setup.reduced(2.0, 1.0);
         assert!((speed / turn - 2.0).abs() < 1e-4, "{speed} {turn}");
         assert!((speed + turn * setup.track / 2.0 - setup.fastest).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_car_drives_no_curve_narrower_than_its_narrowest() {
+        let car = Setup { narrowest: 0.15, ..Setup::default() };
+        for (asked, turns) in [(0.5, 0.5), (-0.5, -0.5), (9.0, 0.2 / 0.15)] {
+            let (speed, turn) = car.reduced(0.2, asked);
+            assert!((speed - 0.2).abs() < 1e-5 && (turn - turns).abs() < 1e-4, "{asked}: {turn}");
+        }
+        assert_eq!(car.reduced(0.0, 1.0), (0.0, 0.0));
     }
 }

@@ -72,6 +72,8 @@ pub struct Template {
     pub resumable: bool,
     /// The resources that it controls exclusively.
     pub uses: Vec<String>,
+    /// The other devices that a robot must have.
+    pub needs: Vec<String>,
     pub inputs: Vec<InPort>,
     pub outputs: Vec<OutPort>,
     /// The states, or a supervisor's events, in source order.

@@ -187,6 +187,7 @@ impl Workspace {
         }
         if let Some(profile) = project.profile() {
             toolboxes.set_lacks(profile.lacks().into_iter().map(str::to_owned));
+            toolboxes.set_estimates(profile.estimates().map(str::to_owned));
         }
         if let Some(text) = own {
             toolboxes.add(Source::new(path, text), "own");

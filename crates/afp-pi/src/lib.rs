@@ -9,13 +9,20 @@
 #![warn(missing_docs)]
 #![cfg(unix)]
 
+mod board;
 mod calibration;
+pub mod guard;
 mod link;
+mod parts;
 mod port;
 mod robot;
 mod values;
 
+pub use board::{PicarX, Pins, enable_line};
 pub use calibration::{Found, Spin, Straight, solve};
 pub use link::{Heard, Link};
 pub use robot::drives::{Calibrated, Drive, Halt, calibrated};
-pub use robot::{Behind, JsonLine, Line, SerialCarbot, SerialRobot, Ugv, WireLine, opener};
+pub use robot::{
+    Behind, CONTROLLER_RESTARTED, JsonLine, Line, LocalLine, PicarXRobot, PinRobot, SerialCarbot,
+    SerialRobot, Ugv, WireLine, opener,
+};

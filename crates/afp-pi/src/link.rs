@@ -44,10 +44,11 @@ impl<const LONGEST: usize> Link<LONGEST> {
     /// # Errors
     /// The port cannot be opened or set up.
     pub fn open(port: &str, baud: u32, version: u16) -> io::Result<Self> {
-        Ok(Link::new(Port::open(port, baud, 0)?, version))
+        Ok(Link::over(Port::open(port, baud, 0)?, version))
     }
 
-    fn new(port: Port, version: u16) -> Self {
+    /// A link over an open port.
+    pub(crate) fn over(port: Port, version: u16) -> Self {
         // The keys of a hasher are random, and differ at each call.
         let boot = RandomState::new().hash_one(std::process::id()) as u32;
         let (sender, receiver) = (Sender::new(boot, version), Receiver::new(version));
@@ -107,7 +108,7 @@ impl<const LONGEST: usize> Link<LONGEST> {
     /// Stops the controller even if the sending thread hangs: a controller stops on a different
     /// boot id of the computer.
     pub fn last_resort(&self) -> Option<LastResort> {
-        let mut link = Link::<LONGEST>::new(self.port.copy()?, self.version);
+        let mut link = Link::<LONGEST>::over(self.port.copy()?, self.version);
         Some(Box::new(move || {
             link.discard();
             link.hello();

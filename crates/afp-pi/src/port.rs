@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, Read, Write};
+use std::os::fd::OwnedFd;
 use std::os::unix::fs::OpenOptionsExt;
 
 use afp_platform::{open_device, release_device};
@@ -40,6 +41,11 @@ impl Port {
             tcflush(&file, QueueSelector::IFlush)?;
         }
         Ok(Port { file, end, whole: false })
+    }
+
+    /// A line that is open.
+    pub(crate) fn over(line: OwnedFd) -> Self {
+        Port { file: line.into(), end: 0, whole: false }
     }
 
     /// The same port, for another thread.

@@ -1,4 +1,5 @@
-//! Robots with a second controller on a serial port, which executes driving commands.
+//! Robots with a controller that executes driving commands: a second one on a serial port, or a
+//! thread of this program.
 //!
 //! The driver repeats the command every 20 ms. A stop overtakes queued commands. While the
 //! controller is silent, the driver sends only standstill; after a restart of the controller, only
@@ -7,6 +8,7 @@
 mod devices;
 pub(crate) mod drives;
 mod json;
+mod local;
 mod wire;
 
 use std::error::Error;
@@ -15,17 +17,19 @@ use std::io;
 use afp_carbot::devices::{Body, Bump};
 use afp_carbot::table::{Carbot, Control, Fault};
 use afp_carbot::trail::Trail;
-use afp_core::{Duration, Environment, Instant, Invalid, Platform};
+use afp_core::{Duration, Environment, Instant, Invalid, Platform, faults};
 use afp_drive::{Command, Report, Setup, VERSION};
 use afp_platform::{Hardware, LastResort, RealTime, Settings};
 use afp_session::{
     Active, Figure, Opener, Pose2, Put, Refused, RequestError, Samples, only_hardware,
 };
 
+use crate::board::{PicarX, Pins};
 use crate::link::Heard;
 use crate::values::Values;
 
 pub use json::JsonLine;
+pub use local::LocalLine;
 pub use wire::WireLine;
 
 /// Reports are discarded after this time.
@@ -41,17 +45,19 @@ const PATIENCE: Duration = Duration::from_secs(2);
 pub trait Line: Send + Sized + 'static {
     /// The profile of its robots.
     const PROFILE: &'static str;
+    /// The setting that names its device.
+    const PLACE: &'static str = "port";
 
     /// Devices and facts that a robot with this line does not have. No device knows the true pose
     /// of a real robot.
     const LACKS: &'static [&'static str] =
         &["robot", "world", "infrared", "color", "camera", "battery", "localisation", "signals"];
 
-    /// Opens the port for only this program.
+    /// Opens the device for only this program.
     ///
     /// # Errors
-    /// The port cannot be opened or set up.
-    fn open(port: &str, setup: &Setup) -> io::Result<Self>;
+    /// The device cannot be opened or set up.
+    fn open(settings: &Settings, setup: &Setup) -> io::Result<Self>;
 
     /// Sends everything that a controller needs before it drives. It is called until the controller
     /// reports that it obeys.
@@ -71,6 +77,11 @@ pub trait Line: Send + Sized + 'static {
 
     /// Lets other programs open the port.
     fn release(&self);
+
+    /// The reason why the robot cannot be driven on, if there is one.
+    fn broken(&self) -> Option<afp_core::Fault> {
+        None
+    }
 
     /// The simulated robot at the other end.
     fn simulated(&self) -> Option<&dyn Behind> {
@@ -115,6 +126,16 @@ pub trait Behind {
 pub type SerialCarbot = SerialRobot<WireLine>;
 /// A robot with the profile `ugv`.
 pub type Ugv = SerialRobot<JsonLine>;
+/// A robot with the profile `pi`.
+pub type PinRobot = SerialRobot<LocalLine<Pins>>;
+/// A robot with the profile `picarx`.
+pub type PicarXRobot = SerialRobot<LocalLine<PicarX>>;
+
+faults! {
+    /// The controller has restarted in mid-run.
+    pub CONTROLLER_RESTARTED = "controller-restarted",
+        "the drive's controller has restarted, so its counts are lost";
+}
 
 /// A robot with a controller on a line.
 #[derive(Debug)]
@@ -136,15 +157,19 @@ pub struct SerialRobot<L: Line> {
 /// Opens robots of a profile, for plans with the toolboxes `std` and `carbot`; `None` if there is no
 /// driver for the profile.
 pub fn opener(profile: &str) -> Option<Box<dyn Opener>> {
+    macro_rules! opener {
+        ($robot:ty) => {
+            Some(Box::new(only_hardware::<$robot, _>(|registry| {
+                afp_std::templates::register(registry);
+                afp_carbot::register!(registry, $robot);
+            })))
+        };
+    }
     match profile {
-        WireLine::PROFILE => Some(Box::new(only_hardware::<SerialCarbot, _>(|registry| {
-            afp_std::templates::register(registry);
-            afp_carbot::register!(registry, SerialCarbot);
-        }))),
-        JsonLine::PROFILE => Some(Box::new(only_hardware::<Ugv, _>(|registry| {
-            afp_std::templates::register(registry);
-            afp_carbot::register!(registry, Ugv);
-        }))),
+        WireLine::PROFILE => opener!(SerialCarbot),
+        JsonLine::PROFILE => opener!(Ugv),
+        <LocalLine<Pins>>::PROFILE => opener!(PinRobot),
+        <LocalLine<PicarX>>::PROFILE => opener!(PicarXRobot),
         _ => None,
     }
 }
@@ -172,7 +197,7 @@ impl<L: Line> SerialRobot<L> {
             trail: Trail::new(),
             bump: None,
         };
-        let port = settings.get("port").unwrap_or_default();
+        let port = settings.get(L::PLACE).unwrap_or_default();
         robot.begin().map_err(|error| format!("'{port}': {error}"))?;
         Ok(robot)
     }
@@ -258,10 +283,11 @@ impl<L: Line> Hardware for SerialRobot<L> {
     type Error = Box<dyn Error + Send + Sync>;
 
     fn open(settings: &Settings) -> Result<Self, Self::Error> {
-        let port = settings.get("port").ok_or("'port' has no value")?;
+        let place = L::PLACE;
+        let port = settings.get(place).ok_or_else(|| format!("'{place}' has no value"))?;
         let at_port = |error: &dyn std::fmt::Display| format!("'{port}': {error}");
         SerialRobot::with_line(settings, |setup| {
-            L::open(port, setup).map_err(|error| at_port(&error))
+            L::open(settings, setup).map_err(|error| at_port(&error))
         })
     }
 
@@ -350,5 +376,12 @@ impl<L: Line> afp_session::Robot for SerialRobot<L> {
     /// A controller that is silent cannot tell, and is not armed.
     fn button(&self) -> Option<bool> {
         self.values.button.then(|| self.report().is_ok_and(|(report, _)| report.button))
+    }
+
+    fn broken(&self) -> Option<afp_core::Fault> {
+        match self.heard {
+            Some(Heard::Restarted) => Some(CONTROLLER_RESTARTED),
+            _ => self.line.broken(),
+        }
     }
 }

@@ -18,26 +18,50 @@ pub(crate) struct Values {
     pub button: bool,
 }
 
+/// The number of a setting; `None` if the robot does not have it.
+///
+/// # Errors
+/// The value is invalid.
+pub(crate) fn number(
+    profile: &str,
+    settings: &Settings,
+    path: &str,
+) -> Result<Option<f64>, String> {
+    let setting = Profile::named(profile).and_then(|profile| profile.setting(path));
+    let (Some(text), Some(setting)) = (settings.get(path), setting) else { return Ok(None) };
+    let read = setting.of.read(text).map(Some);
+    read.map_err(|what| format!("'{path}' cannot be '{text}': write {what}"))
+}
+
+/// Two lines, such as `17, 27`.
+pub(crate) fn pair(text: &str) -> Option<[u32; 2]> {
+    let (one, other) = text.split_once(',')?;
+    Some([one.trim().parse().ok()?, other.trim().parse().ok()?])
+}
+
+/// The radius of the narrowest curve of a car with this wheelbase, in metres, and this steering
+/// angle, in radians; 0 for robots that turn in place.
+fn narrowest(wheelbase: Option<f64>, steering: Option<f64>) -> f32 {
+    let radius = wheelbase.zip(steering).map(|(base, angle)| base / libm::tan(angle));
+    radius.unwrap_or_default() as f32
+}
+
 impl Values {
     /// Reads the settings of the profile.
     ///
     /// # Errors
     /// A value is missing or invalid. A project file is checked before; `--set` is not.
     pub(crate) fn read(profile: &str, settings: &Settings) -> Result<Values, String> {
-        let profile = Profile::named(profile).ok_or_else(|| format!("no profile '{profile}'"))?;
-        let number = |path: &str| -> Result<Option<f64>, String> {
-            let (Some(text), Some(setting)) = (settings.get(path), profile.setting(path)) else {
-                return Ok(None);
-            };
-            let read = setting.of.read(text).map(Some);
-            read.map_err(|what| format!("'{path}' cannot be '{text}': write {what}"))
-        };
+        let number = |path: &str| number(profile, settings, path);
         let needed = |path: &str| number(path)?.ok_or_else(|| format!("'{path}' has no value"));
         let opens = |path: &str| Ok::<_, String>(number(path)?.map(|closed| closed == 0.0));
         let usual = Setup::default();
-        // A controller with another program counts metres.
+        // A controller with another program counts metres. Wheels without counters have any ticks.
         let metres = match (number("drive.wheel_diameter")?, number("drive.ticks")?) {
             (Some(diameter), Some(ticks)) => diameter * std::f64::consts::PI / ticks,
+            _ if Profile::named(profile).is_some_and(|it| it.setting("drive.scale").is_none()) => {
+                f64::from(usual.metres_per_tick[0])
+            }
             _ => number("drive.scale")?.unwrap_or(1.0),
         };
         let trim = number("drive.trim")?.unwrap_or(1.0);
@@ -49,6 +73,7 @@ impl Values {
             metres_per_tick,
             fastest: needed("drive.fastest")? as f32,
             ramp: number("drive.ramp")?.map_or(usual.ramp, |ramp| ramp as f32),
+            narrowest: narrowest(number("drive.wheelbase")?, number("drive.steering")?),
             bumper_opens: bumper.unwrap_or_default(),
             button_opens: button.unwrap_or_default(),
         };

@@ -156,7 +156,8 @@ fn an_unusable_controller_is_reported() {
         }
         opening.join().unwrap()
     });
-    assert!(opened.unwrap_err().contains("has version 3 of the protocol"));
+    let version = format!("has version {} of the protocol", VERSION + 1);
+    assert!(opened.unwrap_err().contains(&version));
     controller.with(|fake| fake.mute = false);
     let _robot = controller.open().unwrap();
     assert!(controller.open().unwrap_err().contains("has it open"));

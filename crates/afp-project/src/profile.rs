@@ -3,13 +3,20 @@
 //! A profile is the Carbot's toolbox on other hardware. Its tables and keys are data here, so that
 //! every command and every editor checks them, also without a driver for the robot.
 
+mod robots;
+
 use std::ops::Range;
 
 use afp_core::Duration;
 use afp_types::{Scale, SingleUnit, Unit, parse_quantity};
 
-use crate::key::{Key, key};
+use crate::key::Key;
 use crate::time::duration;
+
+pub use robots::PROFILES;
+
+/// The highest line on the header of a Raspberry Pi.
+const LAST_LINE: u32 = 27;
 
 /// A kind of robot.
 #[derive(Debug)]
@@ -20,6 +27,8 @@ pub struct Profile {
     pub sections: &'static [Section],
     /// Devices of the Carbot's toolbox that no such robot has.
     pub lacks: &'static [&'static str],
+    /// Sensors of that toolbox whose readings such robots estimate from their commands.
+    pub estimates: &'static [&'static str],
 }
 
 /// A table of `[robot]`.
@@ -55,6 +64,13 @@ pub enum Of {
     Count([u32; 2]),
     Number([f64; 2]),
     Choice(&'static [&'static str]),
+    Angle([f64; 2]),
+    /// The number of a line of the GPIO chip, on the header of a Raspberry Pi.
+    Line,
+    /// Two such lines.
+    Lines,
+    /// A PWM channel of the kernel: `pwmchip0/1`.
+    Pwm,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,195 +85,6 @@ pub struct ProfileRobot {
     /// Byte range of the profile's name.
     pub span: Range<usize>,
 }
-
-const fn section(
-    key: Key,
-    needed: bool,
-    devices: &'static [&'static str],
-    settings: &'static [Setting],
-) -> Section {
-    Section { key, needed, devices, settings }
-}
-
-const fn needed(key: Key, of: Of) -> Setting {
-    Setting { key, of, usual: None, in_world: None }
-}
-
-const fn usual(key: Key, of: Of, usual: &'static str) -> Setting {
-    Setting { key, of, usual: Some(usual), in_world: None }
-}
-
-const fn simulated(setting: Setting, in_world: &'static str) -> Setting {
-    Setting { in_world: Some(in_world), ..setting }
-}
-
-pub const PROFILES: &[Profile] = &[CARBOT, UGV];
-
-const CARBOT: Profile = Profile {
-    name: "carbot",
-    help: "A second controller on a serial port drives two motors with encoders.",
-    sections: &[
-        section(
-            key("", "", ""),
-            true,
-            &[],
-            &[usual(
-                key("port", "The serial port of the controller.", "port = \"/dev/ttyACM0\""),
-                Of::Text,
-                "/dev/ttyACM0",
-            )],
-        ),
-        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
-        section(key("drive", "The wheels and their motors.", "[robot.drive]"), true, &[], DRIVE),
-        section(
-            key("ultrasonic", "The range sensor on its servo.", "[robot.ultrasonic]"),
-            false,
-            &["ultrasonic", "rotator"],
-            &[
-                simulated(
-                    needed(
-                        key(
-                            "forward",
-                            "From the wheels' axis ahead to the axis of the servo.",
-                            "forward = \"8 cm\"",
-                        ),
-                        Of::Length([0.0, 0.5]),
-                    ),
-                    "robot.sonar_m",
-                ),
-                OFFSET,
-            ],
-        ),
-        section(
-            key("bumper", "The switch of the bumper.", "[robot.bumper]"),
-            false,
-            &["touch"],
-            SWITCH,
-        ),
-        section(key("button", "The escape button.", "[robot.button]"), false, &["buttons"], SWITCH),
-    ],
-    lacks: &["infrared", "color", "camera", "battery", "localisation", "signals"],
-};
-
-const UGV: Profile = Profile {
-    name: "ugv",
-    help: "A Waveshare UGV, whose controller speaks JSON on a serial port.",
-    sections: &[
-        section(
-            key("", "", ""),
-            true,
-            &[],
-            &[usual(
-                key("port", "The serial port of the controller.", "port = \"/dev/serial0\""),
-                Of::Text,
-                "/dev/serial0",
-            )],
-        ),
-        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
-        section(
-            key("drive", "The wheels and their motors.", "[robot.drive]"),
-            true,
-            &[],
-            &[TRACK, FASTEST, SCALE, TRIM],
-        ),
-    ],
-    lacks: &[
-        "ultrasonic",
-        "rotator",
-        "touch",
-        "buttons",
-        "infrared",
-        "color",
-        "camera",
-        "battery",
-        "localisation",
-        "signals",
-    ],
-};
-
-const BODY: &[Setting] = &[
-    simulated(
-        needed(
-            key(
-                "length",
-                "Twice the distance from the wheels' axis to the farther end.",
-                "length = \"24 cm\"",
-            ),
-            Of::Length([0.05, 1.0]),
-        ),
-        "robot.length_m",
-    ),
-    simulated(
-        needed(key("width", "The whole width.", "width = \"18 cm\""), Of::Length([0.05, 1.0])),
-        "robot.width_m",
-    ),
-];
-
-const TRACK: Setting = simulated(
-    needed(
-        key("track", "Between the middles of the two tyres.", "track = \"14 cm\""),
-        Of::Length([0.03, 1.0]),
-    ),
-    "robot.track_m",
-);
-
-const FASTEST: Setting = simulated(
-    needed(
-        key(
-            "fastest",
-            "The top speed of a wheel: nine tenths of its speed at full power.",
-            "fastest = \"50 cm/s\"",
-        ),
-        Of::Speed([0.02, 2.0]),
-    ),
-    "robot.fastest_m_s",
-);
-
-// Errors of a robot that `afpc calibrate` measures.
-const SCALE: Setting = usual(
-    key("scale", "The driven distance over the counted distance.", "scale = 1.02"),
-    Of::Number([0.5, 2.0]),
-    "1",
-);
-const TRIM: Setting = usual(
-    key("trim", "The right wheel's diameter over the left wheel's.", "trim = 1.01"),
-    Of::Number([0.8, 1.25]),
-    "1",
-);
-const OFFSET: Setting = usual(
-    key("offset", "The distance to add to each echo.", "offset = \"1.5 cm\""),
-    Of::Length([-0.1, 0.1]),
-    "0 cm",
-);
-
-const DRIVE: &[Setting] = &[
-    TRACK,
-    TRIM,
-    needed(
-        key("wheel_diameter", "The diameter of a driven wheel.", "wheel_diameter = \"65 mm\""),
-        Of::Length([0.01, 0.3]),
-    ),
-    needed(
-        key("ticks", "The counts of an encoder in one turn of its wheel.", "ticks = 1440"),
-        Of::Count([4, 1_000_000]),
-    ),
-    FASTEST,
-    usual(
-        key("ramp", "The time from standstill to the top speed, and back.", "ramp = \"150 ms\""),
-        Of::Time([Duration::from_millis(10), Duration::from_millis(250)]),
-        "150 ms",
-    ),
-];
-
-const SWITCH: &[Setting] = &[usual(
-    key(
-        "closed",
-        "When the switch is closed; 'free' makes a broken wire read as pressed.",
-        "closed = \"free\"",
-    ),
-    Of::Choice(&["free", "pressed"]),
-    "free",
-)];
 
 impl Profile {
     pub fn named(name: &str) -> Option<&'static Profile> {
@@ -301,6 +128,21 @@ impl Of {
             }
             Of::Number(limits) => within(limits, text.parse().ok()),
             Of::Choice(names) => names.iter().position(|name| *name == text).map(|at| at as f64),
+            Of::Angle(limits) => {
+                let units = SingleUnit::of("angle").map(SingleUnit::unit);
+                within(limits, parse_quantity(text, units).ok())
+            }
+            Of::Line => line(text).map(f64::from),
+            Of::Lines => {
+                let two = text.split_once(',').and_then(|(a, b)| Some((line(a)?, line(b)?)));
+                two.map(|_| 0.0)
+            }
+            Of::Pwm => {
+                let number = |text: Option<&str>| text?.parse::<u32>().ok();
+                let (chip, channel) = text.split_once('/').unwrap_or_default();
+                let chip = number(chip.strip_prefix("pwmchip"));
+                chip.and(number(Some(channel))).map(f64::from)
+            }
         };
         value.ok_or_else(|| self.words())
     }
@@ -326,8 +168,31 @@ impl Of {
                 let names: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
                 names.join(" or ")
             }
+            Of::Angle([least, most]) => {
+                let [least, most] = [least, most].map(|angle| angle.to_degrees().round());
+                format!("an angle in quotes, from {least} deg to {most} deg")
+            }
+            Of::Line => format!("the number of a line, from 0 to {LAST_LINE}"),
+            Of::Lines => format!("two lines in a list, such as [5, 6], from 0 to {LAST_LINE}"),
+            Of::Pwm => "a PWM channel in quotes, such as \"pwmchip0/0\"".to_owned(),
         }
     }
+
+    /// The things that a value occupies, so that no other value may name them.
+    pub fn occupies(self, text: &str) -> Vec<String> {
+        match self {
+            Of::Line | Of::Lines => {
+                text.split(',').filter_map(line).map(|line| format!("line {line}")).collect()
+            }
+            Of::Pwm => vec![format!("channel '{text}'")],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// A line of the header.
+fn line(text: &str) -> Option<u32> {
+    text.trim().parse().ok().filter(|line| *line <= LAST_LINE)
 }
 
 /// A speed in metres a second, from a length over a time.
@@ -378,6 +243,11 @@ impl ProfileRobot {
         let absent = absent.flat_map(|section| section.devices);
         profile.lacks.iter().chain(absent).copied().collect()
     }
+
+    /// The sensors whose readings this robot estimates from its commands.
+    pub fn estimates(&self) -> impl Iterator<Item = &'static str> {
+        self.profile().into_iter().flat_map(|profile| profile.estimates).copied()
+    }
 }
 
 #[cfg(test)]
@@ -388,7 +258,7 @@ mod tests {
     fn examples_and_defaults_are_valid_values() {
         for setting in PROFILES.iter().flat_map(|it| it.sections).flat_map(|it| it.settings) {
             let (_, example) = setting.key.example.split_once(" = ").unwrap();
-            for text in [example.trim_matches('"')].into_iter().chain(setting.usual) {
+            for text in [example.trim_matches(['"', '[', ']'])].into_iter().chain(setting.usual) {
                 assert!(setting.of.read(text).is_ok(), "{}: {text}", setting.key.name);
             }
         }
@@ -405,6 +275,19 @@ mod tests {
         assert_eq!(wrong, "a length in quotes, from 3 cm to 100 cm");
         assert_eq!(of("drive.ticks").read("3").unwrap_err(), "a whole number from 4 to 1000000");
         assert_eq!(of("bumper.closed").read("open").unwrap_err(), "\"free\" or \"pressed\"");
+        let of = |path| Profile::named("pi").unwrap().setting(path).unwrap().of;
+        assert_eq!(of("guard.line").read("25"), Ok(25.0));
+        for text in ["28", "-1", "25.0", "five"] {
+            assert!(of("guard.line").read(text).is_err(), "{text}");
+        }
+        assert!(of("left.in").read("5, 6").is_ok() && of("left.in").read("5,6").is_ok());
+        assert!(of("left.in").read("5").is_err() && of("left.in").read("5, 6, 7").is_err());
+        assert_eq!(of("left.in").occupies("5, 6"), ["line 5", "line 6"]);
+        assert!(of("left.pwm").read("pwmchip0/1").is_ok());
+        for text in ["pwmchip0", "pwm0/1", "pwmchip/1", "../pwmchip0/1"] {
+            assert!(of("left.pwm").read(text).is_err(), "{text}");
+        }
+        let of = |path| Profile::named("carbot").unwrap().setting(path).unwrap().of;
         for text in ["140", "", "-1 cm", "nan cm"] {
             assert!(of("drive.track").read(text).is_err(), "{text}");
         }

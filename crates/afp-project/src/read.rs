@@ -417,6 +417,12 @@ fn size(text: &str) -> Option<u64> {
     (1_000_000..=1_000_000_000_000).contains(&size).then_some(size)
 }
 
+/// A list of whole numbers as text: `5, 6`.
+fn numbers(pair: &Pair<'_>) -> Option<String> {
+    let all = pair.item.as_array()?.iter().map(|value| value.as_integer().map(|it| it.to_string()));
+    Some(all.collect::<Option<Vec<_>>>()?.join(", "))
+}
+
 fn value_span(pair: &Pair<'_>) -> Range<usize> {
     pair.item.span().unwrap_or_else(|| pair.span.clone())
 }

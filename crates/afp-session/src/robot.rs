@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use afp_core::devices::{Devices, SignalId};
-use afp_core::{Instant, Platform};
+use afp_core::{Fault, Instant, Platform};
 
 use crate::faults::Active;
 use crate::figures::Figure;
@@ -129,6 +129,12 @@ pub trait Robot: Platform {
     fn check_put(&self, what: &Put, at: Pose2) -> Result<(), RequestError> {
         let _ = (what, at);
         Err(RequestError::Refused)
+    }
+
+    /// The reason why the robot cannot be driven on, if there is one: its controller has restarted,
+    /// for example. The run then ends with this fault.
+    fn broken(&self) -> Option<Fault> {
+        None
     }
 
     /// Gives the present values of the signals; a signal without one has no value now.

@@ -314,6 +314,9 @@ where
         if self.has_stalled(late + now.since(target.max(before)), to) {
             return Ok(Go::On);
         }
+        if let Some(fault) = self.robot.broken() {
+            self.distrust(fault, to);
+        }
         if let Some(times) = &mut self.times {
             times.woke(target, before, now);
         }

@@ -20,6 +20,8 @@ pub struct Measures {
     /// The driven wheels' distance ahead of the turning centre and to its sides, in metres. Wheels
     /// ahead of it steer.
     pub wheels: [f64; 2],
+    /// The radius of the narrowest curve, in metres; 0 for a robot that turns in place.
+    pub narrowest: f64,
     /// The top speed of a wheel's rim, in metres a second.
     pub fastest: f64,
     /// The distance from the turning centre ahead to the range sensor, in metres.
@@ -31,6 +33,7 @@ impl Measures {
     pub const CARBOT: Measures = Measures {
         half: [HALF_LENGTH, HALF_WIDTH],
         wheels: [0.13, 0.14],
+        narrowest: 0.0,
         fastest: 0.31,
         sonar: 0.10,
     };

@@ -46,6 +46,7 @@ const WORDS: &[(&str, Roles)] = &[
     ("toolbox", TOP),
     ("icon", PART | BODY | BEHIND_NUMBER),
     ("uses", PART | BODY | BEHIND_NUMBER),
+    ("needs", PART | BODY | BEHIND_NUMBER),
     ("in", ENTRY | PART | BODY | BEHIND_NUMBER | DECLARES),
     ("live", DECLARES),
     ("out", ENTRY | PART | BODY | BEHIND_NUMBER | DECLARES),

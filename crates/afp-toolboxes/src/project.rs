@@ -81,6 +81,7 @@ impl OwnToolboxes {
         }
         if let Some(profile) = self.project.project.profile() {
             toolboxes.set_lacks(profile.lacks().into_iter().map(str::to_owned));
+            toolboxes.set_estimates(profile.estimates().map(str::to_owned));
         }
         match misnamed.is_empty() || toolboxes.diagnostics().has_errors() {
             true => Ok(toolboxes),

@@ -15,6 +15,8 @@ use crate::commands::attach;
 use crate::commands::calibrate;
 #[cfg(feature = "dap")]
 use crate::commands::dap;
+#[cfg(all(feature = "pi", unix))]
+use crate::commands::guard;
 #[cfg(feature = "lsp")]
 use crate::commands::lsp;
 #[cfg(feature = "studio")]
@@ -84,6 +86,10 @@ enum Command {
     #[cfg(unix)]
     #[command(after_help = agent::EXAMPLES)]
     Agent(agent::Arguments),
+    /// Switch a robot's motors off when its run ends or hangs
+    #[cfg(all(feature = "pi", unix))]
+    #[command(after_help = guard::EXAMPLES)]
+    Guard(guard::Arguments),
     /// Show, check and repair the log of a run
     #[command(after_help = log::EXAMPLES)]
     Log(log::Arguments),
@@ -137,6 +143,8 @@ pub fn run(linked: &Linked<'_>) -> ExitCode {
         Command::Robot(arguments) => robot::run(arguments),
         #[cfg(unix)]
         Command::Agent(arguments) => agent::run(arguments),
+        #[cfg(all(feature = "pi", unix))]
+        Command::Guard(arguments) => guard::run(arguments),
         Command::Log(arguments) => log::run(arguments, linked),
         #[cfg(feature = "lsp")]
         Command::Lsp => lsp::run(),

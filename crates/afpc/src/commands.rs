@@ -18,6 +18,8 @@ mod disk;
 pub mod explain;
 pub mod fmt;
 pub mod graph;
+#[cfg(all(feature = "pi", unix))]
+pub mod guard;
 pub mod later;
 pub mod log;
 #[cfg(feature = "lsp")]

@@ -87,7 +87,9 @@ impl InTheLoop {
         let robot = SerialRobot::with_line(&settings, |setup| {
             let (plant, port) =
                 Plant::start::<C>(simulation, setup).map_err(|why| why.to_string())?;
-            let line = L::open(&port, setup).map_err(|why| why.to_string())?;
+            let own = self.robot.values.iter().map(|(name, value)| (&**name, &**value));
+            let at_port = Settings::new(own.chain([("port", &*port)]));
+            let line = L::open(&at_port, setup).map_err(|why| why.to_string())?;
             Ok(Looped { line, plant, lacks: self.robot.lacks() })
         });
         let robot = robot.map_err(SessionError::Hardware)?;

@@ -8,7 +8,7 @@
   "actor" "computation" "supervisor" "subplan" "supervise"
   "in" "live" "out" "var" "const" "from" "to"
   "start" "on" "every" "deadline" "budget" "stop"
-  "icon" "uses" "state" "states" "of" "event" "exclusive" "once" "when" "and" "press" "fault" "signal" "truth"
+  "icon" "uses" "needs" "state" "states" "of" "event" "exclusive" "once" "when" "and" "press" "fault" "signal" "truth"
   "for" "world" "seed" "over" "seeds" "worlds" "set" "robot" "at" "heading" "until"
   "expect" "never" "by" "active" "suspended" "running" "end" "interrupt" "commit"
   "always" "times" "within" "before" "after"

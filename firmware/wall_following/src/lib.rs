@@ -1,7 +1,7 @@
-//! Plans on bare metal: everything of them that can run, with nothing behind the devices.
+//! Plans on bare metal: their whole run time, with devices that do nothing.
 //!
-//! The images are looked into, not run: no `panic` may be linked, since a plan on a robot has
-//! nobody to panic to.
+//! The test inspects the images instead of running them: no `panic` may be linked, because nothing
+//! handles a panic on a robot.
 #![no_std]
 
 mod robot;

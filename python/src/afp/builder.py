@@ -25,7 +25,7 @@ class WorldBuilder:
     world's file, which reads as the same world.
 
     `length`, `width`, `track`, `fastest` (metres a second) and `sonar` are measures of the robot, by
-    default those of the Carbot.
+    default those of the Carbot. `wheelbase` and `steering` (an angle) make it a car.
 
     >>> hall = WorldBuilder("Hall", start=(0.8, 0.8)).room(5.0, 4.0).box("crate", (2.0, 2.0), size=(0.4, 0.4), height=0.5)
     >>> hall.build()
@@ -43,6 +43,8 @@ class WorldBuilder:
         length: float | None = None,
         width: float | None = None,
         track: float | None = None,
+        wheelbase: float | None = None,
+        steering: float | None = None,
         fastest: float | None = None,
         sonar: float | None = None,
         floor: str | None = None,
@@ -56,6 +58,8 @@ class WorldBuilder:
             "length_m": number_in("length", length, "m"),
             "width_m": number_in("width", width, "m"),
             "track_m": number_in("track", track, "m"),
+            "wheelbase_m": number_in("wheelbase", wheelbase, "m"),
+            "steering_deg": None if steering is None else round(math.degrees(steering), 10),
             "fastest_m_s": number_in("fastest", fastest, "m/s"),
             "sonar_m": number_in("sonar", sonar, "m"),
         }

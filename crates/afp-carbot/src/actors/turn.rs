@@ -68,6 +68,7 @@ mod tests {
     use super::*;
     use crate::fake::Fake;
     use crate::helpers::guard::NO_ODOMETRY;
+    use crate::helpers::tracking::NO_TURN_IN_PLACE;
     use afp_core::quantity::{Angle, AngularSpeed};
 
     fn turn(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
@@ -85,6 +86,14 @@ mod tests {
             assert!((turned.si().to_degrees() - degrees).abs() < 1.0, "{turned:?}");
             assert_eq!(robot.motion.x.si(), 0.0);
         }
+    }
+
+    #[test]
+    fn a_robot_that_steers_like_a_car_faults_instead_of_waiting() {
+        let mut robot = Fake::new(&[]);
+        robot.steers_like_a_car = true;
+        assert_eq!(turn(&mut robot, 90.0), Err(NO_TURN_IN_PLACE));
+        assert!(robot.millis() < 100, "{}", robot.millis());
     }
 
     #[test]

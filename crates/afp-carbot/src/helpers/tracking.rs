@@ -15,6 +15,9 @@ faults! {
     /// The odometry counts no distance.
     pub NO_PROGRESS = "no-progress",
         "the robot was commanded to drive 10 cm, but the odometry counted less than a quarter of it";
+    /// The drive cannot turn in place.
+    pub NO_TURN_IN_PLACE = "no-turn-in-place",
+        "the robot was commanded to turn in place, which its drive cannot do";
 }
 
 /// How long the motion may differ from the command: motors lag and wheels need steering.
@@ -84,7 +87,7 @@ impl Tracking {
     /// # Errors
     /// [`DRIVE_BLOCKED`], [`DRIVE_STALLED`] or [`NO_PROGRESS`] if the robot did not follow earlier
     /// commands. The motion is then not commanded, and the platform learns of a blocked forward
-    /// drive.
+    /// drive. [`NO_TURN_IN_PLACE`] if the robot cannot follow the command at all.
     pub(crate) fn drive<E: Navigator + ?Sized>(
         &mut self,
         env: &mut E,
@@ -100,6 +103,10 @@ impl Tracking {
         }
         let (speed, turn) = (Speed::from_si(speed), AngularSpeed::from_si(turn));
         let (able, ably) = env.reduced(speed, turn);
+        let in_place = speed.si() == 0.0 && turn.si() != 0.0;
+        if in_place && ably.si() == 0.0 {
+            return Err(NO_TURN_IN_PLACE);
+        }
         self.command = (able.si(), ably.si());
         env.drive(speed, turn, now);
         Ok(())

@@ -70,21 +70,38 @@ pub(crate) fn check(
     diags.push(diagnostic.note(robot.span, "the toolbox of the robot that plans run on"));
 }
 
-/// Reports a template that commands a device of the robot's toolbox that this robot does not have.
+/// Reports a template that commands or needs a device of the robot's toolbox that this robot does
+/// not have, or needs a sensor whose readings this robot estimates.
 fn missing_part(
     toolboxes: &Toolboxes,
     (template, toolbox): (&Template, &Toolbox),
     used: Span,
     diags: &mut Diagnostics,
 ) {
-    let commanded = toolbox.devices.iter().filter(|device| template.uses.contains(&device.name));
-    let Some(device) = commanded.into_iter().find(|device| toolboxes.lacks(&device.name)) else {
+    let of = |names: &[String], is: fn(&Toolboxes, &str) -> bool| {
+        let mut devices = toolbox.devices.iter().filter(|device| names.contains(&device.name));
+        devices.find(|device| is(toolboxes, &device.name))
+    };
+    let name = &template.name;
+    let (code, device, message) = if let Some(device) = of(&template.uses, Toolboxes::lacks) {
+        let message =
+            message!("'{}' commands '{}', which the robot does not have", name, device.name);
+        (Code::E0518, device, message)
+    } else if let Some(device) = of(&template.needs, Toolboxes::lacks) {
+        let message = message!("'{}' needs '{}', which the robot does not have", name, device.name);
+        (Code::E0518, device, message)
+    } else if let Some(device) = of(&template.needs, Toolboxes::estimates) {
+        let message =
+            message!("'{}' needs '{}', which the robot only estimates", name, device.name);
+        (Code::E0520, device, message)
+    } else {
         return;
     };
-    let message =
-        message!("'{}' commands '{}', which the robot does not have", template.name, device.name);
-    let help = "use another template, or describe the part in '[robot]' of afp.toml";
-    let diagnostic = Diagnostic::new(Code::E0518, used, message).help(help);
+    let help = match code {
+        Code::E0518 => "use another template, or describe the part in '[robot]' of afp.toml",
+        _ => "let a sensor that the robot has end it",
+    };
+    let diagnostic = Diagnostic::new(code, used, message).help(help);
     diags.push(diagnostic.note(device.span, "declared here"));
 }
 
@@ -101,7 +118,7 @@ mod tests {
 
     const CRANE: &str = "toolbox crane version \"1\"\ndevice arm { fault stuck }\nsensor eye { signal near: bool }\n\
                          robot { truth pose: pose }\nactor Grip { uses arm state Done }\n\
-                         supervisor Look { event Seen }\ncomputation Guess { state Done }\n";
+                         supervisor Look { needs eye event Seen }\ncomputation Guess { state Done }\n";
     const PLAN: &str = "use crane\nplan P {\n    start guess\n    supervise look: Look { Seen -> terminate }\n    \
                         computation guess: Guess { Done -> grip }\n    actor grip: Grip { Done -> terminate }\n}\n";
 
@@ -123,13 +140,24 @@ mod tests {
     #[test]
     fn a_missing_part_of_the_robot_is_reported_at_its_templates() {
         let mut toolboxes: Toolboxes = [("crane.afp", CRANE, "crane")].into_iter().collect();
-        for (lacks, expected) in [("arm", vec!["Grip"]), ("eye", vec![])] {
+        for (lacks, expected) in [("arm", vec!["Grip"]), ("eye", vec!["Look"])] {
             toolboxes.set_lacks([lacks.to_owned()]);
             let plan = Source::new("p.afp", PLAN);
             let compiled = compile_plan(&plan, &toolboxes, &Texts::default(), None);
             let told = compiled.diags.iter().map(|it| compiled.sources.text(it.span).to_owned());
             assert_eq!(told.collect::<Vec<_>>(), expected, "{lacks}");
         }
+    }
+
+    #[test]
+    fn an_estimated_sensor_is_a_note_and_not_an_error() {
+        let mut toolboxes: Toolboxes = [("crane.afp", CRANE, "crane")].into_iter().collect();
+        toolboxes.set_estimates(["eye".to_owned()]);
+        let plan = Source::new("p.afp", PLAN);
+        let compiled = compile_plan(&plan, &toolboxes, &Texts::default(), None);
+        let told: Vec<_> = compiled.diags.iter().map(|it| it.code.as_str()).collect();
+        assert_eq!(told, ["E0520"]);
+        assert!(compiled.graph.is_some());
     }
 
     #[test]

@@ -18,6 +18,8 @@ pub struct Toolboxes {
     robot: Option<String>,
     /// Devices that the robot does not have although its toolbox declares them.
     lacks: Vec<String>,
+    /// Sensors whose readings the robot estimates from its commands.
+    estimates: Vec<String>,
     sources: Sources,
     diags: Diagnostics,
     meanings: Meanings,
@@ -69,6 +71,16 @@ impl Toolboxes {
     /// Sets the devices that the robot does not have although its toolbox declares them.
     pub fn set_lacks(&mut self, devices: impl IntoIterator<Item = String>) {
         self.lacks = devices.into_iter().collect();
+    }
+
+    /// Sets the sensors whose readings the robot estimates from its commands.
+    pub fn set_estimates(&mut self, sensors: impl IntoIterator<Item = String>) {
+        self.estimates = sensors.into_iter().collect();
+    }
+
+    /// Whether the robot estimates the readings of a sensor.
+    pub(crate) fn estimates(&self, sensor: &str) -> bool {
+        self.estimates.iter().any(|estimated| estimated == sensor)
     }
 
     /// Whether the robot does not have a device that its toolbox declares.

@@ -196,6 +196,7 @@ pub(crate) fn of_template(
             Part::Outcome(node) => (node.name(), outcome, node.span(), node.doc(), None),
             Part::Icon(..)
             | Part::Uses(..)
+            | Part::Needs(..)
             | Part::Timing(_)
             | Part::StatesOf(..)
             | Part::Exclusive(_) => continue,

@@ -25,7 +25,7 @@ pub const CASE: &str = "case.afp";
 
 /// Compiles a plan file with further files after lines `// file: PATH`, or reads a toolbox. A first
 /// line `// plan: NAME` selects the plan, `// target: NAME` its target, `// robot: NAME` the
-/// toolbox of the project's robot.
+/// toolbox of the project's robot, `// lacks: NAME` and `// estimates: NAME` a device of it.
 pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
     let (text, files) = &Texts::in_one(text);
     let source = Source::new(CASE, text);
@@ -40,6 +40,8 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
     let said = |word| text.lines().next().and_then(|line| line.strip_prefix(word));
     let mut toolboxes = toolboxes.clone();
     said("// robot: ").iter().for_each(|name| toolboxes.set_robot(name));
+    toolboxes.set_lacks(said("// lacks: ").map(str::to_owned));
+    toolboxes.set_estimates(said("// estimates: ").map(str::to_owned));
     let mut compiled = afp_dsl::compile_plan(&source, &toolboxes, files, said("// plan: "));
     if let (Some(name), Some(graph)) = (said("// target: "), &compiled.graph) {
         compiled.diags.extend(check_target(graph, &Target::built_in(name).unwrap()));

@@ -32,7 +32,7 @@ pub(super) fn parts(list: &mut List, within: Kind) {
     list.keyword("out", with_holes("out ‹port›: ‹float›"), 0);
     list.keywords(&["state", "event"], 0);
     list.keyword("exclusive", with_holes("exclusive ‹First› ‹Second›"), 1);
-    list.keywords(&["every", "deadline", "budget", "stop", "uses"], 1);
+    list.keywords(&["every", "deadline", "budget", "stop", "uses", "needs"], 1);
     list.keyword("icon", with_holes("icon \"‹name›\""), 1);
 }
 

@@ -42,6 +42,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "budget" => "The longest time of one poll.",
         "stop" if within == Kind::Timing => "The longest time from an interruption to standstill.",
         "uses" => "A part of the robot that it controls; only one element at a time may.",
+        "needs" => "Another part that the robot must have.",
         "state" => "One of its endings.",
         "and" if within == Kind::When => "Both comparisons must hold.",
         "event" => "A report that may interrupt the active element.",

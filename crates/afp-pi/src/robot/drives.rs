@@ -8,7 +8,8 @@ use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Duration, Environment, Instant, Platform};
 use afp_platform::{Hardware, Settings};
 
-use super::{JsonLine, Line, SerialRobot, WireLine};
+use super::{JsonLine, Line, LocalLine, SerialRobot, WireLine};
+use crate::board::Pins;
 
 /// The interval of commands.
 const STEP: Duration = Duration::from_millis(10);
@@ -93,6 +94,7 @@ pub fn calibrated(
     match profile {
         WireLine::PROFILE => Some(open::<WireLine>(settings)),
         JsonLine::PROFILE => Some(open::<JsonLine>(settings)),
+        <LocalLine<Pins>>::PROFILE => Some(open::<LocalLine<Pins>>(settings)),
         _ => None,
     }
 }

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 use afp_core::{Duration, Instant};
 use afp_drive::{Command, Report, Setup};
-use afp_platform::{LastResort, RealTime};
+use afp_platform::{LastResort, RealTime, Settings};
 use serde::Deserialize;
 
 use super::Line;
@@ -111,7 +111,8 @@ impl JsonLine {
 impl Line for JsonLine {
     const PROFILE: &'static str = "ugv";
 
-    fn open(path: &str, setup: &Setup) -> io::Result<Self> {
+    fn open(settings: &Settings, setup: &Setup) -> io::Result<Self> {
+        let path = settings.get(Self::PLACE).unwrap_or_default();
         Ok(JsonLine {
             port: Port::open(path, 115_200, b'\n')?,
             line: [0; LONGEST],

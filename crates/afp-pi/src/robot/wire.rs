@@ -4,7 +4,7 @@ use std::io;
 
 use afp_core::Instant;
 use afp_drive::{Command, LONGEST, Report, Setup, VERSION};
-use afp_platform::{LastResort, RealTime};
+use afp_platform::{LastResort, RealTime, Settings};
 
 use super::Line;
 use crate::link::{Heard, Link};
@@ -22,14 +22,13 @@ pub struct WireLine {
 impl Line for WireLine {
     const PROFILE: &'static str = "carbot";
 
-    fn open(port: &str, setup: &Setup) -> io::Result<Self> {
+    fn open(settings: &Settings, setup: &Setup) -> io::Result<Self> {
+        let port = settings.get(Self::PLACE).unwrap_or_default();
         Ok(WireLine { link: Link::open(port, BAUD, VERSION)?, setup: *setup })
     }
 
     fn begin(&mut self) {
-        self.link.hello();
-        self.link.send(&Command::Setup(self.setup));
-        self.link.send(&Command::Start);
+        begin(&mut self.link, &self.setup);
     }
 
     fn send(&mut self, command: &Command, _: Instant) {
@@ -51,4 +50,11 @@ impl Line for WireLine {
     fn release(&self) {
         self.link.release();
     }
+}
+
+/// Connects, and starts the controller.
+pub(super) fn begin(link: &mut Link<LONGEST>, setup: &Setup) {
+    link.hello();
+    link.send(&Command::Setup(*setup));
+    link.send(&Command::Start);
 }

@@ -4,7 +4,7 @@ use afp_excerpt::words::instead;
 
 use crate::profile::{PROFILES, Profile, ProfileRobot, Section};
 
-use super::{Pair, Reader, simple, value_span};
+use super::{Pair, Reader, numbers, simple, value_span};
 
 impl Reader {
     /// The profile that a value names.
@@ -84,9 +84,12 @@ impl Reader {
                 self.unknown(pair, &format!("'{name}'"), &keys);
                 continue;
             };
-            let text = simple(pair).unwrap_or_default();
+            let text = simple(pair).or_else(|| numbers(pair)).unwrap_or_default();
             match setting.of.read(&text) {
-                Ok(_) => all.push((path(pair.key), text)),
+                Ok(_) => {
+                    self.occupied(pair, &path(pair.key), &setting.of.occupies(&text), all);
+                    all.push((path(pair.key), text));
+                }
                 Err(what) => self.value(pair, &what),
             }
         }
@@ -101,6 +104,29 @@ impl Reader {
                     let help = format!("write '{}'", setting.key.example);
                     self.wrong(place.span.clone(), message, &help);
                 }
+            }
+        }
+    }
+
+    /// Reports a line or a channel that another setting, or the same one, also names.
+    fn occupied(
+        &mut self,
+        pair: &Pair<'_>,
+        path: &str,
+        things: &[String],
+        all: &[(String, String)],
+    ) {
+        let own = things.iter().map(|thing| (path, thing));
+        for (at, (_, thing)) in own.clone().enumerate() {
+            let other = all.iter().find(|(path, text)| {
+                let setting = PROFILES.iter().find_map(|profile| profile.setting(path));
+                setting.is_some_and(|setting| setting.of.occupies(text).contains(thing))
+            });
+            let other = other.map(|(path, _)| path.as_str());
+            let twice = own.clone().take(at).find(|(_, other)| *other == thing);
+            if let Some(other) = other.or(twice.map(|(path, _)| path)) {
+                let message = format!("{thing} already belongs to '{other}'");
+                self.wrong(value_span(pair), message, "each part needs its own");
             }
         }
     }

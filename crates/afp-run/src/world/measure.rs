@@ -21,6 +21,7 @@ impl Measure {
         let ends = |end: &str| key.ends_with(end);
         match place {
             Some(2) if ends("_m_deg") => Some(Measure::Angle),
+            None if ends("_deg") && !ends("_m_deg") => Some(Measure::Angle),
             _ if ends("_m") || ends("_m_deg") => Some(Measure::Length),
             _ if ends("_m_s") => Some(Measure::Speed),
             _ if ends("_kg") => Some(Measure::Mass),

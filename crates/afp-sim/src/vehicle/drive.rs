@@ -1,9 +1,9 @@
 //! The drive: the controller for driving commands, and the wheels' effect on the body.
 //!
 //! Two wheels in front steer and drive independently, and two castors follow. Wheels on the axis of
-//! the turning centre only drive, with castors at both ends. The controller turns
-//! a command (speed, turn rate) into the direction and speed of each wheel. It stops the robot if
-//! the commands cease.
+//! the turning centre only drive, with castors at both ends. A car has limits for its curves. The
+//! controller turns a command (speed, turn rate) into the direction and speed of each wheel. It
+//! stops the robot if the commands cease.
 
 use super::floor::{Demand, Footing};
 use super::wheel::Wheel;
@@ -50,6 +50,8 @@ impl Drive {
         let [x, y] = measures.wheels;
         let inertia = measures.chassis().inertia();
         let castors = match x > 0.0 {
+            // The rear wheels of a car are on the axis of the turning centre.
+            true if measures.narrowest > 0.0 => [(0.0, y), (0.0, -y)],
             true => [(-x, y), (-x, -y)],
             false => [(measures.half[0], 0.0), (-measures.half[0], 0.0)],
         };
@@ -139,9 +141,17 @@ impl Drive {
     }
 }
 
-/// The command on the same curve, reduced so that no wheel exceeds the top speed.
+/// The command on the same curve, reduced so that no wheel exceeds the top speed. A curve that is
+/// too narrow for a car becomes its narrowest one.
 fn reduced(measures: &Measures, speed: f64, turn: f64) -> (f64, f64) {
     let [x, y] = measures.wheels;
+    let turn = match measures.narrowest > 0.0 {
+        true => {
+            let most = speed.abs() / measures.narrowest;
+            turn.max(-most).min(most)
+        }
+        false => turn,
+    };
     // The sum of quarters of two finite values is always finite.
     let (ahead, across) = (speed.abs() / 4.0 + turn.abs() / 4.0 * y, turn / 4.0 * x);
     let outer = libm::hypot(ahead, across);
@@ -187,5 +197,14 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_car_does_not_turn_in_place() {
+        let car = Measures { wheels: [0.0872, 0.058], narrowest: 0.151, ..CARBOT };
+        assert_eq!(reduced(&car, 0.0, 1.0), (0.0, 0.0));
+        assert_eq!(reduced(&car, 0.1, 0.5), (0.1, 0.5));
+        let (speed, turn) = reduced(&car, -0.1, -5.0);
+        assert!((speed / turn - 0.151).abs() < 1e-9, "{speed} {turn}");
     }
 }

@@ -104,7 +104,8 @@ fn wrong(error: &Error) -> WorldError {
 }
 
 impl Check<'_> {
-    /// The robot's measures: without a key, the Carbot's. With a track, the wheels do not steer.
+    /// The robot's measures: without a key, the Carbot's. With a track, the wheels do not steer;
+    /// with a wheelbase, too, the robot is a car.
     fn measures(&self, key: &Key, robot: &tables::Robot) -> Result<Measures, WorldError> {
         let measure = |name: &str, value: Option<f64>, usual: f64| match value {
             Some(value) => self.positive(&key.at(name), &[value]).map(|()| value),
@@ -114,10 +115,20 @@ impl Check<'_> {
         let [length, width] = usual.half.map(|half| 2.0 * half);
         let length = measure("length_m", robot.length_m, length)?;
         let width = measure("width_m", robot.width_m, width)?;
-        let wheels = match robot.track_m {
+        let mut wheels = match robot.track_m {
             Some(track) => [0.0, measure("track_m", Some(track), track)? / 2.0],
             None => usual.wheels,
         };
+        let mut narrowest = usual.narrowest;
+        if let (Some(base), Some(steering)) = (robot.wheelbase_m, robot.steering_deg) {
+            wheels[0] = measure("wheelbase_m", Some(base), base)?;
+            if !(1.0..=80.0).contains(&steering) {
+                let message = format!("{} is not a steering angle", number(steering));
+                let help = "write an angle from 1 to 80".to_owned();
+                return Err(self.error(&key.at("steering_deg"), &message, help));
+            }
+            narrowest = base / libm::tan(steering.to_radians());
+        }
         let fastest = measure("fastest_m_s", robot.fastest_m_s, usual.fastest)?;
         if fastest > FASTEST {
             let message = format!("{} is more than {FASTEST}", number(fastest));
@@ -126,7 +137,7 @@ impl Check<'_> {
         }
         let sonar = robot.sonar_m.unwrap_or(usual.sonar);
         self.not_negative(&key.at("sonar_m"), sonar)?;
-        Ok(Measures { half: [length / 2.0, width / 2.0], wheels, fastest, sonar })
+        Ok(Measures { half: [length / 2.0, width / 2.0], wheels, narrowest, fastest, sonar })
     }
 
     fn wall(

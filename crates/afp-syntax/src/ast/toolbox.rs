@@ -42,6 +42,8 @@ pub enum Part {
     Icon(Option<Name>, Span),
     /// `uses navigator`
     Uses(Option<Name>, Span),
+    /// `needs odometry`
+    Needs(Option<Name>, Span),
     In(InPort),
     Out(OutPort),
     /// A state or an event.
@@ -87,7 +89,13 @@ impl Template {
             let name = |kind| token(&node, kind, file);
             Some(match node.kind() {
                 Kind::Icon => Part::Icon(name(Kind::Text), span),
-                Kind::Uses => Part::Uses(name(Kind::Name), span),
+                Kind::Uses => {
+                    let word = keyword_token(&node, file);
+                    match word.is_some_and(|word| word.text == "needs") {
+                        true => Part::Needs(name(Kind::Name), span),
+                        false => Part::Uses(name(Kind::Name), span),
+                    }
+                }
                 Kind::InPort => Part::In(InPort::new(node, file)),
                 Kind::OutPort => Part::Out(OutPort::new(node, file)),
                 Kind::Outcome => Part::Outcome(Outcome::new(node, file)),

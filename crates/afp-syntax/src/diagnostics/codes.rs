@@ -162,6 +162,7 @@ codes! {
     E0517 Error "device of two toolboxes"
     E0518 Error "template of another robot"
     E0519 Error "invalid declaration of a state or event"
+    E0520 Note "sensor that the robot only estimates"
     E0601 Error "line in the wrong place in a scenario"
     E0602 Error "unknown component in a scenario"
     E0603 Error "event that cannot happen in the plan"

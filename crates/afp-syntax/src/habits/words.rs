@@ -73,6 +73,7 @@ pub(crate) const WORDS: &[(&str, &[&str])] = &[
     ("subplan", &["sub", "subtree", "submachine", "composite"]),
     ("start", &["begin", "initial", "first", "entry", "beginne", "anfang", "commence", "debut"]),
     ("uses", &["use"]),
+    ("needs", &["need", "requires"]),
     ("every", &["each", "period", "interval", "rate", "alle"]),
     ("deadline", &["within", "timeout"]),
     ("until", &["timeout", "duration", "stop_after", "limit"]),

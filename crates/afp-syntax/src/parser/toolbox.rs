@@ -7,7 +7,7 @@ use crate::kind::Kind;
 use crate::message;
 use crate::units::Unit;
 
-const PART_HELP: &str = "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of', 'event' or 'exclusive'";
+const PART_HELP: &str = "write 'icon', 'uses', 'needs', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of', 'event' or 'exclusive'";
 
 impl Parser<'_, '_> {
     pub(super) fn toolbox(&mut self) {
@@ -106,7 +106,7 @@ impl Parser<'_, '_> {
                 self.expect(Kind::Text, "write the icon's name in double quotes");
                 self.close_item();
             }
-            "uses" => self.uses(),
+            word @ ("uses" | "needs") => self.device_of_template(word),
             "states" => {
                 self.open_item(Kind::StatesOf);
                 self.keyword();
@@ -217,17 +217,23 @@ impl Parser<'_, '_> {
         self.close();
     }
 
-    fn uses(&mut self) {
+    /// `uses NAME` or `needs NAME`
+    fn device_of_template(&mut self, word: &str) {
+        let (help, message) = match word {
+            "uses" => {
+                ("name what it commands, such as 'uses navigator'", "'uses' names one device")
+            }
+            _ => ("name what it needs, such as 'needs odometry'", "'needs' names one device"),
+        };
         self.open_item(Kind::Uses);
         self.keyword();
-        self.name("name what it commands, such as 'uses navigator'");
+        self.name(help);
         // The next part may follow a comma.
         while self.at(Kind::Comma)
             && self.nth(1) == Kind::Name
             && !keywords::has(self.word(1), PART)
         {
-            let message = "'uses' names one device";
-            let ours = format!(" uses {}", self.word(1));
+            let ours = format!(" {word} {}", self.word(1));
             self.instead(2, message, message!("write '{}'", ours.trim_start()), &ours);
         }
         self.close_item();

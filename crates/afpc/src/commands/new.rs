@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(long)]
     robot: bool,
 
-    /// Describe a real robot made of parts, without Rust: 'carbot' or 'ugv'
+    /// Describe a real robot without Rust: 'carbot', 'pi', 'ugv' or 'picarx'
     #[arg(long, value_name = "NAME", conflicts_with_all = ["robot", "toolbox"])]
     profile: Option<String>,
 }
@@ -56,10 +56,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
     // A plan needs no crate, and therefore no path to the afp crates.
     let afp = match kind {
-        Kind::Plan | Kind::Carbot | Kind::Ugv => {
-            Origin::Version(env!("CARGO_PKG_VERSION").to_owned())
-        }
-        Kind::Toolbox | Kind::Robot => origin::of_afp(&around(folder)?)?,
+        kind if !kind.has_crate() => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
+        _ => origin::of_afp(&around(folder)?)?,
     };
     let files = files::files(&name, kind, &origin::as_written(afp.clone()))?;
     let is_there = folder.symlink_metadata().is_ok();

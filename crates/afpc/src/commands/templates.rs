@@ -147,6 +147,7 @@ fn timing(template: &Template) -> String {
         format!("{word} {text}")
     };
     let mut parts: Vec<_> = template.uses.iter().map(|name| format!("uses {name}")).collect();
+    parts.extend(template.needs.iter().map(|name| format!("needs {name}")));
     if template.kind != TemplateKind::Computation {
         parts.push(time("every", template.every));
     }
@@ -177,7 +178,7 @@ fn declared(name: Span, sources: &Sources) -> String {
 }
 
 /// The words at the start of a template's parts; several parts may share a line.
-const PARTS: [&str; 12] = [
+const PARTS: [&str; 13] = [
     "budget",
     "deadline",
     "event",
@@ -185,6 +186,7 @@ const PARTS: [&str; 12] = [
     "exclusive",
     "icon",
     "in",
+    "needs",
     "out",
     "state",
     "states",

@@ -6,7 +6,7 @@ use afp_carbot::table::{Control, Fault};
 use afp_core::Instant;
 use afp_drive::{Command, Report, Setup};
 use afp_pi::{Behind, Heard, Line};
-use afp_platform::{LastResort, RealTime};
+use afp_platform::{LastResort, RealTime, Settings};
 use afp_session::{Active, Figure, Pose2, Put, Refused, RequestError, Robot, Samples};
 
 use super::plant::Plant;
@@ -25,9 +25,9 @@ impl<L: Line> Line for Looped<L> {
     const LACKS: &'static [&'static str] =
         &["infrared", "color", "camera", "battery", "localisation", "signals"];
 
-    fn open(port: &str, _: &Setup) -> io::Result<Self> {
+    fn open(_: &Settings, _: &Setup) -> io::Result<Self> {
         // It is made with its plant.
-        Err(io::Error::other(format!("'{port}' has no plant")))
+        Err(io::Error::other("a simulated robot has no device"))
     }
 
     fn begin(&mut self) {

@@ -37,3 +37,5 @@ mod test;
 mod timing;
 #[cfg(unix)]
 mod toolchain;
+#[cfg(all(feature = "pi", target_os = "linux"))]
+mod wired;

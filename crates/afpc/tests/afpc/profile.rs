@@ -163,12 +163,13 @@ fn a_plan_for_a_missing_part_is_an_error_of_the_check() {
     place.write("mycar/afp.toml", &text.replace(&format!("[robot.ultrasonic]{sonar}"), ""));
     let texts = ["E0518", "'CheckDrivingLane' commands 'rotator', which the robot does not have"];
     inside(&place, "check plans/mycar.afp").fails(1, &texts);
-    // The check of sensors comes before the robot moves.
+    // Sensors are checked, too, and the robot is not opened.
     place.write("mycar/afp.toml", &text);
     let plan = "use carbot\nplan Look {\n    start hold\n    actor hold: Hold {\n        supervise low: CheckBattery { BatteryLow -> terminate }\n    }\n}\n";
     place.write("mycar/plans/look.afp", plan);
+    let texts = ["E0518", "'CheckBattery' needs 'battery', which the robot does not have"];
     let set = "--set robot.port=/no/such --until 1s";
-    inside(&place, &format!("run plans/look.afp --robot hardware {set}")).fails(2, &["Battery"]);
+    inside(&place, &format!("run plans/look.afp --robot hardware {set}")).fails(1, &texts);
 }
 
 #[test]

@@ -44,12 +44,18 @@ pub(super) fn read(
                 seen.once("icon", *span, diags);
                 template.icon = quoted.as_ref().map(|quoted| unquote(quoted, diags));
             }
-            Part::Uses(resource, span) => {
-                if let Some(resource) = resource {
-                    names_device(resource, site, diags);
+            Part::Uses(Some(device), span) => {
+                names_device(device, &template, site, diags);
+                if template.kind == TemplateKind::Computation {
+                    misfit("uses", "a computation commands nothing", *span, diags);
                 }
-                uses(resource.as_ref(), *span, &mut template, diags);
+                template.uses.push(device.text.clone());
             }
+            Part::Needs(Some(device), _) => {
+                names_device(device, &template, site, diags);
+                template.needs.push(device.text.clone());
+            }
+            Part::Uses(None, _) | Part::Needs(None, _) => {}
             Part::In(port) => {
                 let table = port.ty().and_then(|ty| ports::table_word(&ty));
                 let port = ports::input(port, template.kind, site, &mut names, diags);
@@ -115,27 +121,14 @@ impl Seen {
     }
 }
 
-fn uses(resource: Option<&Name>, span: Span, template: &mut Template, diags: &mut Diagnostics) {
-    let Some(resource) = resource else { return };
-    if template.kind == TemplateKind::Computation {
-        misfit("uses", "a computation commands nothing", span, diags);
+/// Resolves `uses` and `needs`: a device of the toolbox, or a resource that other toolboxes also
+/// use. Reports a device that the template names again.
+fn names_device(resource: &Name, template: &Template, site: &Site<'_>, diags: &mut Diagnostics) {
+    if template.uses.contains(&resource.text) || template.needs.contains(&resource.text) {
+        let message = message!("'{}' is given twice", resource.text);
+        let diagnostic = Diagnostic::new(Code::E0511, resource.span, message);
+        diags.push(diagnostic.help("remove one of them"));
     }
-    if template.uses.contains(&resource.text) {
-        diags.push(
-            Diagnostic::new(
-                Code::E0511,
-                resource.span,
-                message!("'{}' is given twice", resource.text),
-            )
-            .help("remove one of them"),
-        );
-    } else {
-        template.uses.push(resource.text.clone());
-    }
-}
-
-/// Resolves `uses`: a device of the toolbox, or a resource that other toolboxes also use.
-fn names_device(resource: &Name, site: &Site<'_>, diags: &mut Diagnostics) {
     let known = site.devices.iter().find(|device| device.name == resource.text);
     if let Some(device) = known {
         return site.record.definition(resource.span, device.span);

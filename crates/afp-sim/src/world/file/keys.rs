@@ -70,6 +70,8 @@ const ROBOT: &[Key] = &[
     maybe("length_m", Number, "length_m = 0.24"),
     maybe("width_m", Number, "width_m = 0.18"),
     maybe("track_m", Number, "track_m = 0.14"),
+    maybe("wheelbase_m", Number, "wheelbase_m = 0.09"),
+    maybe("steering_deg", Number, "steering_deg = 30"),
     maybe("fastest_m_s", Number, "fastest_m_s = 0.5"),
     maybe("sonar_m", Number, "sonar_m = 0.08"),
 ];

@@ -38,6 +38,8 @@ pub(super) struct Robot {
     pub(super) length_m: Option<f64>,
     pub(super) width_m: Option<f64>,
     pub(super) track_m: Option<f64>,
+    pub(super) wheelbase_m: Option<f64>,
+    pub(super) steering_deg: Option<f64>,
     pub(super) fastest_m_s: Option<f64>,
     pub(super) sonar_m: Option<f64>,
 }

@@ -65,7 +65,10 @@ impl<'t> Parser<'t, '_> {
             }
             let name_at = |at: usize| line.get(at).is_some_and(|next| next.kind == Kind::Name);
             let is_part = name_at(at + 1)
-                && matches!(token.text, "state" | "event" | "exclusive" | "icon" | "uses");
+                && matches!(
+                    token.text,
+                    "state" | "event" | "exclusive" | "icon" | "uses" | "needs"
+                );
             // The next part may follow a comma; a name cannot follow another one in a condition.
             let ends = token.kind == Kind::Comma && name_at(at + 1) && name_at(at + 2);
             depth == 0 && (token.kind == Kind::OpenBrace || is_part || ends)

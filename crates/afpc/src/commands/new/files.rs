@@ -22,15 +22,21 @@ pub enum Kind {
     Robot,
     /// A robot made of parts, and a plan for it.
     Carbot,
+    /// A robot made of parts at the pins of a Raspberry Pi, and a plan for it.
+    Pi,
     /// A Waveshare UGV, and a plan for it.
     Ugv,
+    /// A PiCar-X, and a plan for it.
+    PicarX,
 }
 
 impl Kind {
     pub fn of_profile(name: &str) -> Option<Kind> {
         match name {
             "carbot" => Some(Kind::Carbot),
+            "pi" => Some(Kind::Pi),
             "ugv" => Some(Kind::Ugv),
+            "picarx" => Some(Kind::PicarX),
             _ => None,
         }
     }
@@ -42,7 +48,7 @@ impl Kind {
 
     /// Whether the project describes a real robot.
     pub fn has_profile(self) -> bool {
-        matches!(self, Kind::Carbot | Kind::Ugv)
+        matches!(self, Kind::Carbot | Kind::Pi | Kind::Ugv | Kind::PicarX)
     }
 }
 
@@ -75,6 +81,20 @@ const CARBOT: &[Draft] = drafts! { "carbot":
     "plans/{{name}}.afp" from "../plan/plan.afp",
     "plans/tests/{{name}}.afp" from "../plan/scenarios.afp",
     "worlds/{{name}}.toml" from "../plan/world.toml",
+};
+
+const PI: &[Draft] = drafts! { "pi":
+    "afp.toml" from "afp.toml",
+    "plans/{{name}}.afp" from "../plan/plan.afp",
+    "plans/tests/{{name}}.afp" from "../plan/scenarios.afp",
+    "worlds/{{name}}.toml" from "../plan/world.toml",
+};
+
+const PICARX: &[Draft] = drafts! { "picarx":
+    "afp.toml" from "afp.toml",
+    "plans/{{name}}.afp" from "plan.afp",
+    "plans/tests/{{name}}.afp" from "scenarios.afp",
+    "worlds/{{name}}.toml" from "world.toml",
 };
 
 const UGV: &[Draft] = drafts! { "ugv":
@@ -117,7 +137,9 @@ pub fn files(name: &str, kind: Kind, afp: &Origin) -> Result<Vec<File>, RunError
         Kind::Toolbox => TOOLBOX,
         Kind::Robot => ROBOT,
         Kind::Carbot => CARBOT,
+        Kind::Pi => PI,
         Kind::Ugv => UGV,
+        Kind::PicarX => PICARX,
     };
     let file = |(path, text): &Draft| File { path: names.fill(path), text: names.fill(text) };
     let mut files: Vec<_> = drafts.iter().map(file).collect();

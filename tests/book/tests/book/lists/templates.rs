@@ -34,6 +34,9 @@ fn describe(template: &Template, sources: &Sources, list: &mut String) {
     if !template.uses.is_empty() {
         let _ = write!(list, " Commands `{}`.", template.uses.join("` and `"));
     }
+    if !template.needs.is_empty() {
+        let _ = write!(list, " Needs `{}`.", template.needs.join("` and `"));
+    }
     if template.resumable {
         list.push_str(" Can be suspended.");
     }

@@ -10,9 +10,7 @@ pub(crate) fn text(name: &str, kind: Kind, afp: &Origin) -> String {
             &[("afp", ""), ("afp-platform", ""), ("afp-session", "load")],
             &[("afp-std", ""), ("afp-test", "")],
         ),
-        Kind::Plan | Kind::Carbot | Kind::Ugv | Kind::Toolbox => {
-            (&[("afp", ""), ("afp-carbot", "")], &[("afp-sim", "load"), ("afp-test", "")])
-        }
+        _ => (&[("afp", ""), ("afp-carbot", "")], &[("afp-sim", "load"), ("afp-test", "")]),
     };
     let lines = |all: &[(&str, &str)]| -> String {
         all.iter().map(|(krate, feature)| dependency(krate, feature, afp)).collect()

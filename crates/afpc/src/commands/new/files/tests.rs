@@ -6,7 +6,8 @@ use afp_syntax::source::Source;
 
 use super::{File, Kind, files};
 
-const KINDS: [Kind; 5] = [Kind::Plan, Kind::Toolbox, Kind::Robot, Kind::Carbot, Kind::Ugv];
+const KINDS: [Kind; 7] =
+    [Kind::Plan, Kind::Toolbox, Kind::Robot, Kind::Carbot, Kind::Pi, Kind::Ugv, Kind::PicarX];
 
 #[test]
 fn every_profile_has_a_project() {
