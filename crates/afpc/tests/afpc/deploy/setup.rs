@@ -34,6 +34,7 @@ stop | restart) if [ -e /run/afp.pid ]; then kill "$(cat /run/afp.pid)"; fi ;;
 esac
 case "$1" in
 restart)
+    cd /
     setpriv --reuid=afp --regid=afp --init-groups /usr/local/bin/afpc agent --serve \
         </dev/null >/dev/null 2>&1 &
     echo $! >/run/afp.pid
@@ -53,6 +54,17 @@ mount -t binfmt_misc none /proc/sys/fs/binfmt_misc
 mask='\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff'
 magic='\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00'
 echo ":aarch64:M::$magic:$mask:/usr/local/bin/emulator:" >/proc/sys/fs/binfmt_misc/register
+"#;
+/// Runs a command in another user namespace with the same users, which has its own list of emulators.
+const ENTER: &str = r#"
+unshare --user sleep 10 &
+holder=$!
+while [ "$(readlink /proc/$holder/ns/user)" = "$(readlink /proc/self/ns/user)" ]; do
+    sleep 0.01
+done
+echo 0 0 65536 >/proc/$holder/uid_map
+echo 0 0 65536 >/proc/$holder/gid_map
+exec nsenter --user --target $holder "$@"
 "#;
 const EMULATOR: &str = "#!/bin/sh\nexec qemu-aarch64 -L /usr/aarch64-linux-gnu \"$@\"\n";
 const UNAME: &str =
@@ -78,8 +90,9 @@ pub fn computer() -> Option<Server> {
         if emulated {
             place.program("local/bin/emulator", EMULATOR);
             place.program("local/bin/uname", UNAME);
-            // Another user namespace has its own list of emulators.
-            unshare.args(["--user", "--map-users=0,0,65536", "--map-groups=0,0,65536"]);
+            place.write("enter", ENTER);
+            unshare = Command::new("sh");
+            unshare.args(["enter", "unshare"]);
         }
         let namespaces = ["--mount", "--pid", "--fork", "--mount-proc", "--kill-child"];
         unshare.args(namespaces).args(["sh", "start"]).current_dir(place.path(""));
@@ -116,6 +129,8 @@ fn a_computer_is_set_up_deployed_to_and_upgraded() {
     let dialout = groups.lines().find(|line| line.starts_with("dialout:"));
     assert!(dialout.is_none_or(|line| line.contains("afp")), "{dialout:?}");
 
+    let other = server.afpc(&project, early);
+    other.fails(1, &["the user of 'pi@robot.test' may not change", "'afp@robot.test'"]);
     let deploy = "deploy wall_following.afp --robot sim --to afp@robot.test";
     let deployed = server.afpc(&project, deploy);
     assert!(deployed.succeeds().out.starts_with("ready: WallFollowing "), "{deployed:?}");
