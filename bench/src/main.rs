@@ -13,6 +13,7 @@ mod debugger;
 mod drawing;
 mod editor;
 mod measure;
+mod page;
 mod plans;
 mod report;
 mod simulation;
@@ -22,6 +23,7 @@ mod sweep;
 mod transition;
 mod web;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -39,6 +41,9 @@ struct Options {
     /// Exit with 1 if a limit is exceeded.
     #[arg(long)]
     check: bool,
+    /// Write the results as a page of the book.
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = page::PATH)]
+    page: Option<PathBuf>,
     /// Turns per group; more give steadier results.
     #[arg(long, default_value_t = 500)]
     rounds: u32,
@@ -63,11 +68,18 @@ fn main() -> ExitCode {
         step::repeat(steps, options.suspending);
         return ExitCode::SUCCESS;
     }
+    let machine = page::Machine::now();
     let mut report = Report::default();
     for (name, run) in GROUPS {
         if options.filter.as_ref().is_none_or(|filter| name.contains(filter.as_str())) {
             run(options.rounds, &mut report);
         }
+    }
+    if let Some(path) = &options.page
+        && let Err(why) = std::fs::write(path, page::text(&machine, &report))
+    {
+        eprintln!("error: cannot write '{}': {why}", path.display());
+        return ExitCode::FAILURE;
     }
     if options.json {
         println!("{}", report.json());

@@ -1,8 +1,8 @@
 //! Compares the times of short operations.
 //!
 //! Each case has a closure that repeats its operation. The cases take turns with one short batch
-//! each. Disturbances only add time, so the result of a case is its best batch, and a ratio
-//! compares two best batches. This is steady on a busy machine.
+//! each. The result of a case is its median, and a ratio is the median of the ratios of all turns.
+//! This is steady on a busy machine, because a disturbance changes few turns.
 
 use std::time::{Duration, Instant};
 
@@ -21,8 +21,9 @@ pub struct Race<'a> {
 #[derive(Clone, Debug)]
 pub struct Times {
     pub name: String,
-    /// Nanoseconds per operation in the best turn.
-    pub best: f64,
+    /// Nanoseconds per operation, the median of all turns.
+    pub median: f64,
+    turns: Vec<f64>,
 }
 
 impl<'a> Race<'a> {
@@ -33,25 +34,37 @@ impl<'a> Race<'a> {
     /// Runs all cases in turns, after one turn to warm up.
     pub fn run(mut self, turns: u32) -> Vec<Times> {
         let batches: Vec<u64> = self.cases.iter_mut().map(|(_, run)| batch_size(run)).collect();
-        let mut times: Vec<Times> = self.cases.iter().map(|(name, _)| Times::new(name)).collect();
-        for _ in 0..turns {
+        let mut times: Vec<Vec<f64>> = vec![Vec::new(); self.cases.len()];
+        for _ in 0..turns.max(1) {
             for ((times, (_, run)), batch) in times.iter_mut().zip(&mut self.cases).zip(&batches) {
-                times.best = times.best.min(time(run, *batch) / *batch as f64);
+                times.push(time(run, *batch) / *batch as f64);
             }
         }
-        times
+        let names = self.cases.into_iter().map(|(name, _)| name);
+        names.zip(times).map(|(name, turns)| Times::new(name, turns)).collect()
     }
 }
 
 impl Times {
-    fn new(name: &str) -> Self {
-        Times { name: name.to_owned(), best: f64::INFINITY }
+    fn new(name: String, turns: Vec<f64>) -> Self {
+        Times { name, median: median(turns.iter().copied()), turns }
     }
 
-    /// The ratio of two best turns.
+    /// The ratio to another case, the median of all turns.
     pub fn ratio(&self, other: &Times) -> f64 {
-        self.best / other.best
+        median(self.turns.iter().zip(&other.turns).map(|(own, other)| own / other))
     }
+
+    /// The difference to another case in nanoseconds, the median of all turns.
+    pub fn beyond(&self, other: &Times) -> f64 {
+        median(self.turns.iter().zip(&other.turns).map(|(own, other)| own - other))
+    }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// The nanoseconds of a number of operations.

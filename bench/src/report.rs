@@ -9,7 +9,7 @@ use crate::measure::Times;
 /// All results of a run.
 #[derive(Default)]
 pub struct Report {
-    rows: Vec<Row>,
+    pub rows: Vec<Row>,
 }
 
 /// One result.
@@ -51,7 +51,7 @@ impl Report {
     /// Adds a case of a race, which must not take more than `at_most` times the baseline.
     pub fn race(&mut self, group: &str, case: &Times, baseline: &Times, at_most: Option<f64>) {
         let ratio = case.ratio(baseline);
-        let row = Row::new(format!("{group}/{}", case.name), case.best, "ns")
+        let row = Row::new(format!("{group}/{}", case.name), case.median, "ns")
             .against(format!("{group}/{}", baseline.name), ratio);
         self.add(match at_most {
             Some(most) => row.limit(format!("<= {most}"), ratio <= most),

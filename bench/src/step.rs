@@ -4,8 +4,10 @@ mod bonsai;
 mod hand;
 mod instructions;
 
-use afp_core::StillClock;
+use std::hint::black_box;
+
 use afp_core::trace::NoTrace;
+use afp_core::{Clock, Instant, StillClock};
 use afp_session::Kept;
 
 use crate::clocks::{Monotonic, Ring};
@@ -18,6 +20,10 @@ pub use instructions::repeat;
 
 /// The largest ratio of a generated plan to a hand-written loop, and to a behaviour tree.
 const GENERATED: (f64, f64) = (6.0, 0.5);
+/// The clock is read before the supervisors and after each of them.
+const READINGS: u32 = 5;
+/// The largest ratio of a generated plan with a real clock to the readings of the clock.
+const CLOCK: f64 = 1.5;
 /// The largest ratio of an interpreted plan to a behaviour tree.
 const INTERPRETED: f64 = 3.0;
 
@@ -34,6 +40,7 @@ pub fn run(rounds: u32, report: &mut Report) {
     race.add("generated", steps(Step::new(), NoTrace, StillClock));
     race.add("generated, ring trace", steps(Step::new(), Ring::new(), StillClock));
     race.add("generated, monotonic clock", steps(Step::new(), NoTrace, Monotonic::new()));
+    race.add("clock, five readings", readings(Monotonic::new()));
     race.add("interpreted", steps(loaded_step(), NoTrace, StillClock));
     race.add("interpreted, ring trace", steps(loaded_step(), Ring::new(), StillClock));
     race.add("interpreted, monotonic clock", steps(loaded_step(), NoTrace, Monotonic::new()));
@@ -42,7 +49,7 @@ pub fn run(rounds: u32, report: &mut Report) {
     race.add("session, any", any_session_steps(Step::new()));
     let times = race.run(rounds);
     let [hand, bonsai, ..] = &times[..] else { return };
-    report.add(Row::new("step/hand-written", hand.best, "ns"));
+    report.add(Row::new("step/hand-written", hand.median, "ns"));
     for case in &times[1..] {
         let generated = case.name == "generated";
         report.race("step", case, hand, generated.then_some(GENERATED.0));
@@ -54,11 +61,27 @@ pub fn run(rounds: u32, report: &mut Report) {
         }
     }
     instructions::run(report);
-    let best = |name: &str| times.iter().find(|case| case.name == name).map(|case| case.best);
+    let named = |name: &str| times.iter().find(|case| case.name == name);
+    let clocks = named("generated, monotonic clock").zip(named("clock, five readings"));
+    if let Some((step, readings)) = clocks {
+        report.race("step", step, readings, Some(CLOCK));
+    }
     for (name, most) in SESSION {
-        if let (Some(session), Some(bare)) = (best(name), best("generated")) {
-            let row = Row::new(format!("step/{name}, beyond generated"), session - bare, "ns");
-            report.add(row.limit(format!("<= {most} ns"), session - bare <= most));
+        if let Some((session, bare)) = named(name).zip(named("generated")) {
+            let beyond = session.beyond(bare);
+            let row = Row::new(format!("step/{name}, beyond generated"), beyond, "ns");
+            report.add(row.limit(format!("<= {most} ns"), beyond <= most));
+        }
+    }
+}
+
+/// The readings of a clock in one step.
+fn readings(clock: Monotonic) -> impl FnMut(u64) {
+    move |count| {
+        for _ in 0..count {
+            for _ in 0..READINGS {
+                black_box(clock.now(black_box(Instant::ZERO)));
+            }
         }
     }
 }

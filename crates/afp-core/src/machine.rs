@@ -249,7 +249,8 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
         }
         let id = self.component(element);
         self.cx.place.component = id;
-        match self.cx.call(id, |cx| self.level.plan.poll_element(element, cx)) {
+        self.cx.calls(id);
+        match self.level.plan.poll_element(element, self.cx) {
             Polled::Pending => {
                 self.level.due = next_on_grid(self.level.due, row, self.cx.now);
                 Flow::Running(wake.min(self.level.due))

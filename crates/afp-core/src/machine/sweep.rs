@@ -73,8 +73,11 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     pub(super) fn sweep(&mut self, element: ElementId, row: &ElementRow) -> Seen {
         let moment = Moment { element, occasion: Occasion::Step };
         let mut seen = Seen::Nothing(Instant::MAX);
-        // Four at a time, so that the polls of a compiled plan are unrolled.
-        let (fours, rest) = self.t.table().sweep(row).as_chunks::<4>();
+        let sweep = self.t.table().sweep(row);
+        // Four at a time, so that the polls of a compiled plan are unrolled. The poll of a loaded
+        // plan is the same code for all supervisors.
+        let is_compiled = size_of::<P::Tables>() == 0;
+        let (fours, rest) = if is_compiled { sweep.as_chunks::<4>() } else { (&[][..], sweep) };
         for &[a, b, c, d] in fours {
             if self.poll_in_sweep(a, moment, &mut seen)
                 || self.poll_in_sweep(b, moment, &mut seen)
@@ -134,7 +137,8 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             Occasion::Hold => self.wanted_in_hold(row),
         };
         let id = self.supervisor_id(supervisor);
-        let fired = self.cx.call(id, |cx| self.level.plan.poll_supervisor(supervisor, wanted, cx));
+        self.cx.calls(id);
+        let fired = self.level.plan.poll_supervisor(supervisor, wanted, self.cx);
         let end = self.cx.clock.now(self.cx.now);
         self.cx.step.clock = end;
         if R::Sink::ENABLED {

@@ -300,9 +300,15 @@ impl<R: Run> Cx<'_, R> {
         component: ComponentId,
         run: impl FnOnce(&mut Self) -> T,
     ) -> T {
+        self.calls(component);
+        run(self)
+    }
+
+    /// Records the component that is called next.
+    #[inline(always)]
+    pub(crate) fn calls(&mut self, component: ComponentId) {
         self.step.called = component;
         self.sink.calls(component);
-        run(self)
     }
 }
 

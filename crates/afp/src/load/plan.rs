@@ -314,7 +314,8 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         cx.noted(started)
     }
 
-    #[inline]
+    // Every step calls it for every supervisor that is due.
+    #[inline(always)]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: SupervisorId,
@@ -347,6 +348,7 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         slot.start(&mut self.config, cx)
     }
 
+    #[inline]
     fn poll_element<R: Run<Env = E>>(&mut self, element: ElementId, cx: &mut Cx<'_, R>) -> Polled {
         let Some(slot) = self.elements.get_mut(element.index()) else {
             return Polled::Failed(Fault::INTERNAL);

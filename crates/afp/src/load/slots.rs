@@ -201,6 +201,7 @@ impl<T, A, S> Slot<T, A, S> {
 }
 
 /// Evaluates, traces and checks the inputs.
+#[inline(always)]
 fn inputs<'a, I: FromArgs<'a>>(args: &'a dyn Args, see: See<'_>) -> Result<I, BadValue> {
     let inputs = I::from_args(args)?;
     if let Some(see) = see {

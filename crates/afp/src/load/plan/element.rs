@@ -122,15 +122,22 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
                 }
             }
             Running::Computation(_) => Polled::Failed(Fault::INTERNAL),
-            Running::SubPlan { child, machine } => {
-                if let Err(fault) = pass_live(*child, machine, &self.inputs, config, cx) {
-                    return Polled::Failed(fault);
-                }
-                let flow: Flow = cx.inside(*child, |cx| machine.step(cx));
-                let plan = machine.plan();
-                Polled::sub_plan(flow, || stage_results(plan, &self.outputs, config), cx)
-            }
+            Running::SubPlan { .. } => self.poll_inside(config, cx),
         }
+    }
+
+    /// Polls the sub-plan. It is separate, so that the poll of an actor needs few registers.
+    #[inline(never)]
+    fn poll_inside<R: Run<Env = E>>(&mut self, config: &mut Config, cx: &mut Cx<'_, R>) -> Polled {
+        let Running::SubPlan { child, machine } = &mut self.running else {
+            return Polled::Failed(Fault::INTERNAL);
+        };
+        if let Err(fault) = pass_live(*child, machine, &self.inputs, config, cx) {
+            return Polled::Failed(fault);
+        }
+        let flow: Flow = cx.inside(*child, |cx| machine.step(cx));
+        let plan = machine.plan();
+        Polled::sub_plan(flow, || stage_results(plan, &self.outputs, config), cx)
     }
 
     /// Suspends it, innermost first.
