@@ -315,7 +315,7 @@ fn several_clients_watch_one_run_and_each_can_end_it() {
     other.ask("configurationDone", "{}");
     other.hear(r#""event":"stopped""#);
     let refused = other.ask("continue", r#"{"threadId":1}"#);
-    assert!(refused.contains("client 1 steers this run"), "{refused}");
+    assert!(refused.contains("client 1 operates this run"), "{refused}");
     other.ask("terminate", "{}");
     for client in [&mut one, &mut other] {
         client.hear("WallFollowing was interrupted after 0.0 s");

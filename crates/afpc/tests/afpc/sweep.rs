@@ -277,7 +277,7 @@ fn unknown_names_to_vary_are_reported_before_the_runs() {
         ("--vary world.robot.charg=1", ["has no 'charg'", "write 'charge'"]),
         ("--vary walldist=20cm..1m", ["same unit", "--vary"]),
         ("--seeds 0..99999999999", ["runs, not 99999999999", "give fewer seeds"]),
-        ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),
+        ("--seeds 5..5", ["'5..5' has no seeds", "--seeds"]),
         ("-o a.txt", ["unsupported format '.txt'", "'.csv' or '.parquet'"]),
         #[cfg(not(feature = "parquet"))]
         ("-o a.parquet", ["built without Parquet", "--features parquet"]),
