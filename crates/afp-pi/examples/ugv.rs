@@ -21,8 +21,14 @@ pub struct Fake {
     line: Vec<u8>,
     /// The speeds of the left and the right wheel, in m/s.
     pub speeds: [f64; 2],
-    /// The distances of the wheels, in metres.
+    /// The counted distances of the wheels, in metres.
     pub ways: [f64; 2],
+    /// The driven distance over the counted distance of each wheel.
+    pub factors: [f64; 2],
+    /// The distance between the wheels in metres.
+    pub track: f64,
+    /// The place in metres and the heading in radians.
+    pub pose: [f64; 3],
     /// It stops after this time without a command.
     pub dead_man: Duration,
     commanded: Instant,
@@ -55,6 +61,9 @@ impl Fake {
             line: Vec::new(),
             speeds: [0.0; 2],
             ways: [0.0; 2],
+            factors: [1.0; 2],
+            track: TRACK,
+            pose: [0.0; 3],
             dead_man: Duration::from_secs(3),
             commanded: Instant::now(),
             reports: false,
@@ -83,6 +92,14 @@ impl Fake {
         for (way, speed) in self.ways.iter_mut().zip(self.speeds) {
             *way += speed * STEP.as_secs_f64();
         }
+        let driven = |side: usize| self.speeds[side] * self.factors[side] * STEP.as_secs_f64();
+        let (left, right) = (driven(0), driven(1));
+        let [x, y, heading] = &mut self.pose;
+        let turned = (right - left) / self.track;
+        let (sin, cos) = (*heading + turned / 2.0).sin_cos();
+        *x += (left + right) / 2.0 * cos;
+        *y += (left + right) / 2.0 * sin;
+        *heading += turned;
         if !self.reports {
             return Ok(());
         }

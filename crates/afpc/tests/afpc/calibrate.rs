@@ -1,17 +1,38 @@
 //! `afpc calibrate` with a robot whose measures are wrong, and a user with a perfect tape.
 
+#[path = "../../../afp-pi/examples/ugv.rs"]
+mod ugv;
+
 use std::io::{BufRead, BufReader, Write};
 use std::process::Stdio;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 use crate::common::Place;
 use crate::profile::Running;
 
-/// The place and heading of the robot in the last position from which it was sent.
-type Start = [f64; 3];
+/// A place and a heading.
+type Pose = [f64; 3];
 
-/// Answers a question of `afpc calibrate`.
-fn answer(question: &str, controller: &Running, start: &mut Start) -> Option<String> {
-    let pose = controller.with(|fake| fake.pose);
+/// A robot at a port.
+trait Robot {
+    fn port(&self) -> &str;
+    fn pose(&self) -> Pose;
+}
+
+impl Robot for Running {
+    fn port(&self) -> &str {
+        &self.port
+    }
+
+    fn pose(&self) -> Pose {
+        self.with(|fake| fake.pose)
+    }
+}
+
+/// Answers a question of `afpc calibrate`. The robot was sent from `start`.
+fn answer(question: &str, robot: &dyn Robot, start: &mut Pose) -> Option<String> {
+    let pose = robot.pose();
     if question.contains("Press Enter") {
         *start = pose;
         return Some(String::new());
@@ -31,16 +52,16 @@ fn answer(question: &str, controller: &Running, start: &mut Start) -> Option<Str
 
 /// Calibrates a project's robot, and ends the input after so many answers. Returns the exit code
 /// and the questions.
-fn calibrate(place: &Place, controller: &Running, mut answers: usize) -> (i32, Vec<String>) {
+fn calibrate(place: &Place, robot: &dyn Robot, mut answers: usize) -> (i32, Vec<String>) {
     let mut command = place.command();
-    command.current_dir(place.path("mycar")).args(["calibrate", "--port", &controller.port]);
+    command.current_dir(place.path("mycar")).args(["calibrate", "--port", robot.port()]);
     command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     let mut input = child.stdin.take();
     let (mut asked, mut start) = (Vec::new(), [0.0; 3]);
     for line in BufReader::new(child.stderr.take().unwrap()).lines() {
         let line = line.unwrap();
-        if let Some(answer) = answer(&line, controller, &mut start) {
+        if let Some(answer) = answer(&line, robot, &mut start) {
             if answers == 0 {
                 input = None;
             } else if let Some(input) = &mut input {
@@ -132,4 +153,50 @@ fn a_robot_that_cannot_be_calibrated_is_refused_with_the_reason() {
         asked.iter().any(|line| line.contains("the wheels do not count as the robot drives"))
     });
     assert!(stuck && controller.with(|fake| !fake.is_moving()));
+}
+
+/// A UGV with wrong measures.
+struct Ugv {
+    port: String,
+    fake: Arc<Mutex<ugv::Fake>>,
+    ends: Arc<AtomicBool>,
+}
+
+impl Robot for Ugv {
+    fn port(&self) -> &str {
+        &self.port
+    }
+
+    fn pose(&self) -> Pose {
+        self.fake.lock().unwrap().pose
+    }
+}
+
+#[test]
+fn errors_of_a_ugv_are_measured() {
+    let place = Place::new();
+    place.afpc("new mycar --profile ugv").succeeds();
+    let (mut fake, port) = ugv::Fake::new().unwrap();
+    let (scale, trim, track) = (0.95, 1.05, 0.17 * 0.95);
+    let left = 2.0 * scale / (1.0 + trim);
+    (fake.factors, fake.track) = ([left, left * trim], track);
+    let robot =
+        Ugv { port, fake: Arc::new(Mutex::new(fake)), ends: Arc::new(AtomicBool::new(false)) };
+    let (fake, ends) = (robot.fake.clone(), robot.ends.clone());
+    let thread = std::thread::spawn(move || {
+        while !ends.load(Ordering::Relaxed) {
+            fake.lock().unwrap().step().unwrap();
+            // Others may look at it.
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+    });
+    let finished = (0..10).any(|_| calibrate(&place, &robot, 100).0 == 0);
+    robot.ends.store(true, Ordering::Relaxed);
+    thread.join().unwrap();
+    assert!(finished, "no call of ten finished");
+    let text = place.read("mycar/calibration.toml");
+    for (key, expected) in [("scale", scale), ("track", track * 1000.0), ("trim", trim)] {
+        let found = number(&text, key);
+        assert!((found / expected - 1.0).abs() < 0.005, "{key}: {found}, not {expected}");
+    }
 }

@@ -116,6 +116,8 @@ fn a_computer_is_set_up_deployed_to_and_upgraded() {
     let dialout = groups.lines().find(|line| line.starts_with("dialout:"));
     assert!(dialout.is_none_or(|line| line.contains("afp")), "{dialout:?}");
 
+    let other = server.afpc(&project, early);
+    other.fails(1, &["the user of 'pi@robot.test' may not change", "'afp@robot.test'"]);
     let deploy = "deploy wall_following.afp --robot sim --to afp@robot.test";
     let deployed = server.afpc(&project, deploy);
     assert!(deployed.succeeds().out.starts_with("ready: WallFollowing "), "{deployed:?}");
