@@ -54,6 +54,17 @@ mask='\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\x
 magic='\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00'
 echo ":aarch64:M::$magic:$mask:/usr/local/bin/emulator:" >/proc/sys/fs/binfmt_misc/register
 "#;
+/// Runs a command in another user namespace with the same users, which has its own list of emulators.
+const ENTER: &str = r#"
+unshare --user sleep 10 &
+holder=$!
+while [ "$(readlink /proc/$holder/ns/user)" = "$(readlink /proc/self/ns/user)" ]; do
+    sleep 0.01
+done
+echo 0 0 65536 >/proc/$holder/uid_map
+echo 0 0 65536 >/proc/$holder/gid_map
+exec nsenter --user --target $holder "$@"
+"#;
 const EMULATOR: &str = "#!/bin/sh\nexec qemu-aarch64 -L /usr/aarch64-linux-gnu \"$@\"\n";
 const UNAME: &str =
     "#!/bin/sh\ncase \"$1\" in -m) echo aarch64 ;; *) exec /usr/bin/uname \"$@\" ;; esac\n";
@@ -78,8 +89,9 @@ pub fn computer() -> Option<Server> {
         if emulated {
             place.program("local/bin/emulator", EMULATOR);
             place.program("local/bin/uname", UNAME);
-            // Another user namespace has its own list of emulators.
-            unshare.args(["--user", "--map-users=0,0,65536", "--map-groups=0,0,65536"]);
+            place.write("enter", ENTER);
+            unshare = Command::new("sh");
+            unshare.args(["enter", "unshare"]);
         }
         let namespaces = ["--mount", "--pid", "--fork", "--mount-proc", "--kill-child"];
         unshare.args(namespaces).args(["sh", "start"]).current_dir(place.path(""));
