@@ -274,7 +274,7 @@ impl<'a> Agent<'a> {
         if let Err(refused) = self.switched(&deploy) {
             return Ok(Err(refused));
         }
-        self.start(to)
+        self.start(&deploy.manifest.id(), to)
     }
 
     /// Checks the release with the robot's own project file.
@@ -313,18 +313,22 @@ impl<'a> Agent<'a> {
             let none = || refusal("the robot has no release before this one", "deploy a plan");
             let before = self.store.before().ok_or_else(none)?;
             self.store.switch(&before.release)?;
-            Ok(lock)
+            Ok((lock, before.release))
         });
         match switched {
-            Ok(_lock) => self.start(to),
+            Ok((_lock, requested)) => self.start(&requested, to),
             Err(refused) => Ok(Err(refused)),
         }
     }
 
     /// Starts the current release, unless it runs already.
-    fn start(&mut self, to: &mut dyn Write) -> Result<Result<Answer, Refusal>, WireError> {
-        let current = self.store.current();
+    fn start(
+        &mut self,
+        requested: &str,
+        to: &mut dyn Write,
+    ) -> Result<Result<Answer, Refusal>, WireError> {
         let running = self.host.service().ok().and_then(|service| service.release);
+        let current = self.store.current();
         let started = match current.filter(|current| running.as_ref() == Some(&current.release)) {
             Some(current) => Started { release: current.release, instead: None },
             None => {
@@ -343,7 +347,12 @@ impl<'a> Agent<'a> {
         // Too many releases are no reason to call a deploy a failure.
         self.store.prune().ok();
         let plan = self.named(&started.release).map(|named| named.plan).unwrap_or_default();
-        let Started { release, instead } = started;
+        let Started { release, mut instead } = started;
+        if release != requested && instead.is_none() {
+            // The service had noticed the switch by itself.
+            let trouble = self.host.service().ok().and_then(|service| service.trouble);
+            instead = trouble.or_else(|| Some(format!("release {requested} did not start")));
+        }
         Ok(Ok(Answer::Runs { release, plan, instead }))
     }
 

@@ -25,6 +25,8 @@ pub struct Robot {
     /// The release that does not start.
     pub broken: Option<String>,
     pub restarts: u32,
+    /// Whether the service notices a switch by itself.
+    pub eager: bool,
     /// Whether the service answers.
     pub serves: bool,
     /// The trace of every self-check.
@@ -46,6 +48,7 @@ impl Robot {
             running: None,
             broken: None,
             restarts: 0,
+            eager: false,
             serves: true,
             trace: Ok("00ff".to_owned()),
         }
@@ -72,6 +75,11 @@ impl Host for Robot {
     }
 
     fn service(&mut self) -> Result<Service, String> {
+        let store = Store::open(&self.root, &DISK).map_err(|why| why.to_string())?;
+        let current = store.current().map(|current| current.release);
+        if self.eager && current != self.running {
+            self.restart()?;
+        }
         match self.serves {
             true => Ok(Service { state: self.state, release: self.running.clone(), trouble: None }),
             false => Err("it does not answer".to_owned()),

@@ -94,6 +94,17 @@ fn a_release_that_does_not_start_is_replaced_by_the_one_before() {
 }
 
 #[test]
+fn a_release_that_the_service_replaces_by_itself_is_no_success() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut robot = Robot::new(folder.path());
+    deploy(&mut robot, &release(1), false).unwrap();
+    (robot.broken, robot.eager) = (Some(release(2).0.id()), true);
+    let ran = deploy(&mut robot, &release(2), false).unwrap();
+    let why = format!("release {} did not start", release(2).0.id());
+    assert_eq!((ran.plan.as_str(), ran.instead), ("Patrol1", Some(why)));
+}
+
+#[test]
 fn logs_are_fetched_in_two_pieces() {
     let folder = tempfile::tempdir().unwrap();
     let mut robot = Robot::new(folder.path());

@@ -34,6 +34,7 @@ stop | restart) if [ -e /run/afp.pid ]; then kill "$(cat /run/afp.pid)"; fi ;;
 esac
 case "$1" in
 restart)
+    cd /
     setpriv --reuid=afp --regid=afp --init-groups /usr/local/bin/afpc agent --serve \
         </dev/null >/dev/null 2>&1 &
     echo $! >/run/afp.pid
