@@ -10,6 +10,7 @@ use std::thread;
 use afp_drive::{Controller, Inputs, LONGEST, STEP, Setup};
 use afp_platform::RealTime;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 
 /// The controller on a pseudo-terminal, and the robot around it.
 pub struct Fake {
@@ -45,6 +46,9 @@ impl Fake {
         let path = ptsname(&port, Vec::new())?.to_string_lossy().into_owned();
         // The port exists while this end of it is open.
         let end = File::options().read(true).write(true).open(&path)?;
+        let mut modes = tcgetattr(&end)?;
+        modes.make_raw();
+        tcsetattr(&end, OptionalActions::Now, &modes)?;
         let port = File::from(port);
         let (mut line, (tell, heard)) = (port.try_clone()?, channel());
         thread::spawn(move || {

@@ -6,6 +6,7 @@ use std::os::unix::fs::OpenOptionsExt;
 
 use afp_platform::{open_device, release_device};
 use rustix::fs::OFlags;
+use rustix::io::Errno;
 use rustix::termios::{OptionalActions, QueueSelector, isatty, tcflush, tcgetattr, tcsetattr};
 
 /// The most bytes of one write.
@@ -31,13 +32,9 @@ impl Port {
         // The port must not become the controlling terminal of this process.
         let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits() as i32;
         let file = open_device(File::options().read(true).write(true).custom_flags(flags), path)?;
-        if isatty(&file) {
-            let mut modes = tcgetattr(&file)?;
-            modes.make_raw();
-            modes.set_speed(baud)?;
-            tcsetattr(&file, OptionalActions::Now, &modes)?;
-            // Earlier messages do not count.
-            tcflush(&file, QueueSelector::IFlush)?;
+        if let Err(why) = set_up(&file, baud) {
+            release_device(&file);
+            return Err(why);
         }
         Ok(Port { file, end, whole: false })
     }
@@ -74,4 +71,23 @@ impl Port {
     pub(crate) fn release(&self) {
         release_device(&self.file);
     }
+}
+
+/// Sets up a serial line.
+fn set_up(file: &File, baud: u32) -> io::Result<()> {
+    if !isatty(file) {
+        return Ok(());
+    }
+    match tcgetattr(file) {
+        Ok(mut modes) => {
+            modes.make_raw();
+            modes.set_speed(baud)?;
+            tcsetattr(file, OptionalActions::Now, &modes)?;
+        }
+        // QEMU cannot set up a line for an emulated program. The other end of a pseudo-terminal can.
+        Err(Errno::NOSYS) => {}
+        Err(why) => return Err(why.into()),
+    }
+    // Earlier messages do not count.
+    Ok(tcflush(file, QueueSelector::IFlush)?)
 }
