@@ -152,11 +152,6 @@ pub fn unreachable(host: &str, said: &str) -> RunError {
             format!("'{host}' accepts neither your key nor your password"),
             format!("copy your key to the robot: 'ssh-copy-id {host}'"),
         )
-    } else if said.contains("cannot use the folder of releases") {
-        (
-            format!("the user of '{host}' may not change what the robot runs"),
-            format!("name the user of the robot's service: 'afp@{name}'"),
-        )
     } else if said.contains("not found") {
         (format!("'{host}' has no afpc"), format!("install it: 'afpc robot setup {host}'"))
     } else {
