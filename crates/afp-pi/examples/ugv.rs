@@ -23,7 +23,7 @@ pub struct Fake {
     pub speeds: [f64; 2],
     /// The counted distances of the wheels, in metres.
     pub ways: [f64; 2],
-    /// The ratio of driven to counted distance of each wheel.
+    /// The driven distance over the counted distance of each wheel.
     pub factors: [f64; 2],
     /// The distance between the wheels in metres.
     pub track: f64,

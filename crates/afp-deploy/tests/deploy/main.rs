@@ -94,7 +94,7 @@ fn a_release_that_does_not_start_is_replaced_by_the_one_before() {
 }
 
 #[test]
-fn a_release_that_the_service_replaces_by_itself_is_no_success() {
+fn a_release_that_the_service_replaces_by_itself_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
     let mut robot = Robot::new(folder.path());
     deploy(&mut robot, &release(1), false).unwrap();

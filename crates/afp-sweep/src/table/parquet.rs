@@ -3,9 +3,7 @@
 use std::io;
 use std::sync::Arc;
 
-use parquet::basic::{
-    Compression, ConvertedType, LogicalType, Repetition, Type as Physical, ZstdLevel,
-};
+use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::Result;
 use parquet::file::metadata::KeyValue;
@@ -18,7 +16,7 @@ use crate::grid::Sweep;
 use crate::header::Header;
 use crate::outcome::Outcome;
 
-/// Writes the outcomes as Parquet, compressed with Zstandard: counts as unsigned 64-bit integers,
+/// Writes the outcomes as Parquet, compressed with Snappy: counts as unsigned 64-bit integers,
 /// numbers as doubles, strings as UTF-8.
 ///
 /// The file's metadata has the identity of the sweep: `afp.program`, `afp.plan_hash`,
@@ -45,7 +43,7 @@ fn write(columns: &[Column], facts: Vec<KeyValue>) -> Result<Vec<u8>> {
     let schema = Arc::new(Type::group_type_builder("outcomes").with_fields(fields).build()?);
     let mut bytes = Vec::new();
     let properties = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::default()))
+        .set_compression(Compression::SNAPPY)
         .set_key_value_metadata(Some(facts))
         .build();
     let mut file = SerializedFileWriter::new(&mut bytes, schema, Arc::new(properties))?;
@@ -122,7 +120,7 @@ mod tests {
             |key: &str| facts.iter().find(|it| it.key == key).unwrap().value.clone().unwrap();
         assert_eq!((&*fact("afp.plan_hash"), &*fact("afp.seeds")), ("1234", "3..5"));
         let group = reader.metadata().row_group(0);
-        assert!(matches!(group.column(0).compression(), Compression::ZSTD(_)));
+        assert!(matches!(group.column(0).compression(), Compression::SNAPPY));
         let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
         assert_eq!(rows.len(), 2);
         let at = |name| rows[0].get_column_iter().position(|(column, _)| column == name).unwrap();

@@ -22,7 +22,7 @@ use written::Part;
 /// Arguments of `afpc calibrate`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Serial port of the controller [default: that of afp.toml]
+    /// Serial port of the controller [default: `port` in afp.toml]
     #[arg(long)]
     port: Option<String>,
     /// Measure everything again

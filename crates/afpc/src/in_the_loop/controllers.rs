@@ -25,7 +25,7 @@ pub trait Controller: Send + 'static {
     /// Takes a byte from the line.
     fn receive(&mut self, byte: u8, now: Instant);
 
-    /// Decides one step. `ways` are those of the wheels in metres.
+    /// Decides one step. `ways` has the distances of the wheels in metres.
     fn step(&mut self, robot: &Simulation, ways: [f64; 2], now: Instant) -> Moves;
 
     /// The bytes to send now.

@@ -1,5 +1,6 @@
 //! `afpc calibrate` with a robot whose measures are wrong, and a user with a perfect tape.
 
+#[allow(dead_code)]
 #[path = "../../../afp-pi/examples/ugv.rs"]
 mod ugv;
 

@@ -46,6 +46,9 @@ pub(super) fn ask(root: &Path, order: Order, patience: Duration) -> Result<Reply
     match asked() {
         Ok(Reply::Failed(why)) => Err(why),
         Ok(reply) => Ok(reply),
+        Err(why) if why.kind() == io::ErrorKind::PermissionDenied => {
+            Err("this user may not use the service: log in as 'afp'".to_owned())
+        }
         Err(why) => Err(format!("the service 'afp' does not answer ({why})")),
     }
 }

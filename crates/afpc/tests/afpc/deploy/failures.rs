@@ -1,5 +1,5 @@
 //! Programs on a robot that crash, and restarts of the robot: it is armed only by somebody, or at boot
-//! if its project says so.
+//! if its project sets `autostart`.
 
 use super::{DEPLOY, Robot};
 

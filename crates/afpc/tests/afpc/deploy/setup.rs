@@ -130,7 +130,7 @@ fn a_computer_is_set_up_deployed_to_and_upgraded() {
     assert!(dialout.is_none_or(|line| line.contains("afp")), "{dialout:?}");
 
     let other = server.afpc(&project, early);
-    other.fails(1, &["the user of 'pi@robot.test' may not change", "'afp@robot.test'"]);
+    other.fails(2, &["this user may not use the service: log in as 'afp'"]);
     let deploy = "deploy wall_following.afp --robot sim --to afp@robot.test";
     let deployed = server.afpc(&project, deploy);
     assert!(deployed.succeeds().out.starts_with("ready: WallFollowing "), "{deployed:?}");

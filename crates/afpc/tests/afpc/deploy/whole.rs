@@ -1,4 +1,4 @@
-//! The way from a new project to a log on another machine: `afpc new`, scenarios, setup, deploys over
+//! From a new project to a log on another machine. `afpc new`, scenarios, setup, deploys over
 //! ssh to a robot with a controller, its logs, and the debugger in an empty folder.
 //!
 //! `AFP_ROBOTS_AFPC` names a program for a Raspberry Pi; the robot then emulates one. `AFP_SLOW` limits

@@ -128,7 +128,7 @@ impl Session {
         let status = ssh.status().map_err(|why| no_ssh("ssh", &why))?;
         if !status.success() {
             let message = format!("the script did not finish on '{}'", self.host);
-            let help = "the lines above show the failed command; mend it and run this again";
+            let help = "the lines above show the failed command; fix the cause and run this again";
             return Err(RunError::usage(message, help));
         }
         Ok(())
