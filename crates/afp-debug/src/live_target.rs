@@ -1,5 +1,5 @@
-//! A target beside a run that drives on by itself. Its events come from the run's observer, and its
-//! requests go to the run's control thread.
+//! A target next to a run that drives on by itself. Its events come from the run's observer, and
+//! its requests go to the run's control thread.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

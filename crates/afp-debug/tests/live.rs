@@ -1,4 +1,4 @@
-//! The adapter beside a run that drives on by itself, in virtual time: holds, steps, the lease.
+//! The adapter next to a run that drives on by itself, in virtual time: holds, steps, the lease.
 
 mod common;
 
@@ -26,7 +26,7 @@ plan Rounds {
 }
 ";
 
-/// A run with clients beside it.
+/// A run with clients next to it.
 struct Live {
     session: Box<dyn AnySession>,
     steering: Steering,

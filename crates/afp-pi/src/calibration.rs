@@ -99,7 +99,7 @@ mod tests {
     fn numbers_of_no_robot_are_refused() {
         let (straight, spin) = drives([1.0, 1.0], 0.14, 0.14);
         assert!(solve(0.14, &straight, &spin).is_some());
-        // Centimetres in place of metres, turns that were not counted, and a drive backwards.
+        // Centimetres instead of metres, turns that were not counted, and a drive backwards.
         let long = Straight { end: [200.0, 0.0], ..straight };
         assert_eq!(solve(0.14, &long, &spin), None);
         assert_eq!(solve(0.14, &straight, &Spin { seen: 0.1, ..spin }), None);

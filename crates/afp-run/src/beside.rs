@@ -1,10 +1,10 @@
-//! A debugger beside a run, on its own thread.
+//! A debugger next to a run, on its own thread.
 
 use afp_session::{AnySession, Observer, Steering, Wire};
 
 use crate::error::RunError;
 
-/// Starts a debugger beside a run.
+/// Starts a debugger next to a run.
 pub trait Beside {
     /// Starts it for a session that has not started.
     ///

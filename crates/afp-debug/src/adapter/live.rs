@@ -1,4 +1,4 @@
-//! A run beside the adapter that drives on by itself: a robot. It is held and not paused, and its
+//! A run next to the adapter that drives on by itself: a robot. It is held and not paused, and its
 //! operator must answer.
 
 use std::time::Duration as Wall;
@@ -44,7 +44,7 @@ pub(super) struct Hit {
 }
 
 impl<'h> Adapter<'h> {
-    /// An adapter beside a run that drives on by itself. Clients join with `attach`, and the run
+    /// An adapter next to a run that drives on by itself. Clients join with `attach`, and the run
     /// continues without them.
     pub fn beside(host: Box<dyn Host<'h> + 'h>, target: Box<dyn Target + 'h>) -> Adapter<'h> {
         let mut adapter = Adapter::new(host);
@@ -56,7 +56,7 @@ impl<'h> Adapter<'h> {
         adapter
     }
 
-    /// Whether the run beside the adapter has ended.
+    /// Whether the run next to the adapter has ended.
     pub fn has_ended(&self) -> bool {
         self.run.as_ref().is_none_or(|run| run.mode == Mode::Over)
     }

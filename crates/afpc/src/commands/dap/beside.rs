@@ -1,4 +1,4 @@
-//! The debug adapter beside a run: clients attach over a Unix socket.
+//! The debug adapter next to a run: clients attach over a Unix socket.
 
 use std::fs;
 use std::io;

@@ -61,7 +61,7 @@ pub(super) enum Arrival<S> {
     Client(S),
     Bytes(usize, Vec<u8>),
     Gone(usize),
-    /// The run beside the adapter is over.
+    /// The run next to the adapter is over.
     End,
 }
 
@@ -127,7 +127,7 @@ impl<'a, S: Stream> Peers<'a, S> {
         Peers { adapter, clock: Clock::new(), all, connected: 0, sender, patience }
     }
 
-    /// Serves clients until the end of the run beside the adapter, or without end.
+    /// Serves clients until the end of the run next to the adapter, or without end.
     pub(super) fn serve(&mut self, arrived: &Receiver<Arrival<S>>) {
         loop {
             let run = self.clock.rest(&self.adapter);
