@@ -7,7 +7,7 @@ use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_run::options::RunOptions;
-use afp_run::{EXIT_PLAN_ERROR, Program, run};
+use afp_run::{EXIT_PLAN_ERROR, Extras, Program, run};
 use afp_session::{AnyWorld, EndingKind, EventKind, Loader, simulated};
 use afp_sim::Simulation;
 use afp_syntax::source::Source;
@@ -77,7 +77,7 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
     let log_name = log.to_str().unwrap();
     let options = options(&["--json", "--svg", "none", "--log", log_name]);
     assert_eq!(
-        run(&program, robot.kind(), Box::new(make), &options, None).unwrap(),
+        run(&program, robot.kind(), Box::new(make), &options, Extras::default()).unwrap(),
         EXIT_PLAN_ERROR
     );
     let log = afp_log::read(&log).unwrap();
