@@ -14,12 +14,13 @@ pub struct Life {
 }
 
 /// All actors that have started and not ended.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Lives {
     started: u64,
     alive: BTreeMap<u64, Alive>,
 }
 
+#[derive(Clone)]
 struct Alive {
     name: Text,
     state: State,

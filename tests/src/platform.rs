@@ -62,6 +62,11 @@ impl Platform {
         Platform { script, log, clock, lives: Lives::default() }
     }
 
+    /// The platform of a copied plan, whose actors continue.
+    pub fn copied(&self, log: Log, clock: CostClock) -> Self {
+        Platform { script: self.script.clone(), log, clock, lives: self.lives.clone() }
+    }
+
     /// Starts, polls or interrupts a component: it may fail, panic or take time.
     ///
     /// # Errors

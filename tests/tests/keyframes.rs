@@ -68,6 +68,15 @@ impl Run {
         Run { scheduler, platform, clock, sink, wake }
     }
 
+    /// A copy with a log of its own.
+    fn copied(&self) -> Self {
+        let (log, clock) = (Log::default(), CostClock::default());
+        let scheduler = self.scheduler.try_clone().expect("all components can be copied");
+        let platform = self.platform.copied(log.clone(), clock.clone());
+        let sink = Lines(scheduler.plan().names(), log);
+        Run { scheduler, platform, clock, sink, wake: self.wake }
+    }
+
     fn until(&mut self, end: u64) -> Vec<String> {
         let before = self.sink.1.lines().len();
         while let Wake::At(at) = self.wake
@@ -89,8 +98,7 @@ fn a_copy_during_a_run_continues_like_its_original() {
         let on = (&mut run.platform, &mut run.sink, &run.clock);
         run.wake = run.scheduler.start(on, Instant::ZERO).expect("nothing is missing");
         run.until(at);
-        let copy = run.scheduler.try_clone().expect("all components can be copied");
-        let mut copy = Run::on(copy, &case.script, run.wake);
+        let mut copy = run.copied();
         let (first, second) = (run.until(300), copy.until(300));
         assert!(first.len() > 10, "{first:#?}");
         assert_eq!(first, second, "copied at {at} ms");

@@ -25,6 +25,22 @@ pub struct Debugger {
     pub end: Box<dyn FnOnce()>,
 }
 
+/// The parts of a debugger by their users; empty without a debugger.
+#[derive(Default)]
+pub(crate) struct DebuggerParts {
+    pub(crate) relay: Option<Box<dyn Observer + Send>>,
+    /// The parts on the control thread.
+    pub(crate) control: Option<(Wire, Steering)>,
+    pub(crate) end_service: Option<Box<dyn FnOnce()>>,
+}
+
+impl From<Debugger> for DebuggerParts {
+    fn from(Debugger { relay, wire, steering, end }: Debugger) -> Self {
+        let control = Some((wire, steering));
+        DebuggerParts { relay: Some(relay), control, end_service: Some(end) }
+    }
+}
+
 /// Parts of a run that not every program has.
 #[derive(Clone, Copy, Default)]
 pub struct Extras<'a> {

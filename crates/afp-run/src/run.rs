@@ -24,6 +24,8 @@ use afp_session::{
 };
 
 use crate::again::Again;
+use crate::beside::DebuggerParts;
+
 use crate::drawn::nothing_to_draw;
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
@@ -37,7 +39,7 @@ use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::watchdog::Watchdog;
 use crate::world::{self, BUILT_IN, LoadedWorld};
-use crate::{Debugger, Extras, Program, inputs, requests};
+use crate::{Extras, Program, inputs, requests};
 
 use driver::{AnyObserver, Driven, Driver, StartWatchdog};
 use gate::RunGate;
@@ -219,10 +221,7 @@ fn drive(
     let stop = stop_flag(keeper).map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     stop.set_last_resort(guards.last_resort);
     let mut log = paths.log.as_deref().map(|path| log_of(path, session, setting)).transpose()?;
-    let report = Report::new(options.json, end, keeper);
-    let report =
-        Mutex::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);
-    report::of(&report).head(&head(setting));
+    let report = new_report(setting, end)?;
     let mut counts = Counts::new(session.names());
     // Only the picture needs the path; without it a run of days takes no more memory than a short run.
     let track = if paths.svg.is_some() { Track::new } else { Track::distance_alone };
@@ -237,13 +236,9 @@ fn drive(
     let pace = Pace::new(keeper).map_err(RunError::file("cannot watch", "the keys".as_ref()))?;
     let debugger = extras.debugger.filter(|_| keeper != TimeKeeper::Nobody);
     let debugger = debugger.map(|beside| beside.start(session)).transpose()?;
-    let (mut relay, at_control, end_debugger) = match debugger {
-        Some(Debugger { relay, wire, steering, end }) => {
-            (Some(relay), Some((wire, steering)), Some(end))
-        }
-        None => (None, None, None),
-    };
-    let asked = at_control.as_ref().map(|(_, steering)| steering.asked());
+    let parts = debugger.map_or_else(DebuggerParts::default, Into::into);
+    let DebuggerParts { mut relay, control, end_service } = parts;
+    let asked = control.as_ref().map(|(_, steering)| steering.asked());
     let mut gate = RunGate::new(&report, pace, stop.clone(), live.as_deref(), asked);
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
@@ -254,18 +249,15 @@ fn drive(
     observers.extend(relay.iter_mut().map(|relay| &mut **relay as &mut AnyObserver<'_>));
     let names = session.owned_names();
     let Guards { watch, realtime, .. } = guards;
-    let flag = stop.clone();
-    let watchdog = watch.map(|(watch, stall)| -> StartWatchdog {
-        Box::new(move || Watchdog::start(watch, stall, realtime.priority, flag, names))
-    });
+    let watchdog = watch.map(|watch| watchdog(watch, realtime, stop.clone(), names));
     let driver =
-        Driver { watchdog, realtime, keeper, end, live: live.as_deref(), debugger: at_control };
+        Driver { watchdog, realtime, keeper, end, live: live.as_deref(), debugger: control };
     armed::notify("READY=1");
     // The robot stops before anything slow is written.
     let driven = driver.drive(session, &mut gate, &mut observers);
     stop.set_last_resort(None);
     drop(relay);
-    end_debugger.into_iter().for_each(|end| end());
+    end_service.into_iter().for_each(|end| end());
     let Driven { stopped_by, measured, lost } = driven?;
     let speed = session.now().as_secs_f64() / gate.spent();
     drop(gate);
@@ -286,6 +278,27 @@ fn drive(
     let again = setting.again.filter(|_| stopped_by != Some(StoppedBy::Signal));
     again.map_or(Ok(()), |again| again.compare(program, until, asked, session.trace()))?;
     Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
+}
+
+/// The report of a run, with its head.
+///
+/// # Errors
+/// Standard output cannot be written.
+fn new_report(setting: &Setting<'_>, end: Instant) -> Result<Mutex<Report>, RunError> {
+    let report = Report::new(setting.options.json, end, setting.options.time_keeper());
+    let mut report = report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?;
+    report.head(&head(setting));
+    Ok(Mutex::new(report))
+}
+
+/// Starts the watchdog of a control loop, which may be late by less than a limit.
+fn watchdog(
+    (watch, stall): (Watch, Duration),
+    realtime: Realtime,
+    stop: StopFlag,
+    names: Box<dyn Names + Send>,
+) -> StartWatchdog {
+    Box::new(move || Watchdog::start(watch, stall, realtime.priority, stop, names))
 }
 
 /// The flag that signals raise. With a real robot no signal suspends the process. If keys are read,

@@ -258,7 +258,7 @@ pub trait Simulated:
 ///         self.0 = self.0.max(robot.x);
 ///     }
 ///
-///     fn results(&self) -> Vec<Figure> {
+///     fn figures(&self) -> Vec<Figure> {
 ///         let value = FigureValue::Numbers(vec![("m", self.0)]);
 ///         vec![Figure { name: "farthest", value, text: format!("{:.2} m", self.0) }]
 ///     }
@@ -269,7 +269,7 @@ pub trait Simulated:
 /// }
 /// # let mut farthest = Farthest::default();
 /// # farthest.on_sample(Instant::ZERO, &Toy { x: 0.5 });
-/// # assert_eq!(farthest.results()[0].text, "0.50 m");
+/// # assert_eq!(farthest.figures()[0].text, "0.50 m");
 /// ```
 pub trait Measure<R>: Send {
     /// Takes a record of the step that ended.

@@ -249,7 +249,7 @@ fn a_breakpoint_holds_a_robot_and_anybody_stops_it() {
     other.attach(json!({}));
     assert_eq!(other.event("stopped")["allThreadsStopped"], true);
     let why = other.refused("continue", json!({"threadId": 1}));
-    assert!(why.contains("steers this run"), "{why}");
+    assert!(why.contains("operates this run"), "{why}");
     other.ask("terminate", json!({}));
     for client in [&mut editor, &mut other] {
         assert_eq!(client.event("afp/ended")["ending"], "interrupted");

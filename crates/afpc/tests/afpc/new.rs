@@ -138,7 +138,7 @@ fn templates_are_listed_and_described() {
         one.succeeds();
         assert!(one.out.starts_with("actor Forward of 'carbot'\n"), "{}", one.out);
         assert!(one.out.contains("in distance: length = 100 cm from -1000 m"), "{}", one.out);
-        assert!(one.out.contains("uses navigator, every 10 ms, "), "{}", one.out);
+        assert!(one.out.contains("uses navigator, needs odometry, every 10 ms, "), "{}", one.out);
     }
     for (name, help) in [
         ("Fly", "help: 'afpc templates' lists"),

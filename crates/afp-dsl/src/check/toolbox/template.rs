@@ -24,18 +24,7 @@ pub(super) fn read(
     let mut template = without_parts(node, node.name()?);
     let parts = node.parts();
     let mut seen = Seen::default();
-    if let Some(span) = node.resumable() {
-        template.resumable = template.kind == TemplateKind::Actor;
-        match template.kind {
-            TemplateKind::Actor => {}
-            TemplateKind::Supervisor => {
-                misfit("resumable", "a supervisor starts again", span, diags)
-            }
-            TemplateKind::Computation => {
-                misfit("resumable", "a computation runs at once", span, diags)
-            }
-        }
-    }
+    resumable(node, &mut template, diags);
     outcomes(&parts, &mut template, diags);
     let mut names = DeclaredNames::default();
     for part in &parts {
@@ -88,6 +77,17 @@ pub(super) fn read(
     deadline(&parts, &template, diags);
     without_outcomes(node, &template, diags);
     Some(template)
+}
+
+/// Reads `resumable`, which only actors can be.
+fn resumable(node: &ast::Template, template: &mut Template, diags: &mut Diagnostics) {
+    let Some(span) = node.resumable() else { return };
+    template.resumable = template.kind == TemplateKind::Actor;
+    match template.kind {
+        TemplateKind::Actor => {}
+        TemplateKind::Supervisor => misfit("resumable", "a supervisor starts again", span, diags),
+        TemplateKind::Computation => misfit("resumable", "a computation runs at once", span, diags),
+    }
 }
 
 fn without_parts(node: &ast::Template, name: Name) -> Template {
