@@ -1,5 +1,5 @@
-//! A stand-in for the second controller: prints the path of its port, and runs the controller's
-//! program with motors that turn as commanded and nothing in front of the range sensor. It ends
+//! A stand-in for the second controller. It prints the path of its port and runs the controller's
+//! program. The motors turn as commanded, and nothing is in front of the range sensor. It ends
 //! when a run on it has ended.
 
 use std::fs::File;

@@ -1,5 +1,5 @@
-//! A test rig for the profiles `pi` and `picarx`: prints the path of its socket, which takes the
-//! place of the GPIO chip, and imitates motors, encoders, switches and a range sensor in a room.
+//! A test rig for the profiles `pi` and `picarx`. It prints the path of its socket, which replaces
+//! the GPIO chip. It imitates motors, encoders, switches and a range sensor in a room.
 
 use std::io::{self, BufRead, BufReader, Write};
 use std::os::unix::net::{UnixListener, UnixStream};

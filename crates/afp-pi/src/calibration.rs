@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-/// A drive whose counts say how far it was, and a tape says where it ended.
+/// A drive: the counted distance, and the distance on the tape.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Straight {
     /// The way by the counts, in metres.

@@ -39,7 +39,7 @@ pub enum Heard<T> {
 
 impl<const LONGEST: usize> Link<LONGEST> {
     /// Opens a port in both directions, without waiting, for only this program. A serial line gets
-    /// the speed in baud, and does not edit or echo. `version` is that of the messages.
+    /// the speed in baud, and does not edit or echo. `version` is the messages' version.
     ///
     /// # Errors
     /// The port cannot be opened or set up.

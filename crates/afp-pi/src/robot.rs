@@ -48,8 +48,8 @@ pub trait Line: Send + Sized + 'static {
     /// The setting that names its device.
     const PLACE: &'static str = "port";
 
-    /// Devices and facts that a robot with this line does not have. No device knows the true pose
-    /// of a real robot.
+    /// Devices and facts that a robot with this line does not have. No device measures the true
+    /// pose of a real robot.
     const LACKS: &'static [&'static str] =
         &["robot", "world", "infrared", "color", "camera", "battery", "localisation", "signals"];
 
@@ -115,7 +115,7 @@ pub trait Behind {
     /// As [`Behind::put`].
     fn check_put(&self, what: &Put, at: Pose2) -> Result<(), RequestError>;
 
-    /// The facts that no device knows.
+    /// The facts that no device measures.
     fn sample(&self, to: &mut Samples<'_, '_>);
 
     /// See [`afp_session::Robot::figures`].

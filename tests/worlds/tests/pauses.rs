@@ -150,7 +150,7 @@ fn five_pauses_end_where_an_uninterrupted_run_ends() {
             a * 1e3,
             c * 1e3,
         );
-        // Below a millimetre and a tenth of a degree, the spread is that of the last poll.
+        // Below a millimetre and a tenth of a degree, the last poll causes the spread.
         let spreads = c <= SPREAD * a.max(0.001) && d <= SPREAD * b.max(0.1);
         if far > FAR || wide > WIDE || seeds >= 50 && !spreads {
             wrong.push(name);

@@ -12,8 +12,8 @@ use afp_core::{Actor, Duration, Fault, Instant, Poll, Resumable};
 /// An arc is complete when the distance left is below this, metres, and the angle below that of a
 /// turn in place.
 const CLOSE_WAY: f64 = 0.004;
-/// Turn rate per radian of heading error, heading towards the arc per metre beside it, and the
-/// largest of these, after a suspension.
+/// After a suspension: turn rate per radian of heading error, heading towards the arc per metre of
+/// distance from it, and the largest of these.
 const HOLD: f64 = 2.5;
 const APPROACH: f64 = 4.0;
 const STEEPEST: f64 = 0.5;

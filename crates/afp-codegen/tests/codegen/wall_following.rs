@@ -55,11 +55,11 @@ use ::afp_core::{
 };
 use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use ::afp_core::rt::{
-    Actor, AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementId,
-    ElementKind, ElementRow, Entry, EntryRow, Fired, Kept, NameTable, NamedPlan,
-    OnReturn, Plan, PlanState, PlanTable, Polled, PortRow, Range, Resumable, Run, Slot,
-    Started, Supervisor, SupervisorId, SupervisorRow, Tables, Target, Timing, Unit,
-    finite, output, set_input, stage_outside,
+    AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementId, ElementKind,
+    ElementRow, Entry, EntryRow, Fired, Kept, NameTable, NamedPlan, OnReturn, Plan,
+    PlanState, PlanTable, Polled, PortRow, Range, Resumable, Run, Slot, Started,
+    Supervisor, SupervisorId, SupervisorRow, Tables, Target, Timing, Unit, finite,
+    output, set_input, stage_outside,
 };
 use ::afp_core::trace::{ComponentKind, EntryKind, Sink};
 use afp_carbot::templates as carbot;
@@ -379,9 +379,9 @@ impl<E> Plan<E> for WallFollowing
 where
     E: Environment + ?Sized,
     afp_carbot::Forward: Resumable<carbot::Forward, E>,
-    afp_carbot::SearchWall: Actor<carbot::SearchWall, E>,
+    afp_carbot::SearchWall: Resumable<carbot::SearchWall, E>,
     afp_carbot::Turn: Resumable<carbot::Turn, E>,
-    afp_carbot::WallForward: Actor<carbot::WallForward, E>,
+    afp_carbot::WallForward: Resumable<carbot::WallForward, E>,
     afp_carbot::CheckEscapeButton: Supervisor<carbot::CheckEscapeButton, E>,
     afp_carbot::CheckTouchSensor: Supervisor<carbot::CheckTouchSensor, E>,
     afp_carbot::CheckDrivingLane: Supervisor<carbot::CheckDrivingLane, E>,
@@ -561,11 +561,13 @@ where
         cx: &mut Cx<'_, R>,
     ) -> Result<Kept, Fault> {
         match &mut self.active {
+            Active::None => Ok(Kept::No),
             Active::SearchFirstWall(actor) => cx.suspend_actor(actor),
             Active::BackupCollision(actor) => cx.suspend_actor(actor),
+            Active::FindWallAngle(actor) => cx.suspend_actor(actor),
             Active::ParallelToWall(actor) => cx.suspend_actor(actor),
+            Active::FollowWall(actor) => cx.suspend_actor(actor),
             Active::TurnAfterWallLost(actor) => cx.suspend_actor(actor),
-            _ => Ok(Kept::No),
         }
     }
 
@@ -576,11 +578,13 @@ where
         cx: &mut Cx<'_, R>,
     ) -> Started {
         match &mut self.active {
+            Active::None => Started::Failed(Fault::INTERNAL),
             Active::SearchFirstWall(actor) => cx.resume_actor(actor, away),
             Active::BackupCollision(actor) => cx.resume_actor(actor, away),
+            Active::FindWallAngle(actor) => cx.resume_actor(actor, away),
             Active::ParallelToWall(actor) => cx.resume_actor(actor, away),
+            Active::FollowWall(actor) => cx.resume_actor(actor, away),
             Active::TurnAfterWallLost(actor) => cx.resume_actor(actor, away),
-            _ => Started::Failed(Fault::INTERNAL),
         }
     }
 
