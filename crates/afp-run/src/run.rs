@@ -37,11 +37,10 @@ use crate::picture::Rasterizer;
 use crate::report::{self, Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
 use crate::stderr::warn;
 use crate::stop::StopFlag;
-use crate::watchdog::Watchdog;
 use crate::world::{self, BUILT_IN, LoadedWorld};
 use crate::{Extras, Program, inputs, requests};
 
-use driver::{AnyObserver, Driven, Driver, StartWatchdog};
+use driver::{AnyObserver, Driven, Driver, watchdog};
 use gate::RunGate;
 use paths::Paths;
 
@@ -223,9 +222,7 @@ fn drive(
     let mut log = paths.log.as_deref().map(|path| log_of(path, session, setting)).transpose()?;
     let report = new_report(setting, end)?;
     let mut counts = Counts::new(session.names());
-    // Only the picture needs the path; without it a run of days takes no more memory than a short run.
-    let track = if paths.svg.is_some() { Track::new } else { Track::distance_alone };
-    let mut track = track(session.devices());
+    let mut track = track(&paths, session);
     let live = options.live.map(|at| live::begin(at, program.name, session)).transpose()?;
     let mut sent = None;
     if let Some(live) = &live {
@@ -291,14 +288,10 @@ fn new_report(setting: &Setting<'_>, end: Instant) -> Result<Mutex<Report>, RunE
     Ok(Mutex::new(report))
 }
 
-/// Starts the watchdog of a control loop, which may be late by less than a limit.
-fn watchdog(
-    (watch, stall): (Watch, Duration),
-    realtime: Realtime,
-    stop: StopFlag,
-    names: Box<dyn Names + Send>,
-) -> StartWatchdog {
-    Box::new(move || Watchdog::start(watch, stall, realtime.priority, stop, names))
+/// Only the picture needs the path. Without it, a run of days takes no more memory than a short run.
+fn track(paths: &Paths, session: &dyn AnySession) -> Track {
+    let track = if paths.svg.is_some() { Track::new } else { Track::distance_alone };
+    track(session.devices())
 }
 
 /// The flag that signals raise. With a real robot no signal suspends the process. If keys are read,

@@ -4,9 +4,10 @@ use std::io;
 use std::panic::resume_unwind;
 use std::thread;
 
+use afp_core::trace::Names;
 use afp_core::{Duration, Instant, StartError};
 use afp_project::Realtime;
-use afp_session::{AnySession, Figures, Go, Observer, QueueReader, Steering, Wire, queue};
+use afp_session::{AnySession, Figures, Go, Observer, QueueReader, Steering, Watch, Wire, queue};
 
 use super::gate::{Halt, RunGate};
 use super::realtime;
@@ -16,6 +17,7 @@ use crate::live::Live;
 use crate::options::TimeKeeper;
 use crate::report::StoppedBy;
 use crate::requests;
+use crate::stop::StopFlag;
 use crate::watchdog::Watchdog;
 
 /// The maximum sleep of a real robot between two looks at keys and signals.
@@ -27,11 +29,22 @@ const LOOK: std::time::Duration = std::time::Duration::from_millis(250);
 /// An observer that may work on another thread.
 pub(super) type AnyObserver<'a> = dyn Observer + Send + 'a;
 
-/// Starts the watchdog of a real robot.
-pub(super) type StartWatchdog = Box<dyn FnOnce() -> io::Result<Watchdog>>;
+/// The start of a watchdog.
+type StartWatchdog = Box<dyn FnOnce() -> io::Result<Watchdog>>;
+
+/// Starts the watchdog of a control loop, which may be late by less than a limit.
+pub(super) fn watchdog(
+    (watch, stall): (Watch, Duration),
+    realtime: Realtime,
+    stop: StopFlag,
+    names: Box<dyn Names + Send>,
+) -> StartWatchdog {
+    Box::new(move || Watchdog::start(watch, stall, realtime.priority, stop, names))
+}
 
 /// The driver of a session.
 pub(super) struct Driver<'a> {
+    /// The watchdog of a real robot.
     pub watchdog: Option<StartWatchdog>,
     pub realtime: Realtime,
     pub keeper: TimeKeeper,
