@@ -34,7 +34,7 @@ use crate::options::{OnRobot, RunOptions, TimeKeeper};
 use crate::output::write_whole;
 use crate::pace::Pace;
 use crate::picture::Rasterizer;
-use crate::report::{self, Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
+use crate::report::{Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
 use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::world::{self, BUILT_IN, LoadedWorld};
@@ -234,8 +234,8 @@ fn drive(
     let debugger = extras.debugger.filter(|_| keeper != TimeKeeper::Nobody);
     let debugger = debugger.map(|beside| beside.start(session)).transpose()?;
     let parts = debugger.map_or_else(DebuggerParts::default, Into::into);
-    let DebuggerParts { mut relay, control, end_service } = parts;
-    let asked = control.as_ref().map(|(_, steering)| steering.asked());
+    let DebuggerParts { mut relay, control: debugger, end_service } = parts;
+    let asked = debugger.as_ref().map(|(_, steering)| steering.asked());
     let mut gate = RunGate::new(&report, pace, stop.clone(), live.as_deref(), asked);
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
@@ -247,8 +247,7 @@ fn drive(
     let names = session.owned_names();
     let Guards { watch, realtime, .. } = guards;
     let watchdog = watch.map(|watch| watchdog(watch, realtime, stop.clone(), names));
-    let driver =
-        Driver { watchdog, realtime, keeper, end, live: live.as_deref(), debugger: control };
+    let driver = Driver { watchdog, realtime, keeper, end, live: live.as_deref(), debugger };
     armed::notify("READY=1");
     // The robot stops before anything slow is written.
     let driven = driver.drive(session, &mut gate, &mut observers);

@@ -30,7 +30,7 @@ const PER_MICROSECOND: f32 = crate::parts::STEPS as f32 / 20_000.0;
 /// A slower robot keeps its steering, in m/s.
 const SLOWEST: f32 = 0.005;
 /// The front wheels do not steer farther, in radians.
-const FARTHEST: f32 = 0.5236;
+const FARTHEST: f32 = core::f32::consts::FRAC_PI_6;
 /// A motor turns only above this share of its power.
 const TURNS: f32 = 0.5;
 
