@@ -1,6 +1,7 @@
 //! A test rig for the profiles `pi` and `picarx`. It prints the path of its socket, which replaces
 //! the GPIO chip. It imitates motors, encoders, switches and a range sensor in a room.
 
+use std::f64::consts::PI;
 use std::io::{self, BufRead, BufReader, Write};
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::Path;
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// The measures of the project of `afpc new --profile pi`.
 const TRACK: f64 = 0.14;
-const METRES_PER_TICK: f64 = std::f64::consts::PI * 0.065 / 1440.0;
+const METRES_PER_TICK: f64 = PI * 0.065 / 1440.0;
 const AT_FULL_POWER: f64 = 0.5;
 const FORWARD: f64 = 0.08;
 const HALF: f64 = 0.12;
@@ -112,7 +113,7 @@ impl State {
         *x += (left + right) / 2.0 * dt * heading.cos();
         *y += (left + right) / 2.0 * dt * heading.sin();
         *heading += (right - left) / TRACK * dt;
-        let touches = [0.0, 3.14].iter().any(|side| self.ray(0.0, *side) < HALF);
+        let touches = [0.0, PI].iter().any(|side| self.ray(0.0, *side) < HALF);
         self.bumps += u32::from(touches && !self.touches);
         self.touches = touches;
         let counts = self.ways.map(|way| (way / METRES_PER_TICK) as i64);

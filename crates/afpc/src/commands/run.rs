@@ -85,11 +85,13 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let options = &arguments.options;
     #[cfg(all(feature = "dap", unix))]
     let socket = super::dap::Socket { graph: &graph, file: &file };
-    let mut extras = Extras { rasterizer: Some(&pixels), debugger: None };
-    #[cfg(all(feature = "dap", unix))]
-    if itself || options.attach {
-        extras.debugger = Some(&socket);
-    }
+    let extras = Extras {
+        rasterizer: Some(&pixels),
+        #[cfg(all(feature = "dap", unix))]
+        debugger: (itself || options.attach).then_some(&socket),
+        #[cfg(not(all(feature = "dap", unix)))]
+        debugger: None,
+    };
     if itself {
         let open = |settings: &Settings| real::open(&file.own.project, &graph, settings, linked);
         return Ok(afp_run::run_on_hardware(&program, Box::new(open), options, extras)?);
