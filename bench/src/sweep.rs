@@ -57,6 +57,7 @@ pub fn run(rounds: u32, report: &mut Report) {
         failures: Vec::new(),
         plan: source.name.clone(),
         worlds: vec![afp_sweep::WorldChoice::OfPlan],
+        worlds_by_seed: false,
         axes: Vec::new(),
         seeds: Seeds::new(0..LONG),
         until: Duration::from_secs(SECONDS),
