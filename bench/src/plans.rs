@@ -13,7 +13,7 @@ pub mod step {
 }
 
 pub mod suspending {
-    //! As [`step`], with a suspension that no event takes.
+    //! As `step`, with a suspension that no event takes.
     afp_macros::plan!("plans/suspending.afp", toolboxes = { "toolbox/board.afp" => crate::board });
 }
 

@@ -100,7 +100,7 @@ fn no_command_moves_the_robot_in_a_hold_and_the_run_repeats() {
         let mut run = session(&graph, seed);
         let mut before = false;
         for _ in 0..STEPS / 20 {
-            if dice.next_u32() % 40 == 0 {
+            if dice.next_u32().is_multiple_of(40) {
                 ask(&mut *run, &mut dice);
             }
             match run.next_step(&mut []).expect("the plan starts") {
