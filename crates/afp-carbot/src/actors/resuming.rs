@@ -40,7 +40,7 @@ impl Case {
         Case { robot, ..self }
     }
 
-    fn from_elsewhere(self) -> Self {
+    fn elsewhere(self) -> Self {
         Case { from_elsewhere: true, ..self }
     }
 
@@ -108,10 +108,10 @@ fn standing() -> Vec<Case> {
         robot.run_paused::<t::Drive, crate::Drive>(t::drive::Inputs {}, live, pauses)
     };
     vec![
-        exact("Hold", hold).from_elsewhere(),
-        exact("Stop", stop).of(rolling).from_elsewhere().within(None),
-        exact("Signal", signal).from_elsewhere(),
-        exact("Drive", drive).from_elsewhere().within(None),
+        exact("Hold", hold).elsewhere(),
+        exact("Stop", stop).of(rolling).elsewhere().within(None),
+        exact("Signal", signal).elsewhere(),
+        exact("Drive", drive).elsewhere().within(None),
         exact(
             "LearnObject",
             run!(LearnObject, learn_object, t::learn_object::Inputs { share: 0.2 }),
@@ -122,9 +122,9 @@ fn standing() -> Vec<Case> {
 
 fn by_odometry() -> Vec<Case> {
     let forward =
-        run!(Forward, forward, { t::forward::Inputs { distance: metres(1.0), speed: speed() } });
+        run!(Forward, forward, t::forward::Inputs { distance: metres(1.0), speed: speed() });
     let retrace =
-        run!(Retrace, retrace, { t::retrace::Inputs { distance: metres(0.5), speed: speed() } });
+        run!(Retrace, retrace, t::retrace::Inputs { distance: metres(0.5), speed: speed() });
     let turn = run!(Turn, turn, t::turn::Inputs { angle: Angle::from_deg(150.0), speed: rate() });
     let curve = run!(Curve, curve, {
         t::curve::Inputs { radius: metres(0.5), angle: Angle::from_deg(120.0), speed: speed() }
@@ -142,7 +142,7 @@ fn along_walls() -> Vec<Case> {
         t::search_wall::Inputs { sweep: Angle::from_deg(60.0), range: metres(1.5) }
     });
     let look =
-        run!(LookAround, look_around, { t::look_around::Inputs { sweep: Angle::from_deg(120.0) } });
+        run!(LookAround, look_around, t::look_around::Inputs { sweep: Angle::from_deg(120.0) });
     let follow = run!(WallForward, wall_forward, {
         t::wall_forward::Inputs {
             walldist: metres(0.3),
@@ -183,10 +183,10 @@ fn by_sensors() -> Vec<Case> {
     };
     let wide = Some((0.02, 6.0));
     vec![
-        exact("TurnToInfrared", face).of(with_light).from_elsewhere().within(wide),
-        exact("ApproachInfrared", approach).of(with_light).from_elsewhere(),
-        exact("FindObject", find).of(beside_a_post).from_elsewhere().within(wide),
-        exact("FollowObject", follow).of(far_from_a_post).from_elsewhere(),
+        exact("TurnToInfrared", face).of(with_light).elsewhere().within(wide),
+        exact("ApproachInfrared", approach).of(with_light).elsewhere(),
+        exact("FindObject", find).of(beside_a_post).elsewhere().within(wide),
+        exact("FollowObject", follow).of(far_from_a_post).elsewhere(),
     ]
 }
 
@@ -207,9 +207,9 @@ fn by_map() -> Vec<Case> {
         t::drive_to::Inputs { x, y, heading, speed: speed(), tolerance: metres(0.1) }
     });
     vec![
-        exact("FollowPath", follow).from_elsewhere(),
-        exact("ChooseView", choose).of(on_a_map).from_elsewhere(),
-        exact("DriveTo", drive).from_elsewhere().within(Some((0.02, 4.0))),
+        exact("FollowPath", follow).elsewhere(),
+        exact("ChooseView", choose).of(on_a_map).elsewhere(),
+        exact("DriveTo", drive).elsewhere().within(Some((0.02, 4.0))),
     ]
 }
 
