@@ -82,6 +82,6 @@ def test_objects_from_an_older_toolbox_are_refused() -> None:
     assert scenario.run().passed and runs.result(0).ending == "ok", "what does something else is no other declaration"
     declare(tools, "Bad", "Good")
     for again in (scenario.run, lambda: runs.simulation(0)):
-        with pytest.raises(afp.AfpError, match="the toolbox 'tools' declares something else than it did"):
+        with pytest.raises(afp.AfpError, match="the toolbox 'tools' has changed since"):
             again()
     assert plan.scenarios[0].run().passed

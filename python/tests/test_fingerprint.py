@@ -120,7 +120,7 @@ def test_a_sweep_reports_its_changed_part(tmp_path: Path, metrics: dict[str, Any
     grid: dict[str, Any] = {"seeds": 2, "until": 1.0, "progress": False, "out": tmp_path / "runs.csv"}
     first = afp.sweep(afp.Plan(GO), **grid, metrics={"q": scaled(1.0)})
     assert first == afp.sweep(afp.Plan(GO), **grid, metrics={"q": scaled(1.0)})
-    with pytest.raises(afp.AfpError, match=f"of another sweep: {wanted}") as raised:
+    with pytest.raises(afp.AfpError, match=f"belongs to another sweep: {wanted}") as raised:
         afp.sweep(afp.Plan(GO), **grid, metrics=metrics)
     assert "restart=True" in str(raised.value) and "--restart" not in str(raised.value)
     assert afp.sweep(afp.Plan(GO), **grid, metrics=metrics, restart=True).columns["run"] == [0, 1]

@@ -162,8 +162,8 @@ def test_invalid_arguments_are_refused() -> None:
         ({"view": "side"}, "no view"),
         ({"task": "Fly"}, "no task 'Fly'; there are: Roam, WallFollow"),
         ({"observe": ["sonar"]}, "no part 'sonar' of an observation; there are: distance"),
-        ({"observe": ["target"]}, "'target' is observed and there is nothing to reach: say reach="),
-        ({"reward": {"nearer": 1.0}}, "'nearer' is rewarded and there is nothing to reach: say reach="),
+        ({"observe": ["target"]}, "'target' is observed and there is nothing to reach: set reach="),
+        ({"reward": {"nearer": 1.0}}, "'nearer' is rewarded and there is nothing to reach: set reach="),
         ({"reward": {"ahead": 1.0, "reached": 1.0}}, "'reached' is rewarded and there is nothing to reach"),
         ({"ends": ["reached"]}, "'reached' ends the episode and there is nothing to reach"),
         ({"reach": "moon"}, "moon"),
@@ -429,6 +429,6 @@ def test_a_picture_is_a_png() -> None:
 
 def test_episodes_have_seeds() -> None:
     for judge in (lambda seeds: afp.gym.evaluate(afp.gym.plan_of("WallFollow"), "WallFollow", seeds), lambda seeds: afp.gym.evaluate(None, "WallFollow", seeds)):
-        for seeds, kind, said in (([], ValueError, r"there are no seeds in \[\]"), (3, TypeError, "seeds are several whole numbers"), ([-1], ValueError, "-1 is no seed")):
+        for seeds, kind, said in (([], ValueError, r"there are no seeds in \[\]"), (3, TypeError, "seeds are several whole numbers"), ([-1], ValueError, "-1 is not a seed")):
             with pytest.raises(kind, match=said):
                 judge(seeds)

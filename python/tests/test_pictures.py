@@ -80,14 +80,14 @@ def test_a_film_has_the_pictures_of_the_camera(log: afp.Log, tmp_path: Path) -> 
     blind = tmp_path / "blind.mcap"
     with afp.Simulation(afp.load(ROOT / "plans/wall_following.afp"), log=blind) as simulation:
         simulation.run(until=1.0)
-    with pytest.raises(afp.AfpError, match="no pictures of the camera"):
+    with pytest.raises(afp.AfpError, match="no camera pictures"):
         afp.Log(blind).film()
 
 
 def test_a_plan_shows_the_coverage_of_a_run(log: afp.Log, wall_following: afp.Plan) -> None:
     covered = wall_following.coverage(log.file)
     assert xml.fromstring(covered.svg).tag.endswith("svg") and covered.svg != wall_following.svg()
-    with pytest.raises(afp.AfpError, match="not of this plan as it is now"):
+    with pytest.raises(afp.AfpError, match="from another version of this plan"):
         afp.load(ROOT / "plans/patterns.afp").coverage(log.file)
 
 

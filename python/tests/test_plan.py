@@ -85,7 +85,7 @@ def test_a_refused_change_changes_nothing(wall_following: afp.Plan) -> None:
         wall_following.rename("nowhere", "somewhere")
     with pytest.raises(afp.AfpError):
         wall_following.add("actor broken: (")
-    with pytest.raises(ValueError, match="names nothing of a plan"):
+    with pytest.raises(ValueError, match="is not the path of an item"):
         wall_following.remove("a.b.c")
     assert wall_following.text == before
 

@@ -51,7 +51,7 @@ def test_a_failure_shows_the_place_the_timeline_and_the_log(project: pytest.Pyte
             'scenario "ends at once" of the plan Go',
             f"go.afp:{line}:*: expect end by OK before 100 ms",
             "*broken here",
-            "  log: *go.afp_is_there_at_once-*.mcap",
+            "  log: *go.afp_ends_at_once-*.mcap",
         ]
     )
     log = next(project.path.glob("target/afp/tests/*.mcap"))

@@ -124,7 +124,7 @@ def test_without_cargo_the_error_explains_it(tmp_path: Path) -> None:
 def test_a_robot_is_selected_once_and_first() -> None:
     for text, said in [
         ("afp.World; afp.use('VACUUM')", "this process has the Carbot already: call afp.use() before anything else"),
-        ("afp.use('VACUUM/afp.toml')", "there is no folder"),
+        ("afp.use('VACUUM/afp.toml')", "does not exist"),
         ("afp.use('..'); afp.World; afp.use('..'); afp.use('VACUUM')", "already: call afp.use() before anything else"),
     ]:
         run = python(f"import afp; {text}")

@@ -33,7 +33,7 @@ def test_seeds_are_a_number_or_a_list() -> None:
     assert seeds(np.array([7, 6])) == [7, 6]
     with pytest.raises(ValueError, match="the seed 1 is given twice"):
         seeds([1, 1])
-    with pytest.raises(ValueError, match="-1 is no seed"):
+    with pytest.raises(ValueError, match="-1 is not a seed"):
         seeds([-1])
 
 
@@ -75,7 +75,7 @@ def test_metrics_are_columns_that_a_journal_keeps(tmp_path: Path) -> None:
     called: list[str] = []
     again = swept(seeds=4, metrics=metrics, out=out, on_run=lambda row: called.append(row["trace"]))
     assert again.columns["most_left_m"] == runs.columns["most_left_m"] and not called
-    with pytest.raises(afp.AfpError, match="of another sweep"):
+    with pytest.raises(afp.AfpError, match="belongs to another sweep"):
         swept(seeds=4, metrics={"most_left_m": lambda result: 0}, out=out)
 
 
@@ -87,7 +87,7 @@ def test_a_metric_without_values_is_a_column_of_every_table(tmp_path: Path) -> N
     assert parquet.read_table(tmp_path / "runs/outcomes.parquet").column("q").null_count == 2
     assert ",q," in (tmp_path / "runs/outcomes.csv").read_text()
     assert swept(seeds=2, metrics=none, out=f"{tmp_path}/runs/") == runs
-    for name, said in (("time_s", "a column 'time_s' of every run"), ("contacts_s", "a figure 'contacts_s' of every run")):
+    for name, said in (("time_s", "every run has a column 'time_s'"), ("contacts_s", "a figure 'contacts_s' of every run")):
         with pytest.raises(ValueError, match=said):
             swept(seeds=1, metrics={name: lambda result: None})
 
@@ -100,7 +100,7 @@ def test_a_failing_metric_ends_the_sweep() -> None:
         swept(seeds=20, metrics={"breaks": breaks})
     with pytest.raises(TypeError, match="gives a number or None, not 'a'"):
         swept(metrics={"text": lambda result: "a"})
-    with pytest.raises(ValueError, match="None where there is no number"):
+    with pytest.raises(ValueError, match="return None if there is no number"):
         swept(metrics={"far": lambda result: float("inf")})
     with pytest.raises(ValueError, match="becomes a column"):
         swept(metrics={"a b": len})
@@ -196,7 +196,7 @@ def test_a_row_repeats_its_run() -> None:
     assert simulation["way"] == 0.2 and simulation.time == 0.0
     pickled = pickle.loads(pickle.dumps(runs))
     assert list(pickled) == list(runs)
-    with pytest.raises(RuntimeError, match="a table only"):
+    with pytest.raises(RuntimeError, match="only a table"):
         pickled.result(0)
 
 

@@ -167,7 +167,7 @@ def test_invalid_stimuli_are_refused(wall_following: afp.Plan) -> None:
         simulation.press(afp.Press(at=float("nan")))
     with pytest.raises(TypeError, match="needs a Plan, not a str"):
         afp.Simulation("wall.afp")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="-1 is no seed"):
+    with pytest.raises(ValueError, match="-1 is not a seed"):
         afp.Simulation(wall_following, seed=-1)
     with pytest.raises(TypeError, match="cannot be pickled"):
         pickle.dumps(simulation)
@@ -338,7 +338,7 @@ def test_a_simulation_can_be_subclassed(wall_following: afp.Plan) -> None:
 
     counted = Counted(3)
     assert counted.step() and counted.step() and (counted.steps, counted.seed) == (2, 3)
-    with pytest.raises(RuntimeError, match="made once"):
+    with pytest.raises(RuntimeError, match="cannot be initialized twice"):
         counted.__init__(4)  # type: ignore[misc]
     with pytest.raises(RuntimeError, match="has not been made"):
         Counted(0).step()

@@ -57,7 +57,7 @@ def test_unsavable_simulations_report_the_reason(wall_following: afp.Plan, tmp_p
     assert "Snapshot of WallFollowing" in repr(saved) and "at 0.000 s" in repr(saved)
     with pytest.raises(TypeError, match="cannot be pickled"):
         pickle.dumps(saved)
-    with pytest.raises(TypeError, match="from what save"):
+    with pytest.raises(TypeError, match="from a result of save"):
         simulation.restore(simulation)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="of another simulation"):
         afp.Simulation(wall_following, simulation.world, seed=1).restore(saved)

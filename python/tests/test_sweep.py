@@ -86,7 +86,7 @@ def test_invalid_arguments_are_refused() -> None:
         afp.sweep(plan, backend="slurm")
     with pytest.raises(ValueError, match="no values"):
         afp.sweep(plan, vary={"way": []})
-    with pytest.raises(ValueError, match="give how many"):
+    with pytest.raises(ValueError, match="give their number"):
         afp.sweep(plan, seeds=0)
     with pytest.raises(ValueError, match="no seeds in range"):
         afp.sweep(plan, seeds=range(5, 2))
@@ -117,7 +117,7 @@ def test_a_stopped_sweep_continues(tmp_path: Path) -> None:
     runs = afp.sweep(plan, seeds=64, until=5.0, progress=lambda done, total: first.append(done), out=out)
     assert first[0] > 3 and rows(runs) == rows(afp.sweep(plan, seeds=64, until=5.0, progress=False))
     assert len(out.read_text().splitlines()) == 65
-    with pytest.raises(afp.AfpError, match="of another sweep"):
+    with pytest.raises(afp.AfpError, match="belongs to another sweep"):
         afp.sweep(plan, seeds=65, until=5.0, progress=False, out=out)
     assert len(afp.sweep(plan, seeds=2, until=5.0, progress=False, out=out, restart=True)) == 2
 

@@ -82,7 +82,7 @@ test('the same over standard input and output and over a socket', async () => {
         const stranger = new DebugClient(AFPC, 'dap', 'afp');
         await stranger.start(Number(port));
         await stranger.initializeRequest();
-        await assert.rejects(stranger.launchRequest({ program: PLAN, token: 'x' }), /'token' is the one/);
+        await assert.rejects(stranger.launchRequest({ program: PLAN, token: 'x' }), /'token' must be the token/);
         await stranger.disconnectRequest();
 
         const socket = new DebugClient(AFPC, 'dap', 'afp');

@@ -394,7 +394,7 @@ mod tests {
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(lines[0], "studio         left out: it needs Node.js with npm and Chromium");
         assert_eq!(lines[1], "dap            left out: it needs Node.js with npm");
-        assert_eq!(lines[2], "to run them, too:");
+        assert_eq!(lines[2], "to run them as well:");
         assert_eq!(lines[3], format!("    {}", needs::install(&[Node, Chromium])));
         assert_eq!(said_of(&[]), "");
     }

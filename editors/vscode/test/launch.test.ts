@@ -20,7 +20,7 @@ test("F5 without a configuration file debugs the open plan in real time", () => 
 
 test("a configuration reports missing values and may use full speed", () => {
   assert.match(completed({ type: "afp", name: "x" }, open) as string, /needs a 'program'/);
-  assert.match(completed({ type: "afp", program: "a", log: "b" }, open) as string, /one of them/);
+  assert.match(completed({ type: "afp", program: "a", log: "b" }, open) as string, /not both/);
   assert.equal((completed({ type: "afp", program: "a", speed: null }, open) as Launch).speed, undefined);
   assert.equal((completed({ type: "afp", program: "a", speed: 3 }, open) as Launch).speed, 3);
 });
