@@ -195,7 +195,7 @@ inBrowser("simultaneous changes of two programs are merged and saved; conflicts 
   await isSaved();
   assert.match(await read("plan.afp"), /<<<<<<<[^]*mine[^]*=======[^]*theirs[^]*>>>>>>>/);
   await page.locator(".count", { hasText: "error" }).click();
-  await page.locator(".problems", { hasText: "a mark between two versions" }).waitFor();
+  await page.locator(".problems", { hasText: "is a conflict marker" }).waitFor();
   // The choice was made in this page.
   await page.getByRole("button", { name: "Undo: Keep both, marked" }).click();
   await holds("plan.afp", before.replace("-> rest }", "-> rest } // mine"));

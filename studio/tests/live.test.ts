@@ -115,6 +115,9 @@ inBrowser("the drawing follows a run into a sub-plan and out of it, or stays", {
   await page.keyboard.press("Control+k");
   await page.keyboard.type("Follow the run");
   await page.keyboard.press("Enter");
+  // The run may have entered the sub-plan before the command.
+  await page.getByRole("button", { name: "Plans of this file" }).click();
+  await page.getByRole("menuitemradio", { name: "Outer" }).click();
   await reads(page.locator(".run-place-text"), /▶ first/);
   await page.waitForTimeout(800);
   assert.equal(await page.locator('.node [data-item="Inner.first"]').count(), 0);
