@@ -34,7 +34,7 @@ edition = "2024"
 
 inBrowser("a robot of the folder is built and run only after the folder is trusted", { "plan.afp": PLAN, "afp.toml": PROJECT, "rover.afp": TOOLBOX, "Cargo.toml": MANIFEST }, async ({ page, read }) => {
   await page.locator(".node text").first().waitFor();
-  await shows(page.locator(".world .empty"), /the robot 'rover::Rover'.* would be built and run: .*trust the folder/);
+  await shows(page.locator(".world .empty"), /would build and run the robot 'rover::Rover' .*trust the folder/);
   await page.keyboard.press("F5");
   const question = page.getByRole("dialog");
   await shows(question, /Do you trust[^]*the robot of .*afp\.toml/);

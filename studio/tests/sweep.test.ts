@@ -90,8 +90,8 @@ inBrowser("an invalid sweep value is explained at its field", { "plan.afp": PLAN
   await page.keyboard.type("build and sweep");
   await page.keyboard.press("Enter");
   for (const [field, wrong, says] of [
-    ["Seeds", "5..2", /^Seeds '5\.\.2': there are no seeds/],
-    ["Vary", "way", /^Vary 'way': expected what to vary/],
+    ["Seeds", "5..2", /^Seeds '5\.\.2': '5\.\.2' has no seeds/],
+    ["Vary", "way", /^Vary 'way': expected a name and its values/],
     ["Until", "0 s", /'0 s' is not a time: write for example '30 s'/],
   ] as const) {
     const input = page.getByLabel(field, { exact: true });

@@ -117,7 +117,8 @@ export function Rename() {
   if (!asked) return null;
   const end = async (take: boolean): Promise<void> => {
     const name = field.current?.value.trim() ?? "";
-    if (renaming.peek() !== asked || isAsking.current) return;
+    // Escape discards the name, even while the engine checks it.
+    if (renaming.peek() !== asked || (take && isAsking.current)) return;
     isAsking.current = true;
     const isDone = await asked.done(take && name ? name : null);
     isAsking.current = false;
