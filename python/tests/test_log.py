@@ -133,5 +133,5 @@ def test_a_log_has_signals_and_frames(wall_following: afp.Plan, tmp_path: Path) 
 
 def test_a_log_without_pictures_has_no_frames(wall_following: afp.Plan, tmp_path: Path) -> None:
     afp.Simulation(wall_following, log=tmp_path / "run.mcap").run(until=0.2)
-    with pytest.raises(ValueError, match="no camera pictures"):
+    with pytest.raises(ValueError, match="no pictures of the camera"):
         afp.Log(tmp_path / "run.mcap").frames()

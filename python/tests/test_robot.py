@@ -100,7 +100,7 @@ def test_a_project_has_its_robot() -> None:
     assert found["runs"] == 4 and found["pickled"] and found["mixed"] == "ok"
     (time, drop, level), truth, other, middle = found["seen"]
     assert 0 < time < 0.1 and drop is False and level >= 0.0
-    assert "only a judge may know" in truth
+    assert "which components cannot read" in truth
     assert "the robot has no 'distance'; its sensors are: " in other and "cliff.drop" in other
     assert "robot.pose" not in middle and "bumper.left" in middle
     assert found["carbot"] == "'afp.Carbot' is for the Carbot, and this process has another robot"

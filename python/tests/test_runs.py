@@ -87,7 +87,7 @@ def test_a_metric_without_values_is_a_column_of_every_table(tmp_path: Path) -> N
     assert parquet.read_table(tmp_path / "runs/outcomes.parquet").column("q").null_count == 2
     assert ",q," in (tmp_path / "runs/outcomes.csv").read_text()
     assert swept(seeds=2, metrics=none, out=f"{tmp_path}/runs/") == runs
-    for name, said in (("time_s", "every run has a column 'time_s'"), ("contacts_s", "a figure 'contacts_s' of every run")):
+    for name, said in (("time_s", "every run has a column 'time_s'"), ("contacts_s", "every run has a result 'contacts_s'")):
         with pytest.raises(ValueError, match=said):
             swept(seeds=1, metrics={name: lambda result: None})
 

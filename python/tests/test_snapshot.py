@@ -59,7 +59,7 @@ def test_unsavable_simulations_report_the_reason(wall_following: afp.Plan, tmp_p
         pickle.dumps(saved)
     with pytest.raises(TypeError, match="from a result of save"):
         simulation.restore(simulation)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="of another simulation"):
+    with pytest.raises(ValueError, match="belongs to another simulation"):
         afp.Simulation(wall_following, simulation.world, seed=1).restore(saved)
     with afp.Simulation(wall_following, simulation.world, log=tmp_path / "a.mcap") as logged:
         with pytest.raises(RuntimeError, match="log, which cannot be taken back"):

@@ -76,5 +76,5 @@ def test_outside_of_a_notebook_the_error_names_the_fix(wall_following: afp.Plan)
 
 
 def test_invalid_speeds_are_refused(cell: list[dict[str, str]], wall_following: afp.Plan) -> None:
-    with pytest.raises(ValueError, match="speed is 0; give their number times"):
+    with pytest.raises(ValueError, match="speed is 0; give a multiple of real time"):
         afp.Simulation(wall_following).watch(speed=0)
