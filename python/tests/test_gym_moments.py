@@ -76,7 +76,7 @@ def test_a_running_environment_is_copied_with_its_wrappers() -> None:
 def test_only_a_begun_episode_is_saved() -> None:
     with pytest.raises(gymnasium.error.ResetNeeded):
         afp.gym.CarbotEnv().save()
-    with pytest.raises(TypeError, match="what save\\(\\) gave"):
+    with pytest.raises(TypeError, match="a result of save\\(\\)"):
         afp.gym.CarbotEnv().restore(3)  # type: ignore[arg-type]
 
 

@@ -71,7 +71,7 @@ def test_an_interrupted_run_continues(cell: list[dict[str, str]], monkeypatch: p
 
 def test_outside_of_a_notebook_the_error_names_the_fix(wall_following: afp.Plan) -> None:
     assert not notebook.is_here()
-    with pytest.raises(RuntimeError, match="run\\(\\) runs it"):
+    with pytest.raises(RuntimeError, match="call run\\(\\) instead"):
         afp.Simulation(wall_following).watch()
 
 

@@ -81,7 +81,7 @@ fn others_watch(place: &Place, deaf: &str) {
     let run = |binary: &str| {
         said(Command::new(binary).args(options).current_dir(place.path("")).output().unwrap())
     };
-    run(deaf).fails(2, &["'--live' is not in this program", "'afpc build --live'"]);
+    run(deaf).fails(2, &["this program has no '--live'", "'afpc build --live'"]);
     let mut command = place.command();
     command.args(["build", "wall_following.afp", "--live", "-o", "watched"]);
     let built = said(command.env("CARGO_TARGET_DIR", shared_target()).output().unwrap());
