@@ -210,7 +210,7 @@ def test_a_reset_has_a_world_a_pose_a_goal_and_faults() -> None:
     assert info["target"] == pytest.approx((x + 0.5, y))
     assert seen[:3] == pytest.approx([0.5, math.sin(-1.25), math.cos(-1.25)], abs=1e-3)
     _, info = env.reset(seed=3)
-    assert info["world"] != "random:5", "the options were of that episode alone"
+    assert info["world"] != "random:5", "the options apply only to that episode"
     inside = {"world": room, "pose": (-0.02, 1.0, 0.0)}
     with pytest.raises(afp.AfpError, match="starts inside of 'room'"):
         env.reset(options=inside)

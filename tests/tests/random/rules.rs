@@ -55,7 +55,7 @@ const RULES: &[Rule] = &[
     ("an event returns", |trace| {
         any(trace, |line| line.contains(" event ") && line.ends_with(" -> return"))
     }),
-    ("a sub-plan returns with what is active inside", returns_inside),
+    ("a sub-plan returns with its active element", returns_inside),
     ("a supervisor continues", |trace| {
         any(trace, |line| line.contains(" returned after ") && is_supervisor(line))
     }),

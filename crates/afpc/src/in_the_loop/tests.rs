@@ -1,3 +1,5 @@
+//! Plants and controllers over a pseudo-terminal, without the command line.
+
 use std::sync::Arc;
 
 use afp_core::{Duration, Instant};
