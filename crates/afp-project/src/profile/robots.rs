@@ -26,6 +26,25 @@ const fn simulated(setting: Setting, in_world: &'static str) -> Setting {
     Setting { in_world: Some(in_world), ..setting }
 }
 
+const OUTLINE: Section =
+    section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY);
+
+const fn drive(settings: &'static [Setting]) -> Section {
+    section(key("drive", "The wheels and their motors.", "[robot.drive]"), true, &[], settings)
+}
+
+const fn bumper(settings: &'static [Setting]) -> Section {
+    let key = key("bumper", "The switch of the bumper.", "[robot.bumper]");
+    section(key, false, &["touch"], settings)
+}
+
+const fn button(settings: &'static [Setting]) -> Section {
+    section(key("button", "The escape button.", "[robot.button]"), false, &["buttons"], settings)
+}
+
+/// The devices of the Carbot that a robot on wheels with a range sensor lacks.
+const WITHOUT: &[&str] = &["infrared", "color", "camera", "battery", "localisation", "signals"];
+
 /// All profiles.
 pub const PROFILES: &[Profile] = &[CARBOT, PI, UGV, PICARX];
 
@@ -43,23 +62,18 @@ const CARBOT: Profile = Profile {
                 "/dev/ttyACM0",
             )],
         ),
-        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
-        section(key("drive", "The wheels and their motors.", "[robot.drive]"), true, &[], DRIVE),
+        OUTLINE,
+        drive(DRIVE),
         section(
             key("ultrasonic", "The range sensor on its servo.", "[robot.ultrasonic]"),
             false,
             &["ultrasonic", "rotator", "sweeping"],
             &[FORWARD, OFFSET],
         ),
-        section(
-            key("bumper", "The switch of the bumper.", "[robot.bumper]"),
-            false,
-            &["touch"],
-            SWITCH,
-        ),
-        section(key("button", "The escape button.", "[robot.button]"), false, &["buttons"], SWITCH),
+        bumper(SWITCH),
+        button(SWITCH),
     ],
-    lacks: &["infrared", "color", "camera", "battery", "localisation", "signals"],
+    lacks: WITHOUT,
     estimates: &[],
 };
 
@@ -80,8 +94,8 @@ const PI: Profile = Profile {
                 ),
             ],
         ),
-        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
-        section(key("drive", "The wheels and their motors.", "[robot.drive]"), true, &[], PI_DRIVE),
+        OUTLINE,
+        drive(PI_DRIVE),
         section(key("left", "The pins of the left wheel.", "[robot.left]"), true, &[], WHEEL),
         section(key("right", "The pins of the right wheel.", "[robot.right]"), true, &[], WHEEL),
         section(key("guard", "The enable line of the motors.", "[robot.guard]"), true, &[], GUARD),
@@ -102,15 +116,10 @@ const PI: Profile = Profile {
             &["sweeping"],
             &[needed(key("pwm", "The PWM channel.", "pwm = \"pwmchip0/2\""), Of::Pwm)],
         ),
-        section(
-            key("bumper", "The switch of the bumper.", "[robot.bumper]"),
-            false,
-            &["touch"],
-            PINNED,
-        ),
-        section(key("button", "The escape button.", "[robot.button]"), false, &["buttons"], PINNED),
+        bumper(PINNED),
+        button(PINNED),
     ],
-    lacks: &["infrared", "color", "camera", "battery", "localisation", "signals"],
+    lacks: WITHOUT,
     estimates: &[],
 };
 
@@ -131,38 +140,33 @@ const PICARX: Profile = Profile {
                 ),
             ],
         ),
-        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
-        section(
-            key("drive", "The wheels and their motors.", "[robot.drive]"),
-            true,
-            &[],
-            &[
-                TRACK,
-                simulated(
-                    needed(
-                        key(
-                            "wheelbase",
-                            "From the rear axis ahead to the front axis.",
-                            "wheelbase = \"8.72 cm\"",
-                        ),
-                        Of::Length([0.02, 1.0]),
+        OUTLINE,
+        drive(&[
+            TRACK,
+            simulated(
+                needed(
+                    key(
+                        "wheelbase",
+                        "From the rear axis ahead to the front axis.",
+                        "wheelbase = \"8.72 cm\"",
                     ),
-                    "robot.wheelbase_m",
+                    Of::Length([0.02, 1.0]),
                 ),
-                simulated(
-                    needed(
-                        key(
-                            "steering",
-                            "The largest angle of the front wheels.",
-                            "steering = \"30 deg\"",
-                        ),
-                        Of::Angle([0.17, 1.05]),
+                "robot.wheelbase_m",
+            ),
+            simulated(
+                needed(
+                    key(
+                        "steering",
+                        "The largest angle of the front wheels.",
+                        "steering = \"30 deg\"",
                     ),
-                    "robot.steering_deg",
+                    Of::Angle([0.17, 1.05]),
                 ),
-                FASTEST,
-            ],
-        ),
+                "robot.steering_deg",
+            ),
+            FASTEST,
+        ]),
         section(
             key("guard", "The enable line of the motors.", "[robot.guard]"),
             true,
@@ -210,13 +214,8 @@ const UGV: Profile = Profile {
                 "/dev/serial0",
             )],
         ),
-        section(key("body", "The outline from above.", "[robot.body]"), true, &[], BODY),
-        section(
-            key("drive", "The wheels and their motors.", "[robot.drive]"),
-            true,
-            &[],
-            &[TRACK, FASTEST, SCALE, TRIM],
-        ),
+        OUTLINE,
+        drive(&[TRACK, FASTEST, SCALE, TRIM]),
     ],
     lacks: &[
         "ultrasonic",
