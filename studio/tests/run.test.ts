@@ -44,7 +44,7 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await page.locator(".crumbs [aria-current]", { hasText: "Outer" }).waitFor();
   await page.keyboard.press("F5");
   await page.locator(".run-active.inside").waitFor();
-  assert.ok((await page.locator(".run-eye").count()) >= 1);
+  await page.locator(".run-eye").first().waitFor();
   await page.keyboard.press("F8");
   await page.getByRole("button", { name: "Continue" }).waitFor();
   await page.locator(".run-active.held").waitFor();
