@@ -125,7 +125,7 @@ fn module(name: &str, path: &Path, text: &str, toolboxes: &Toolboxes) -> io::Res
     let compiled = compile_unchecked(&source, toolboxes, &files);
     let errors = compiled.render(false);
     let graph = compiled.graph.ok_or_else(|| io::Error::other(errors))?;
-    let generated = afp_codegen::plan(&graph, &Options::default());
+    let generated = afp_codegen::plan(&graph, &Options { hold: true, ..Options::default() });
     let (main, plan) = (&generated.main, &generated.plan);
     let code = afp_codegen::file(generated.tokens());
     Ok(format!(

@@ -41,10 +41,13 @@ pub struct Options {
     pub core: TokenStream,
     /// For a toolbox: the expression of its text, such as `include_str!("x.afp")`.
     pub source: TokenStream,
+    /// For a plan: whether debuggers can hold it. Without it, only elements that an event suspends
+    /// have code for it.
+    pub hold: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { core: quote!(::afp_core), source: quote!("") }
+        Options { core: quote!(::afp_core), source: quote!(""), hold: false }
     }
 }

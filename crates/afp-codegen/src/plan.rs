@@ -55,7 +55,7 @@ pub struct Module {
 
 /// The Rust code of all plans of a graph.
 pub fn plan(graph: &Graph, options: &Options) -> Generated {
-    let shared = Shared::of(graph);
+    let shared = Shared::of(graph, options.hold);
     let mut modules = shared::modules(graph, &shared.enums, options);
     modules.extend(tables::module(graph, &shared.enums, &shared.tables, options));
     let declared = (&*shared.enums, &*shared.computations);

@@ -278,3 +278,32 @@ fn a_crate_named_like_its_toolbox_keeps_its_name() {
     assert!(code.contains("Seek(kit::Seek)") && code.contains("kit_templates::seek::"), "{code}");
     assert!(!code.contains("kit::seek::"), "{code}");
 }
+
+#[test]
+fn only_plans_that_can_be_suspended_or_held_have_code_for_it() {
+    const DRIVE: &str = "use std
+plan P {
+    start go
+    actor go: Wait(duration = 1 s) {
+        supervise late: CheckTimeout(duration = 2 s) { TimedOut -> EDGE }
+        Elapsed -> terminate
+    }
+    HANDLER
+}";
+    let code = |edge: &str, handler: &str, hold: bool| {
+        let text = DRIVE.replace("EDGE", edge).replace("HANDLER", handler);
+        let compiled =
+            afp_dsl::compile(&Source::new("x.afp", text), &toolboxes(), &Texts::default());
+        let errors = compiled.render(false);
+        let graph = compiled.graph.unwrap_or_else(|| panic!("{errors}"));
+        let options = Options { hold, ..Options::default() };
+        afp_codegen::file(afp_codegen::plan(&graph, &options).tokens())
+    };
+    let rest = "actor rest: Wait(duration = 1 s) { Elapsed -> return }";
+    // The started handler has its own place; the supervisors share theirs.
+    let parts = ["handler: Handler,", "fn suspend_element", "fn resume_element", "HOLDS", "[Slot; 1]"];
+    let found = |code: &str| parts.map(|part| code.contains(part));
+    assert_eq!(found(&code("terminate", "", false)), [false, false, false, false, true]);
+    assert_eq!(found(&code("suspend rest", rest, false)), [true, true, true, false, true]);
+    assert_eq!(found(&code("terminate", "", true)), [false, true, true, true, true]);
+}

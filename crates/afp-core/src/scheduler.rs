@@ -283,10 +283,10 @@ impl<P: PlanState> Scheduler<P> {
         P: Plan<R::Env>,
     {
         match self.state {
-            State::Held => self.step_held(on, now),
+            State::Held if P::HOLDS => self.step_held(on, now),
             State::Ended(ending) => Wake::Ended(ending),
             State::Broken { outside } => self.broken(outside, on),
-            State::Ready | State::Running => Wake::NotStarted,
+            State::Ready | State::Running | State::Held => Wake::NotStarted,
         }
     }
 

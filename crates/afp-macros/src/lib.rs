@@ -83,7 +83,7 @@ fn toolbox_code(input: MacroInput) -> Result<TokenStream, TokenStream> {
     let made = read_toolbox(&input.path).map(|(mut toolbox, errors, file)| {
         let mut names = HashSet::new();
         toolbox.templates.retain(|template| names.insert(template.name.clone()));
-        let options = Options { core: input.core.clone(), source: file.text };
+        let options = Options { core: input.core.clone(), source: file.text, ..Options::default() };
         let code = afp_codegen::code(afp_codegen::toolbox(&toolbox, &options));
         // In a broken toolbox, missing templates are consequences of its errors.
         let nothing = Asked::Traits(TokenStream::new());

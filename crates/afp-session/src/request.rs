@@ -156,6 +156,9 @@ pub enum RequestError {
         "only the components of a loaded plan can be made to report, and this plan is compiled"
     )]
     Compiled,
+    /// The plan was compiled into the program, so a debugger cannot hold it.
+    #[error("a compiled plan cannot be held; 'afpc run' interprets the plan and can hold it")]
+    NotHeld,
 }
 
 /// Pending requests, by time and then by order of creation.

@@ -1,5 +1,5 @@
-//! Suspension and return of elements, for handlers and for debuggers that hold a plan. Programs
-//! without either link none of this code.
+//! Suspension and return of elements, for handlers and for debuggers that hold a plan. Other plans
+//! have none of this code.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -10,11 +10,13 @@ use super::holder::{Matched, on_started};
 use crate::layout::at;
 use afp_dsl::graph::{Component, Element};
 
-/// The functions that suspend and continue elements.
-pub fn functions(context: &Context<'_>) -> TokenStream {
-    let (suspend, refresh) = (suspend_element(context), refresh_element(context));
-    let (resume, supervisors) = (resume_element(context), resume_supervisor(context));
-    quote!(#suspend #refresh #resume #supervisors)
+/// The functions of a plan whose elements can be suspended.
+pub fn functions(context: &Context<'_>) -> Option<TokenStream> {
+    context.suspendable.then(|| {
+        let (suspend, refresh) = (suspend_element(context), refresh_element(context));
+        let (resume, supervisors) = (resume_element(context), resume_supervisor(context));
+        quote!(#suspend #refresh #resume #supervisors)
+    })
 }
 
 fn suspend_element(context: &Context<'_>) -> Option<TokenStream> {
@@ -104,6 +106,7 @@ fn resume_element(context: &Context<'_>) -> Option<TokenStream> {
 
 fn resume_supervisor(context: &Context<'_>) -> Option<TokenStream> {
     let all = context.plan.supervisors.iter().zip(&context.supervisors);
+    let all = all.filter(|(supervisor, _)| context.template(supervisor.template).resumable);
     let arms = all.map(|(supervisor, ComponentNames { number, field, .. })| {
         let at = at(supervisor.span);
         quote!(#at #number => cx.resume_supervisor(&mut self.supervisors.#field, away),)
@@ -117,7 +120,7 @@ fn resume_supervisor(context: &Context<'_>) -> Option<TokenStream> {
                 away: Duration,
                 cx: &mut Cx<'_, R>,
             ) -> Result<OnReturn, Fault> {
-                match supervisor { #(#arms)* _ => Err(Fault::INTERNAL) }
+                match supervisor { #(#arms)* _ => Ok(OnReturn::Restarts) }
             }
         }
     })

@@ -11,9 +11,9 @@ use super::supervisors;
 use crate::layout::at;
 use afp_dsl::graph::{Component, Element, PlanId};
 
-/// `impl Plan<E>`, for every platform that can run all components. `suspension` has the functions
-/// that suspend and continue elements.
-pub fn plan(context: &Context<'_>, suspension: TokenStream) -> TokenStream {
+/// `impl Plan<E>`, for every platform that can run all components. `suspension` has the functions of
+/// a plan whose elements can be suspended.
+pub fn plan(context: &Context<'_>, suspension: Option<TokenStream>) -> TokenStream {
     let ty = &context.ty;
     let bounds = bounds(context);
     let (start_supervisor, poll_supervisor) = (start_supervisor(context), poll_supervisor(context));
@@ -50,7 +50,7 @@ fn bounds(context: &Context<'_>) -> Vec<TokenStream> {
         Component::Actor(id) => {
             let paths = context.paths(id, element.generic.as_ref());
             let (marker, implementation) = (paths.marker, paths.implementation);
-            match context.template(id).resumable {
+            match context.suspendable && context.template(id).resumable {
                 true => Some(quote!(#implementation: Resumable<#marker, E>,)),
                 false => Some(quote!(#implementation: Actor<#marker, E>,)),
             }

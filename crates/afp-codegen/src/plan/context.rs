@@ -31,6 +31,9 @@ pub struct Context<'a> {
     pub shared: &'a Shared,
     pub plan: &'a Plan,
     pub rows: &'a Rows,
+    /// Whether an event of the plan or of an outer plan, or a debugger, can suspend elements of the
+    /// plan.
+    pub suspendable: bool,
     pub module: Ident,
     pub ty: Ident,
     /// Getters and fields of the entries.
@@ -70,16 +73,22 @@ pub struct Shared {
     pub computations: Vec<FileComputations>,
     /// The names that modules use for one another.
     pub names: GraphNames,
+    /// Whether debuggers can hold the plans.
+    pub hold: bool,
+    /// For each plan, whether its elements can be suspended.
+    suspendable: Vec<bool>,
 }
 
 impl Shared {
     /// The common parts of this graph's modules.
-    pub fn of(graph: &Graph) -> Self {
+    pub fn of(graph: &Graph, hold: bool) -> Self {
         Shared {
             enums: enums_of(graph),
             tables: tables_of(graph),
             computations: computations_of(graph),
             names: GraphNames::new(graph),
+            hold,
+            suspendable: suspendable(graph, hold),
         }
     }
 }
@@ -107,6 +116,7 @@ impl<'a> Context<'a> {
             shared,
             plan,
             rows,
+            suspendable: shared.suspendable.get(id.index()).is_some_and(|known| *known),
             module,
             ty,
             entries: entry_names(plan),
@@ -253,6 +263,27 @@ impl Namer {
             place: ident(&place),
         }
     }
+}
+
+/// The plans with `suspend` or for debuggers, and all plans in them.
+fn suspendable(graph: &Graph, hold: bool) -> Vec<bool> {
+    let mut suspendable = vec![hold; graph.plans.len()];
+    // Sub-plans come before their users.
+    for (index, plan) in graph.plans.iter().enumerate().rev() {
+        let handlers = graph.rows.get(index).is_some_and(|rows| rows.suspends());
+        if !handlers && !suspendable[index] {
+            continue;
+        }
+        suspendable[index] = true;
+        for element in &plan.elements {
+            if let Component::SubPlan(id) = element.component
+                && let Some(inner) = suspendable.get_mut(id.index())
+            {
+                *inner = true;
+            }
+        }
+    }
+    suspendable
 }
 
 /// The entries that formulas read through a getter; objects are passed to sub-plans without one.

@@ -284,7 +284,7 @@ impl PlanState for P {
 impl<E> Plan<E> for P
 where
     E: Environment + ?Sized,
-    afp_std::Wait: Resumable<std_templates::Wait, E>,
+    afp_std::Wait: Actor<std_templates::Wait, E>,
     afp_std::CheckValue<
         Quantity<2, 0, 0, 0, 0, 0>,
     >: Supervisor<std_templates::CheckValue<Quantity<2, 0, 0, 0, 0, 0>>, E>,
@@ -388,42 +388,6 @@ where
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
             Active::Wait(actor) => cx.interrupt_actor(actor),
-        }
-    }
-
-    fn suspend_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Kept, Fault> {
-        match &mut self.active {
-            Active::None => Ok(Kept::No),
-            Active::Wait(actor) => cx.suspend_actor(actor),
-        }
-    }
-
-    fn resume_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Started {
-        match &mut self.active {
-            Active::None => Started::Failed(Fault::INTERNAL),
-            Active::Wait(actor) => cx.resume_actor(actor, away),
-        }
-    }
-
-    fn resume_supervisor<R: Run<Env = E>>(
-        &mut self,
-        supervisor: SupervisorId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<OnReturn, Fault> {
-        match supervisor {
-            WAIT_MORE => cx.resume_supervisor(&mut self.supervisors.wait_more, away),
-            WAIT_SAME => cx.resume_supervisor(&mut self.supervisors.wait_same, away),
-            _ => Err(Fault::INTERNAL),
         }
     }
 

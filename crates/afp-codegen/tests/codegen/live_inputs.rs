@@ -268,7 +268,7 @@ impl PlanState for Inner {
 impl<E> Plan<E> for Inner
 where
     E: Environment + ?Sized,
-    afp_std::Wait: Resumable<std_templates::Wait, E>,
+    afp_std::Wait: Actor<std_templates::Wait, E>,
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
@@ -337,29 +337,6 @@ where
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
             Active::Wait(actor) => cx.interrupt_actor(actor),
-        }
-    }
-
-    fn suspend_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Kept, Fault> {
-        match &mut self.active {
-            Active::None => Ok(Kept::No),
-            Active::Wait(actor) => cx.suspend_actor(actor),
-        }
-    }
-
-    fn resume_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Started {
-        match &mut self.active {
-            Active::None => Started::Failed(Fault::INTERNAL),
-            Active::Wait(actor) => cx.resume_actor(actor, away),
         }
     }
 
@@ -651,59 +628,6 @@ where
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
             Active::Inner(machine) => cx.inside(INNER_PLACE, |cx| machine.interrupt(cx)),
-        }
-    }
-
-    fn suspend_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Kept, Fault> {
-        match &mut self.active {
-            Active::None => Ok(Kept::No),
-            Active::Inner(machine) => cx.inside(INNER_PLACE, |cx| machine.suspend(cx)),
-        }
-    }
-
-    fn refresh_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<(), Fault> {
-        match &mut self.active {
-            Active::None => Ok(()),
-            Active::Inner(machine) => {
-                let live = match cx.noted(inner_live(&self.config)) {
-                    Ok(live) => live,
-                    Err(fault) => return Err(fault),
-                };
-                cx.pass_live(
-                    INNER_PLACE,
-                    machine,
-                    |plan, to| {
-                        let mut changed = false;
-                        changed |= to.update(0, &mut plan.config.twice, live.0);
-                        changed |= to.update(3, &mut plan.config.label, live.1);
-                        changed
-                    },
-                );
-                Ok(())
-            }
-        }
-    }
-
-    fn resume_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Started {
-        match &mut self.active {
-            Active::None => Started::Failed(Fault::INTERNAL),
-            Active::Inner(machine) => {
-                let flow = cx.resume_sub_plan(INNER_PLACE, machine, away);
-                Started::sub_plan(flow, || Ok(()), cx)
-            }
         }
     }
 

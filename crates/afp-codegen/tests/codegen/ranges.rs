@@ -176,7 +176,7 @@ impl PlanState for Inner {
 impl<E> Plan<E> for Inner
 where
     E: Environment + ?Sized,
-    afp_std::Wait: Resumable<std_templates::Wait, E>,
+    afp_std::Wait: Actor<std_templates::Wait, E>,
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
@@ -237,29 +237,6 @@ where
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
             Active::Wait(actor) => cx.interrupt_actor(actor),
-        }
-    }
-
-    fn suspend_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Kept, Fault> {
-        match &mut self.active {
-            Active::None => Ok(Kept::No),
-            Active::Wait(actor) => cx.suspend_actor(actor),
-        }
-    }
-
-    fn resume_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Started {
-        match &mut self.active {
-            Active::None => Started::Failed(Fault::INTERNAL),
-            Active::Wait(actor) => cx.resume_actor(actor, away),
         }
     }
 
@@ -710,36 +687,6 @@ where
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
             Active::Inner(machine) => cx.inside(INNER_PLACE, |cx| machine.interrupt(cx)),
-        }
-    }
-
-    fn suspend_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Kept, Fault> {
-        match &mut self.active {
-            Active::None => Ok(Kept::No),
-            Active::Inner(machine) => cx.inside(INNER_PLACE, |cx| machine.suspend(cx)),
-        }
-    }
-
-    fn resume_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Started {
-        match &mut self.active {
-            Active::None => Started::Failed(Fault::INTERNAL),
-            Active::Inner(machine) => {
-                let flow = cx.resume_sub_plan(INNER_PLACE, machine, away);
-                Started::sub_plan(
-                    flow,
-                    || inner_outputs(&mut self.staged, &machine.plan().config),
-                    cx,
-                )
-            }
         }
     }
 

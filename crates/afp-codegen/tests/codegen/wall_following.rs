@@ -55,11 +55,11 @@ use ::afp_core::{
 };
 use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use ::afp_core::rt::{
-    AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementId, ElementKind,
-    ElementRow, Entry, EntryRow, Fired, Kept, NameTable, NamedPlan, OnReturn, Plan,
-    PlanState, PlanTable, Polled, PortRow, Range, Resumable, Run, Slot, Started,
-    Supervisor, SupervisorId, SupervisorRow, Tables, Target, Timing, Unit, finite,
-    output, set_input, stage_outside,
+    Actor, AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementId,
+    ElementKind, ElementRow, Entry, EntryRow, Fired, NameTable, NamedPlan, Plan,
+    PlanState, PlanTable, Polled, PortRow, Range, Run, Slot, Started, Supervisor,
+    SupervisorId, SupervisorRow, Tables, Target, Timing, Unit, finite, output, set_input,
+    stage_outside,
 };
 use ::afp_core::trace::{ComponentKind, EntryKind, Sink};
 use afp_carbot::templates as carbot;
@@ -378,10 +378,10 @@ impl PlanState for WallFollowing {
 impl<E> Plan<E> for WallFollowing
 where
     E: Environment + ?Sized,
-    afp_carbot::Forward: Resumable<carbot::Forward, E>,
-    afp_carbot::SearchWall: Resumable<carbot::SearchWall, E>,
-    afp_carbot::Turn: Resumable<carbot::Turn, E>,
-    afp_carbot::WallForward: Resumable<carbot::WallForward, E>,
+    afp_carbot::Forward: Actor<carbot::Forward, E>,
+    afp_carbot::SearchWall: Actor<carbot::SearchWall, E>,
+    afp_carbot::Turn: Actor<carbot::Turn, E>,
+    afp_carbot::WallForward: Actor<carbot::WallForward, E>,
     afp_carbot::CheckEscapeButton: Supervisor<carbot::CheckEscapeButton, E>,
     afp_carbot::CheckTouchSensor: Supervisor<carbot::CheckTouchSensor, E>,
     afp_carbot::CheckDrivingLane: Supervisor<carbot::CheckDrivingLane, E>,
@@ -552,63 +552,6 @@ where
             Active::ParallelToWall(actor) => cx.interrupt_actor(actor),
             Active::FollowWall(actor) => cx.interrupt_actor(actor),
             Active::TurnAfterWallLost(actor) => cx.interrupt_actor(actor),
-        }
-    }
-
-    fn suspend_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Kept, Fault> {
-        match &mut self.active {
-            Active::None => Ok(Kept::No),
-            Active::SearchFirstWall(actor) => cx.suspend_actor(actor),
-            Active::BackupCollision(actor) => cx.suspend_actor(actor),
-            Active::FindWallAngle(actor) => cx.suspend_actor(actor),
-            Active::ParallelToWall(actor) => cx.suspend_actor(actor),
-            Active::FollowWall(actor) => cx.suspend_actor(actor),
-            Active::TurnAfterWallLost(actor) => cx.suspend_actor(actor),
-        }
-    }
-
-    fn resume_element<R: Run<Env = E>>(
-        &mut self,
-        _: ElementId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Started {
-        match &mut self.active {
-            Active::None => Started::Failed(Fault::INTERNAL),
-            Active::SearchFirstWall(actor) => cx.resume_actor(actor, away),
-            Active::BackupCollision(actor) => cx.resume_actor(actor, away),
-            Active::FindWallAngle(actor) => cx.resume_actor(actor, away),
-            Active::ParallelToWall(actor) => cx.resume_actor(actor, away),
-            Active::FollowWall(actor) => cx.resume_actor(actor, away),
-            Active::TurnAfterWallLost(actor) => cx.resume_actor(actor, away),
-        }
-    }
-
-    fn resume_supervisor<R: Run<Env = E>>(
-        &mut self,
-        supervisor: SupervisorId,
-        away: Duration,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<OnReturn, Fault> {
-        match supervisor {
-            ESCAPE => cx.resume_supervisor(&mut self.supervisors.escape, away),
-            SEARCH_FIRST_WALL_TOUCH => {
-                cx.resume_supervisor(&mut self.supervisors.search_first_wall_touch, away)
-            }
-            SEARCH_FIRST_WALL_CHECK_LANE => {
-                cx.resume_supervisor(
-                    &mut self.supervisors.search_first_wall_check_lane,
-                    away,
-                )
-            }
-            FOLLOW_WALL_WALL_TOUCH => {
-                cx.resume_supervisor(&mut self.supervisors.follow_wall_wall_touch, away)
-            }
-            _ => Err(Fault::INTERNAL),
         }
     }
 

@@ -38,7 +38,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
             }
         }
         self.level.active = None;
-        let started = !take(&mut self.level.restarts);
+        let started = !(P::HOLDS && take(&mut self.level.restarts));
         let since = self.cx.now - away.unwrap_or(Duration::ZERO);
         self.set_aside(element, found, (since, started))
     }
@@ -85,14 +85,16 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         Ok(edge)
     }
 
-    /// Suspends an element. An actor that cannot be suspended is interrupted, and starts again on
-    /// return.
+    /// Suspends an element. In a hold, an actor that cannot be suspended is interrupted, and starts
+    /// again on return.
     pub(super) fn suspend_element(&mut self, element: ElementId) -> Result<Kept, Fault> {
         let id = self.component(element);
         self.cx.place.component = id;
         let kept = self.cx.call(id, |cx| self.level.plan.suspend_element(element, cx))?;
-        if !matches!(kept, Kept::No) {
-            return Ok(kept);
+        match kept {
+            Kept::No if P::HOLDS => {}
+            Kept::No => return Err(Fault::INTERNAL),
+            Kept::Yes | Kept::Broken(_) => return Ok(kept),
         }
         // Before the call: no actor is interrupted twice.
         self.level.restarts = true;

@@ -84,7 +84,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
         {
             return self.stopped(element, row, found, Some(away)).map(Some);
         }
-        if ready.is_ok() && take(&mut self.level.restarts) {
+        if P::HOLDS && ready.is_ok() && take(&mut self.level.restarts) {
             self.level.active = None;
             return self.start_element(element, row);
         }

@@ -77,7 +77,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Holds before an edge is followed to an element, if the plan must stop there.
     #[inline]
     pub(super) fn held_before(&mut self, edge: Edge) -> Option<Flow> {
-        if self.cx.step.stops == Stops::Never || self.cx.place.plan != ComponentId(0) {
+        if !P::HOLDS || self.cx.step.stops == Stops::Never || self.cx.place.plan != ComponentId(0) {
             return None;
         }
         self.seldom().stop_before(edge)
@@ -171,6 +171,9 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     }
 
     fn abandon_held(&mut self) -> Result<(), Fault> {
+        if !P::HOLDS {
+            return Ok(());
+        }
         let Some(_) = self.cx.step.hold.take() else { return Ok(()) };
         let Some(element) = self.level.active.take() else { return Ok(()) };
         let started = !take(&mut self.level.restarts);

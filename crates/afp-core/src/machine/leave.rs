@@ -122,7 +122,7 @@ impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Interrupts and drops the active element, if any.
     pub(super) fn interrupt_active(&mut self) -> Result<(), Fault> {
         let Some(element) = self.level.active.take() else { return Ok(()) };
-        if take(&mut self.level.restarts) {
+        if P::HOLDS && take(&mut self.level.restarts) {
             // It is interrupted already.
             self.level.plan.leave(element);
             return Ok(());

@@ -25,6 +25,10 @@ pub trait PlanState: Sized {
     #[doc(hidden)]
     type Aside: Aside;
 
+    /// Whether a debugger can hold the plan. Otherwise no code for it is linked.
+    #[doc(hidden)]
+    const HOLDS: bool = false;
+
     /// Returns the rows.
     #[doc(hidden)]
     fn tables(&self) -> Self::Tables;

@@ -51,14 +51,17 @@ impl Work for EndHold {
 }
 
 impl<P: PlanState> Scheduler<P> {
+    /// Whether the plan can be held. A compiled plan cannot, unless its code was generated for it.
+    pub const HOLDS: bool = P::HOLDS;
+
     /// Whether the plan is held.
     pub fn is_held(&self) -> bool {
         self.state == State::Held
     }
 
     /// Performs a step that holds the plan: suspends the active element, or interrupts it if it
-    /// cannot be suspended. Before the start, the plan is held when it starts. No effect on a plan
-    /// that is held or has ended.
+    /// cannot be suspended. Before the start, the plan is held when it starts. A plan that is held,
+    /// has ended or cannot be held ([`Scheduler::HOLDS`]) is only stepped.
     ///
     /// Until [`Scheduler::release`], steps poll only the global supervisors of the outermost plan,
     /// and only events that end the plan are taken.
@@ -67,6 +70,7 @@ impl<P: PlanState> Scheduler<P> {
         P: Plan<R::Env>,
     {
         match self.state {
+            _ if !P::HOLDS => self.step(on, now),
             State::Running => self.step_with(on, now, BeginHold),
             State::Ready => {
                 self.step.stops = Stops::Next;
@@ -82,7 +86,7 @@ impl<P: PlanState> Scheduler<P> {
     where
         P: Plan<R::Env>,
     {
-        if self.state == State::Held {
+        if P::HOLDS && self.state == State::Held {
             return self.step_with(on, now, EndHold(how));
         }
         self.step.stops = match how {

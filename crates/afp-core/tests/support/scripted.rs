@@ -127,6 +127,7 @@ impl PlanState for Scripted {
     type Tables = SharedTables;
     type Slots = Vec<Slot>;
     type Aside = Option<SetAside>;
+    const HOLDS: bool = true;
 
     fn tables(&self) -> SharedTables {
         SharedTables(self.spec.clone())

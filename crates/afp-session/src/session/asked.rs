@@ -178,6 +178,7 @@ where
                 self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled)
             }
             Request::Put(what, at) => self.check_put(what, *at, is_now),
+            Request::Pause | Request::Release(_) if !P::HOLDS => Err(RequestError::NotHeld),
             Request::Pause | Request::Release(_) | Request::Stop => Ok(()),
         }
     }

@@ -1,9 +1,11 @@
-//! Holds of a control and their ends.
+//! Holds of a control and their ends, and holds of a plan.
 
-use afp_core::{Duration, Instant, Platform as _};
-use afp_session::{AnySession, Applied, Observer, Open, Request, Stimulus};
+use afp_core::{Duration, Instant, Platform as _, Release};
+use afp_session::{AnySession, Applied, Observer, Open, Request, RequestError, Session, Stimulus};
 
-use super::{FRONT, at, session};
+use super::{FRONT, Toy, at, session};
+
+afp_macros::plan!("../afp/examples/patience.afp");
 
 /// Requests, and changes of the control, each with its time in milliseconds.
 type Case<'a> = (&'a [(u64, Request)], &'a [(u64, bool)]);
@@ -65,5 +67,14 @@ impl Observer for Told {
     fn on_request(&mut self, applied: &Applied<'_>) {
         assert_eq!(applied.refused, None);
         self.0.push((applied.at, applied.what.clone()));
+    }
+}
+
+#[test]
+fn only_an_interpreted_plan_can_be_held() {
+    let compiled = Session::new(Patience::new(), Toy::new());
+    for request in [Request::Pause, Request::Release(Release::Step)] {
+        assert_eq!(compiled.can(&request), Err(RequestError::NotHeld));
+        assert_eq!(session().can(&request), Ok(()));
     }
 }

@@ -179,6 +179,7 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
     type Tables = LoadedTables;
     type Slots = Box<[Slot]>;
     type Aside = Option<SetAside>;
+    const HOLDS: bool = true;
 
     fn tables(&self) -> LoadedTables {
         self.tables.clone()
