@@ -358,7 +358,7 @@ pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
     ) -> Result<Option<T::Event>, Fault>;
 
     /// Called when an element that was set aside continues, for supervisors that were not polled
-    /// for `away`. The default starts the supervisor again.
+    /// for `away` and that their toolbox calls `resumable`. The default starts the supervisor again.
     ///
     /// # Errors
     /// As for [`Supervisor::start`].

@@ -80,9 +80,9 @@ impl Parse for Support {
 
 /// The trait of a template's implementation.
 fn implements(template: &Template) -> Ident {
-    match template.resumable {
-        true => ident("Resumable"),
-        false => words(template.kind).component,
+    match (template.kind, template.resumable) {
+        (TemplateKind::Actor, true) => ident("Resumable"),
+        (kind, _) => words(kind).component,
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
             // Errors of these are reported once.
             changed.extend(written(view, kept, &mut Diagnostics::default()));
         }
-        let suspended = while_suspended(view, node);
+        let suspended = while_suspended(view, node, None);
         if changed.is_empty() && suspended.is_empty() {
             continue;
         }
@@ -49,16 +49,30 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
             for (formula, port) in of_template(view, supervisor) {
                 frozen(view, formula, port, (&element.name, GOES_ON), &changed, diags);
             }
+            if !view.template(supervisor).resumable {
+                continue;
+            }
+            let suspended = while_suspended(view, node, Some(*id));
+            let only: BTreeSet<_> = suspended.difference(&changed).copied().collect();
+            for (formula, port) in of_template(view, supervisor) {
+                frozen(view, formula, port, (&element.name, SUSPENDED), &only, diags);
+            }
         }
     }
 }
 
-/// Entries that may be written between the suspension of an element and its continuation. Its
-/// supervisors start again after that, and read the new values.
-fn while_suspended(view: &View<'_>, node: Node) -> BTreeSet<EntryId> {
+/// Entries that may be written between the suspension of an element and its continuation. For one of
+/// its supervisors, only suspensions by other supervisors count: after its own event it starts again
+/// and reads the new values.
+fn while_suspended(view: &View<'_>, node: Node, of: Option<SupervisorId>) -> BTreeSet<EntryId> {
     let mut written = BTreeSet::new();
     for aside in view.asides.iter().filter(|aside| aside.element == node) {
         let edge = &view.edges[aside.edge];
+        if let Cause::Event(by, _) | Cause::Miss(by) = edge.cause
+            && of == Some(by)
+        {
+            continue;
+        }
         written.extend(view.may_write(edge.cause).iter().map(|output| output.entry));
         let Some(handler) = view.element(aside.handler) else { continue };
         let reactions = handler.reactions.iter();

@@ -52,6 +52,8 @@ struct WatchSlot<E: ?Sized + 'static> {
     outputs: Arc<[Binding]>,
     slot: Box<dyn SupervisorSlot<E>>,
     injected: Injected,
+    /// Whether it may continue after a suspension.
+    resumable: bool,
 }
 
 impl<E: ?Sized + 'static> WatchSlot<E> {
@@ -66,6 +68,7 @@ impl<E: ?Sized + 'static> WatchSlot<E> {
             outputs: self.outputs.clone(),
             slot: self.slot.try_clone()?,
             injected: self.injected.clone(),
+            resumable: self.resumable,
         })
     }
 }
@@ -405,7 +408,10 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         cx: &mut Cx<'_, R>,
     ) -> Result<OnReturn, Fault> {
         let watch = self.supervisors.get_mut(supervisor.index()).ok_or(Fault::INTERNAL)?;
-        watch.slot.resume(cx.env, cx.now, away)
+        match watch.resumable {
+            true => watch.slot.resume(cx.env, cx.now, away),
+            false => Ok(OnReturn::Restarts),
+        }
     }
 
     fn leave(&mut self, element: ElementId) {

@@ -154,7 +154,11 @@ fn timing(template: &Template) -> String {
     let rest =
         [("deadline", template.deadline), ("budget", template.budget), ("stop", template.stop)];
     parts.extend(rest.into_iter().filter_map(|(word, nanos)| Some(time(word, nanos?))));
-    parts.extend(template.resumable.then(|| "can be suspended".to_owned()));
+    if template.resumable {
+        let supervises = template.kind == TemplateKind::Supervisor;
+        let what = if supervises { "continues after a suspension" } else { "can be suspended" };
+        parts.push(what.to_owned());
+    }
     parts.join(", ")
 }
 

@@ -79,14 +79,12 @@ pub(super) fn read(
     Some(template)
 }
 
-/// Reads `resumable`, which only actors can be.
+/// Reads `resumable`, which actors and supervisors can be.
 fn resumable(node: &ast::Template, template: &mut Template, diags: &mut Diagnostics) {
     let Some(span) = node.resumable() else { return };
-    template.resumable = template.kind == TemplateKind::Actor;
-    match template.kind {
-        TemplateKind::Actor => {}
-        TemplateKind::Supervisor => misfit("resumable", "a supervisor starts again", span, diags),
-        TemplateKind::Computation => misfit("resumable", "a computation runs at once", span, diags),
+    template.resumable = template.kind != TemplateKind::Computation;
+    if !template.resumable {
+        misfit("resumable", "a computation runs at once", span, diags);
     }
 }
 

@@ -103,6 +103,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             outputs: Binding::all(&supervisor.outputs, entries),
             injected: None,
             slot: self.find(supervisor.template, supervisor.span, Registry::new_supervisor)?,
+            resumable: self.graph.template(supervisor.template).resumable,
         })
     }
 

@@ -38,7 +38,10 @@ fn describe(template: &Template, sources: &Sources, list: &mut String) {
         let _ = write!(list, " Needs `{}`.", template.needs.join("` and `"));
     }
     if template.resumable {
-        list.push_str(" Can be suspended.");
+        list.push_str(match template.kind {
+            TemplateKind::Supervisor => " Continues after a suspension.",
+            _ => " Can be suspended.",
+        });
     }
     let times = [("every", Some(template.every)), ("deadline", template.deadline)];
     if template.kind == TemplateKind::Supervisor {
