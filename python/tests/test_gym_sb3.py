@@ -20,7 +20,7 @@ from afp.gym.sb3 import CarbotVecEnv  # noqa: E402
 @pytest.mark.parametrize("task", [task.name for task in afp.gym.TASKS.values()])
 @pytest.mark.filterwarnings("error")
 def test_its_checker_finds_no_error(task: str) -> None:
-    check_env(afp.gym.CarbotEnv(task=task), skip_render_check=True)
+    check_env(afp.gym.CarbotEnv(task=task, render_mode="rgb_array"))
 
 
 def test_the_vector_equals_its_vector_of_single_environments() -> None:
