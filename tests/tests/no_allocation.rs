@@ -4,7 +4,7 @@
 
 use afp_core::rt::Plan;
 use afp_core::trace::NoTrace;
-use afp_core::{Instant, Scheduler, StillClock, Wake};
+use afp_core::{ElementId, Instant, Scheduler, StillClock, Wake};
 use afp_counting::{Counting, allocations};
 use afp_tests::interpret::{graph, load};
 use afp_tests::platform::{CostClock, Log, Platform};
@@ -14,12 +14,21 @@ mod plans {
     include!(concat!(env!("OUT_DIR"), "/steps.rs"));
 }
 
+/// The handler of the plan.
+const REST: ElementId = ElementId(5);
+
 /// Steps between repetitions of [`TIMES`], one a millisecond.
 const ROUND: u64 = 1_000_000;
 
 /// The behaviour of components: start and end in milliseconds, and a line. It has no faults that
 /// end the run, and no stops.
 const TIMES: &[(u64, u64, &str)] = &[
+    (10_000, 45_000, "button Seen"),
+    (10_000, 20_000, "rest Done"),
+    (20_000, 30_000, "rest Other"),
+    (30_000, 49_000, "rest Done"),
+    (420_000, 590_000, "button Seen"),
+    (430_000, 599_000, "rest Done"),
     (50_000, 200_000, "near Seen"),
     (150_000, 300_000, "drive Done"),
     (300_000, 500_000, "drive Other"),
@@ -54,23 +63,25 @@ fn script(steps: u64) -> Script {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting::SYSTEM;
 
-/// Steps a plan each millisecond; returns the number of allocations, and of changes of the
-/// outermost plan's active element.
-fn run<P: Plan<Platform>>(plan: P) -> (u64, u64) {
+/// Steps a plan each millisecond; returns the number of allocations, of changes of the outermost
+/// plan's active element, and of handlers that ended.
+fn run<P: Plan<Platform>>(plan: P) -> (u64, u64, u64) {
     let steps = steps();
     let mut platform = Platform::new(script(steps), Log::default(), CostClock::default());
     let mut scheduler = Scheduler::new(plan);
     let started = scheduler.start((&mut platform, &mut NoTrace, &StillClock), Instant::ZERO);
     assert!(matches!(started, Ok(Wake::At(_))));
-    let (before, mut changes) = (allocations(), 0);
+    let (before, mut changes, mut handlers) = (allocations(), 0, 0);
     for step in 1..=steps {
         let active = scheduler.active();
         let now = Instant::from_nanos(step * 1_000_000);
         let wake = scheduler.step((&mut platform, &mut NoTrace, &StillClock), now);
         assert!(matches!(wake, Wake::At(_)), "it ended at {now}");
-        changes += u64::from(scheduler.active() != active);
+        let changed = scheduler.active() != active;
+        changes += u64::from(changed);
+        handlers += u64::from(changed && active == Some(REST));
     }
-    (allocations() - before, changes)
+    (allocations() - before, changes, handlers)
 }
 
 #[test]
@@ -82,4 +93,5 @@ fn neither_back_end_allocates_after_the_start() {
     assert_eq!(interpreted, generated);
     assert_eq!(generated.0, 0);
     assert!(generated.1 > steps() / 1000, "only {} transitions", generated.1);
+    assert!(generated.2 > steps() / 10_000, "only {} handlers", generated.2);
 }

@@ -6,6 +6,8 @@ mod broken;
 mod holds;
 #[path = "session/queue.rs"]
 mod queue;
+#[path = "session/suspended.rs"]
+mod suspended;
 mod support;
 
 use std::sync::Arc;

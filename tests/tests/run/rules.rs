@@ -380,14 +380,29 @@ const RULES: &[Rule] = &[
     (
         "suspend",
         "an element continues without the time of its suspension",
-        &["suspend_and_return", "suspend_a_sub_plan"],
+        &["suspend_and_return", "suspend_a_sub_plan", "suspend_and_compute_before_return"],
+    ),
+    (
+        "suspend",
+        "timers of the element count without its pauses, timers of the plan with them",
+        &["suspend_by_a_timer", "suspend_while_a_condition_lasts"],
+    ),
+    (
+        "suspend",
+        "values that are written before or during a pause are seen after it",
+        &["suspend_at_most_three_times", "suspend_after_a_resume", "suspend_and_live_inputs"],
     ),
     (
         "suspend",
         "in the look nothing is called, and 'return' looks again",
         &["suspend_in_the_look"],
     ),
-    ("suspend", "elsewhere the suspended element is abandoned, once", &["suspended_and_abandoned"]),
+    (
+        "suspend",
+        "elsewhere the suspended element is abandoned, once",
+        &["suspended_and_abandoned", "suspend_and_end_in_one_step"],
+    ),
+    ("suspend", "after a panic nothing is called", &["suspend_and_a_panic"]),
     (
         "hold",
         "a held element continues, or starts again if it cannot be suspended",

@@ -151,7 +151,11 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
     let (initialise, outside) = (initialise(context), outside(context));
     let at_element = at_element(context);
     let aside = aside(context);
-    let holds = context.shared.hold.then(|| quote!(const HOLDS: bool = true;));
+    let holds = context.shared.hold.then(|| {
+        quote!(
+            const HOLDS: bool = true;
+        )
+    });
     quote! {
         impl PlanState for #ty {
             type Tables = Rules;

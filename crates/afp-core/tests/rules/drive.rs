@@ -3,8 +3,9 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use afp_core::trace::{Ending, EntryKind, NoTrace};
-use afp_core::{ElementId, EntryId, Fault, Scheduler, StartError, Value, Wake};
+use afp_core::{ElementId, EntryId, Fault, Release, Scheduler, StartError, Value, Wake};
 
+use super::suspend::paused;
 use crate::support::build::{Builder, actor, guard, plan, sub_plan};
 use crate::support::ms;
 use crate::support::run::Run;
@@ -144,4 +145,28 @@ fn a_plan_that_cannot_be_stopped_cannot_be_replaced() {
     assert_eq!(wake, Ok(Wake::Ended(Ending::Error(SCRIPTED))));
     assert_eq!(run.calls("start"), ["0 start a"]);
     assert_eq!(run.emergency_stops(), 1);
+}
+
+#[test]
+fn a_replaced_plan_interrupts_its_handler_and_then_its_suspended_element() {
+    let mut run = Run::started(paused(), World::default().says("button", 0, 10..11));
+    run.until(10);
+    let clock = run.world.clock.clone();
+    let other = Scripted::new(two().build());
+    let wake = run.scheduler.replace(other, (&mut run.world, &mut NoTrace, &clock), ms(15));
+    assert_eq!(wake, Ok(Wake::At(ms(25))));
+    assert_eq!(run.calls("interrupt"), ["15 interrupt pause", "15 interrupt drive"]);
+    assert_eq!(run.active(), Some("a"));
+}
+
+#[test]
+fn a_plan_without_code_for_holds_is_only_stepped() {
+    let mut run = Run::started(two(), World::default());
+    let clock = run.world.clock.clone();
+    let wake = run.scheduler.hold((&mut run.world, &mut NoTrace, &clock), ms(10));
+    assert_eq!(wake, Wake::At(ms(20)));
+    let wake = run.scheduler.release((&mut run.world, &mut NoTrace, &clock), ms(20), Release::Step);
+    assert_eq!(wake, Wake::At(ms(30)));
+    assert_eq!(run.world.calls, ["0 start a", "10 poll a", "20 poll a"]);
+    assert!(!run.scheduler.is_held() && !Scheduler::<Scripted>::HOLDS);
 }

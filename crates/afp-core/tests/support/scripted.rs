@@ -127,7 +127,6 @@ impl PlanState for Scripted {
     type Tables = SharedTables;
     type Slots = Vec<Slot>;
     type Aside = Option<SetAside>;
-    const HOLDS: bool = true;
 
     fn tables(&self) -> SharedTables {
         SharedTables(self.spec.clone())
