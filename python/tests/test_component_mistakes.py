@@ -14,6 +14,8 @@ import afp
 
 HAND = """toolbox hand
 actor Go { in far: length in live speed: speed = 0.1 m/s uses navigator every 10 ms state Done }
+actor Rests resumable { every 10 ms state Done }
+supervisor Keeps resumable { every 10 ms deadline 10 ms event Seen }
 supervisor Sees { in near: length in live n: int = 0 every 10 ms deadline 10 ms event Seen }
 computation Twice { in n: int state Done }
 computation Ends { state Done }
@@ -36,6 +38,16 @@ class Yields(Polled):
 
 class TakesTwo(Polled):
     def interrupt(self, robot: afp.Robot, why: str) -> None: ...
+
+
+class Suspends(Polled):
+    def suspend(self) -> None: ...
+
+
+class Resumes(Polled):
+    def suspend(self) -> None: ...
+
+    def resume(self, time: float) -> None: ...
 
 
 class Slow:
@@ -94,6 +106,10 @@ def yields(n: int) -> Any:
         (Waits, "Go", "the 'interrupt' of 'Go' is 'async def' or yields; it is a plain function, called once"),
         (Yields, "Go", "the 'interrupt' of 'Go' is 'async def' or yields"),
         (TakesTwo, "Go", "the 'interrupt' of 'Go' takes robot, why; it gets the robot, or nothing"),
+        (Polled, "Rests", "the actor 'Rests' has no method 'suspend', but it is resumable"),
+        (Suspends, "Rests", "the actor 'Rests' has no method 'resume', but it is resumable"),
+        (Polled, "Keeps", "the supervisor 'Keeps' has no method 'resume', but it is resumable"),
+        (Resumes, "Rests", "the 'resume' of 'Rests' takes time; it gets 'away', in seconds, and 'robot'"),
         (Slow, "Go", "'Go' is 'async def'; a 'poll' is a plain function, called at each poll"),
         (Inherits, "Sees", "'Sees' is 'async def'; a 'poll' is a plain function"),
         (yields, "Twice", "'Twice' yields; a component returns its result"),

@@ -186,6 +186,128 @@ def test_interrupt_of_a_class_is_called_once() -> None:
     assert len(calls) == 1
 
 
+PAUSED = """start go
+    supervise once: After(duration = 0.5 s) { Elapsed -> suspend rest }
+    actor rest: Wait(duration = 1 s) { Elapsed -> return }
+"""
+"""An event suspends `go` for a second."""
+
+
+def test_a_class_is_suspended_and_continues() -> None:
+    tools = afp.Toolbox("tools")
+    calls: list[str] = []
+
+    @tools.actor(states=["There"], uses="navigator")
+    class Ahead:
+        def __init__(self, far: afp.Length) -> None:
+            self.far = far
+            calls.append("start")
+
+        def poll(self, robot: afp.Robot) -> str | None:
+            if robot.odometry[0] >= self.far:
+                robot.stop()
+                return "There"
+            robot.drive(0.2)
+            return None
+
+        def suspend(self) -> None:
+            calls.append("suspend")
+
+        def resume(self, away: float) -> None:
+            calls.append(f"resume after {away} s")
+
+    result = run(tools, PAUSED + "actor go: Ahead(far = 30 cm) { There -> terminate }", until=5.0)
+    assert "actor Ahead resumable" in tools.text
+    assert calls == ["start", "suspend", "resume after 1.0 s"] and result.ending == "ok"
+    moved = result.path[:, 1] - result.path[0, 1]
+    assert 0.29 < moved[-1] < 0.35
+    still = moved[(result.path[:, 0] > 0.9) & (result.path[:, 0] < 1.5)]
+    assert 0.05 < still[0] < 0.15 and abs(still - still[0]).max() < 1e-3
+
+
+def test_a_coroutine_learns_how_long_it_was_suspended() -> None:
+    tools = afp.Toolbox("tools")
+    aways: list[float] = []
+
+    @tools.actor(states=["Done"], uses="navigator", resumable=True)
+    async def Roll(robot: afp.Robot, time: afp.Duration) -> str:
+        end = robot.time + time
+        while robot.time < end:
+            robot.drive(0.1)
+            aways.append(await afp.tick())
+            end += aways[-1]
+        robot.stop()
+        return "Done"
+
+    result = run(tools, PAUSED + "actor go: Roll(time = 1 s) { Done -> terminate }", until=5.0)
+    assert [away for away in aways if away] == [1.0]
+    assert result.ending == "ok" and 2.0 <= result.time < 2.1
+    still = result.path[(result.path[:, 0] > 0.9) & (result.path[:, 0] < 1.5)][:, 1]
+    assert abs(still - still[0]).max() < 1e-3
+
+
+def test_an_abandoned_coroutine_is_closed() -> None:
+    tools = afp.Toolbox("tools")
+    ends: list[str] = []
+
+    @tools.actor(states=["Done"], uses="navigator", resumable=True)
+    async def Forever(robot: afp.Robot) -> str:
+        try:
+            while True:
+                robot.drive(0.1)
+                await afp.tick()
+        finally:
+            ends.append("closed")
+
+    body = PAUSED + "actor go: Forever { Done -> terminate } supervise late: CheckTimeout(duration = 1 s) { TimedOut -> terminate }"
+    result = run(tools, body)
+    assert ends == ["closed"] and result.ending == "interrupted" and result.time < 1.1
+    assert [event.kind for event in result.events if event.component == "go"] == ["started", "suspended", "abandoned"]
+
+
+def test_a_supervisor_with_resume_keeps_its_instance() -> None:
+    tools = afp.Toolbox("tools")
+    calls: list[str] = []
+
+    @tools.supervisor(events=["Never"])
+    class Keeps:
+        def __init__(self) -> None:
+            calls.append("keeps")
+
+        def poll(self) -> None: ...
+
+        def resume(self, robot: afp.Robot, away: float) -> None:
+            calls.append(f"continues after {away} s at {robot.time} s")
+
+    @tools.supervisor(events=["Never"])
+    class Forgets:
+        def __init__(self) -> None:
+            calls.append("forgets")
+
+        def poll(self) -> None: ...
+
+    body = """actor go: Wait(duration = 1 s) {
+        supervise keeps: Keeps { Never -> ignore }
+        supervise forgets: Forgets { Never -> ignore }
+        Elapsed -> terminate
+    }"""
+    result = run(tools, PAUSED + body, until=5.0)
+    assert "supervisor Keeps resumable" in tools.text and "supervisor Forgets {" in tools.text
+    assert result.ending == "ok"
+    assert calls == ["keeps", "forgets", "continues after 1.0 s at 1.5 s", "forgets"]
+
+
+def test_an_error_names_the_word_that_an_actor_lacks() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    async def Plain() -> str:
+        return "Done"
+
+    with pytest.raises(afp.PlanError, match="E0321(.|\n)*'actor Plain resumable'"):
+        run(tools, PAUSED + "actor go: Plain { Done -> terminate }")
+
+
 def test_supervisors_receive_the_wanted_events() -> None:
     tools = afp.Toolbox("tools")
     told: list[set[str]] = []

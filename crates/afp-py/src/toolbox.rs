@@ -239,6 +239,7 @@ fn describe<'py>(py: Python<'py>, template: &Template) -> PyResult<Bound<'py, Py
         let ports = template.inputs.iter().filter(|port| port.live == live);
         ports.map(|port| port.name.as_str()).collect()
     };
+    about.set_item("resumable", template.resumable)?;
     about.set_item("inputs", names(false))?;
     about.set_item("live", names(true))?;
     let outputs: Vec<_> = template.outputs.iter().map(|port| port.name.as_str()).collect();

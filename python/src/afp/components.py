@@ -41,12 +41,15 @@ Component = TypeVar("Component", bound=Callable[..., Any])
 
 
 class _Tick:
-    def __await__(self) -> Generator[None, None, None]:
-        yield
+    def __await__(self) -> Generator[None, float, float]:
+        return (yield)
 
 
-def tick() -> Awaitable[None]:
-    """Await this in an `async def` actor to wait for its next poll."""
+def tick() -> Awaitable[float]:
+    """Await this in an `async def` actor to wait for its next poll.
+
+    It returns how long the actor was suspended in the meantime, in seconds: 0.0 without `suspend`.
+    """
     return _Tick()
 
 
@@ -84,6 +87,8 @@ class Toolbox(_afp.Toolbox):
         name = _name(component) if template is None else text("a template", template)
         about = self._template(name)
         _fits(about["kind"], name, component)
+        if about["resumable"]:
+            _continues(about["kind"], name, component, True)
         self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
         self._components = {**getattr(self, "_components", {}), name: component}
         return component
@@ -114,6 +119,7 @@ class Toolbox(_afp.Toolbox):
         every: str | float = "10 ms",
         stop: str | float | None = None,
         icon: str | None = None,
+        resumable: bool = False,
     ) -> Callable[[Component], Component]: ...
 
     def actor(
@@ -127,13 +133,15 @@ class Toolbox(_afp.Toolbox):
         every: str | float = "10 ms",
         stop: str | float | None = None,
         icon: str | None = None,
+        resumable: bool = False,
     ) -> Any:
         """Declare and implement an actor: a class with `poll`, or an `async def` function.
 
+        A plan can suspend a class with `suspend` and `resume`, and an `async def` with `resumable`.
         Without `states`, a return annotation such as `-> Literal["There", "Blocked"]` declares them.
         `@tools.actor` alone does that, too.
         """
-        declare = self._declarer("actor", states, name, uses, _timing(every=every, stop=stop), icon)
+        declare = self._declarer("actor", states, name, uses, _timing(every=every, stop=stop), icon, resumable)
         return declare if component is None else declare(component)
 
     @overload
@@ -167,6 +175,7 @@ class Toolbox(_afp.Toolbox):
     ) -> Any:
         """Declare and implement a supervisor: a class with `poll`, or a function for each poll.
 
+        A class with `resume` keeps its instance while its element is suspended.
         Without `events`, a return annotation such as `-> Literal["Near"] | None` declares them.
         `@tools.supervisor` alone does that, too.
         """
@@ -191,7 +200,7 @@ class Toolbox(_afp.Toolbox):
         return declare if component is None else declare(component)
 
     def _declarer(
-        self, kind: str, given: Outcomes | None, name: str | None, uses: str | Sequence[str], timing: str, icon: str | None
+        self, kind: str, given: Outcomes | None, name: str | None, uses: str | Sequence[str], timing: str, icon: str | None, resumable: bool = False
     ) -> Callable[[Component], Component]:
         declared_here = None if given is None else outcomes_of(given)
         devices = [text("a device", device) for device in ([uses] if isinstance(uses, str) else uses)]
@@ -203,7 +212,8 @@ class Toolbox(_afp.Toolbox):
                 raise ValueError(f"{template!r} is not the name of a template; give letters, digits and '_'")
             _fits(kind, template, component)
             outcomes = annotated_outcomes(kind, component) if declared_here is None else declared_here
-            declared = declaration(kind, template, component, outcomes, devices, timing, icon)
+            continues = _continues(kind, template, component, resumable)
+            declared = declaration(kind, template, component, outcomes, devices, timing, icon, continues)
             _maker(kind, component, *_own_ports(kind, component))
             try:
                 self._declare(template, declared)
@@ -264,21 +274,43 @@ def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
         what = "a 'poll'" if is_class else f"a {kind}"
         raise TypeError(f"'{name}' is 'async def'; {what} is a plain function, called at each poll")
     if is_class and kind == "actor":
-        _fits_interrupt(name, getattr(component, "interrupt", None))
+        for method in ("interrupt", "suspend"):
+            taken = _fits_method(name, component, method)
+            if len(taken) > 1:
+                raise TypeError(f"the '{method}' of '{name}' takes {', '.join(taken)}; it gets the robot, or nothing")
+    if is_class:
+        others = [taken for taken in _fits_method(name, component, "resume") if taken not in _RESUME]
+        if others:
+            raise TypeError(f"the 'resume' of '{name}' takes {', '.join(others)}; it gets 'away', in seconds, and 'robot'")
 
 
-def _fits_interrupt(name: str, stop: Any) -> None:
-    """Raise at once if an actor cannot be interrupted."""
-    if stop is None:
-        return
-    if not callable(stop):
-        raise TypeError(f"the 'interrupt' of '{name}' is a method, not {stop!r}")
+_RESUME = ("away", "robot")
+"""The parameters that a `resume` can have."""
+
+
+def _fits_method(name: str, component: Callable[..., Any], called: str) -> list[str]:
+    """The parameters of an optional method; raise at once if it can never work."""
+    method = getattr(component, called, None)
+    if method is None:
+        return []
+    if not callable(method):
+        raise TypeError(f"the '{called}' of '{name}' is a method, not {method!r}")
     lazy = (inspect.iscoroutinefunction, inspect.isgeneratorfunction, inspect.isasyncgenfunction)
-    if any(is_lazy(stop) for is_lazy in lazy):
-        raise TypeError(f"the 'interrupt' of '{name}' is 'async def' or yields; it is a plain function, called once")
-    taken = [name for name in inspect.signature(stop).parameters if name != "self"]
-    if len(taken) > 1:
-        raise TypeError(f"the 'interrupt' of '{name}' takes {', '.join(taken)}; it gets the robot, or nothing")
+    if any(is_lazy(method) for is_lazy in lazy):
+        raise TypeError(f"the '{called}' of '{name}' is 'async def' or yields; it is a plain function, called once")
+    return [taken for taken in inspect.signature(method).parameters if taken != "self"]
+
+
+def _continues(kind: str, name: str, component: Callable[..., Any], wanted: bool) -> bool:
+    """Whether a component can continue after a suspension; raise if it is `wanted` and cannot."""
+    if not isinstance(component, type):
+        return wanted
+    needed = ("suspend", "resume") if kind == "actor" else ("resume",)
+    missing = [method for method in needed if not hasattr(component, method)]
+    if missing and (wanted or len(missing) < len(needed)):
+        why = "it is resumable" if wanted else f"it has '{'resume' if missing == ['suspend'] else 'suspend'}'"
+        raise TypeError(f"the {kind} '{name}' has no method '{missing[0]}', but {why}")
+    return not missing
 
 
 def _timing(**times: str | float | None) -> str:
@@ -338,11 +370,19 @@ def _ports(function: Callable[..., Any]) -> list[str]:
 class _Running:
     """A running component, in the form that the native half polls."""
 
-    __slots__ = ("interrupt", "poll")
+    __slots__ = ("interrupt", "poll", "resume", "suspend")
 
-    def __init__(self, poll: Callable[..., Any], interrupt: Callable[[], Any]) -> None:
+    def __init__(
+        self,
+        poll: Callable[..., Any],
+        interrupt: Callable[[], Any],
+        suspend: Callable[[], Any],
+        resume: Callable[[float], Any],
+    ) -> None:
         self.poll = poll
         self.interrupt = interrupt
+        self.suspend = suspend
+        self.resume = resume
 
 
 def _poll(method: Callable[..., Any], takes: Sequence[str], robot: Robot, has_live: bool) -> Callable[..., Any]:
@@ -368,23 +408,42 @@ def _class_maker(kind: str, component: type, inputs: Sequence[str], live: Sequen
     def make(robot: Robot, values: dict[str, Any], wanted: Set[str] = frozenset()) -> _Running:
         all = {"robot": robot, "wanted": wanted, **values}
         instance = component(**{name: all[name] for name in start})
-        stop = getattr(instance, "interrupt", None)
-        interrupt = (lambda: _interrupt(stop, robot)) if kind == "actor" else _nothing
-        return _Running(_poll(instance.poll, poll, robot, bool(live)), interrupt)
+
+        def stop(method: str) -> Callable[[], None]:
+            return _stop(instance, method, robot) if kind == "actor" else _nothing
+
+        return _Running(_poll(instance.poll, poll, robot, bool(live)), stop("interrupt"), stop("suspend"), _resume(instance, robot))
 
     return make
 
 
-def _interrupt(stop: Callable[..., Any] | None, robot: Robot) -> None:
-    """Call the actor's method for an interruption; the robot stops in any case."""
-    try:
-        if stop is not None:
-            stop(robot) if inspect.signature(stop).parameters else stop()
-    finally:
-        robot.stop()
+def _stop(instance: Any, method: str, robot: Robot) -> Callable[[], None]:
+    """Call the actor's method for an interruption or a suspension; the robot stops in any case."""
+
+    def stop() -> None:
+        try:
+            called = getattr(instance, method, None)
+            if called is not None:
+                called(robot) if inspect.signature(called).parameters else called()
+        finally:
+            robot.stop()
+
+    return stop
 
 
-def _nothing() -> None:
+def _resume(instance: Any, robot: Robot) -> Callable[[float], None]:
+    """Call the component's method at its return."""
+
+    def resume(away: float) -> None:
+        called = getattr(instance, "resume", None)
+        if called is not None:
+            all = {"away": away, "robot": robot}
+            called(**{name: all[name] for name in inspect.signature(called).parameters})
+
+    return resume
+
+
+def _nothing(*_: Any) -> None:
     pass
 
 
@@ -396,8 +455,8 @@ def _function_maker(function: Callable[..., Any], inputs: Sequence[str], live: S
         fixed = {name: all[name] for name in takes if name in all}
         read = [name for name in takes if name in live]
         if not live:
-            return _Running(lambda: function(**fixed), _nothing)
-        return _Running(lambda news: function(**fixed, **{name: news[name] for name in read}), _nothing)
+            return _Running(lambda: function(**fixed), _nothing, _nothing, _nothing)
+        return _Running(lambda news: function(**fixed, **{name: news[name] for name in read}), _nothing, _nothing, _nothing)
 
     return make
 
@@ -409,12 +468,19 @@ def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str], live: 
     def make(robot: Robot, values: dict[str, Any]) -> _Running:
         all = {"robot": robot, **values}
         coroutine = function(**{name: all[name] for name in takes})
-        end = _advance(coroutine)
+        end = _advance(coroutine, None)
         done = [] if end is None else [end]
+        away = 0.0
 
         def poll(news: dict[str, Any] | None = None) -> Any:
-            said = done.pop() if done else _advance(coroutine)
+            nonlocal away
+            said = done.pop() if done else _advance(coroutine, away)
+            away = 0.0
             return None if said is None else said[0]
+
+        def resume(time: float) -> None:
+            nonlocal away
+            away += time
 
         def interrupt() -> None:
             try:
@@ -422,17 +488,19 @@ def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str], live: 
             finally:
                 robot.stop()
 
-        return _Running(poll, interrupt)
+        return _Running(poll, interrupt, robot.stop, resume)
 
     # Its return value is its end; the native half then accepts None.
     setattr(make, "ends", True)
     return make
 
 
-def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None:
-    """Run a coroutine up to its next `tick`; return its result in a tuple if it has ended."""
+def _advance(coroutine: types.CoroutineType[Any, Any, Any], away: float | None) -> tuple[Any] | None:
+    """Run a coroutine up to its next `tick`, and pass the result of the last one. Return the
+    coroutine's result in a tuple if it has ended.
+    """
     try:
-        waits = coroutine.send(None)
+        waits = coroutine.send(away)
     except StopIteration as end:
         if end.value is None:
             raise TypeError(f"the actor '{named(coroutine)}' returned None, not a state") from None

@@ -29,6 +29,7 @@ def declaration(
     uses: Sequence[str],
     timing: str,
     icon: str | None,
+    resumable: bool,
 ) -> str:
     """The text of a template."""
     if isinstance(component, type):
@@ -57,7 +58,7 @@ def declaration(
     lines += [f"{word} {state}" for state in by_state]
     doc = "".join(f"/// {line.strip()}\n" for line in (inspect.getdoc(component) or "").splitlines() if line.strip())
     body = "".join(f"    {line}\n" for line in lines)
-    return f"{doc}{kind} {name} {{\n{body}}}\n"
+    return f"{doc}{kind} {name}{' resumable' if resumable else ''} {{\n{body}}}\n"
 
 
 def outcomes_of(given: Any) -> Outcomes:

@@ -20,6 +20,8 @@ pub(crate) struct Rigid {
     path: String,
     template: String,
     span: Span,
+    /// The declaration of the template.
+    declared: Span,
 }
 
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
@@ -42,7 +44,8 @@ fn rigid_in(view: &View<'_>, element: &Element) -> Option<Rigid> {
         Component::Actor(id) => {
             let template = view.model.template(id);
             let (path, span) = (element.name.clone(), element.span);
-            (!template.resumable).then(|| Rigid { path, template: template.name.clone(), span })
+            let (name, declared) = (template.name.clone(), template.span);
+            (!template.resumable).then_some(Rigid { path, template: name, span, declared })
         }
         Component::Computation(_) => None,
         Component::SubPlan(_) => {
@@ -69,6 +72,7 @@ fn cannot_continue(view: &View<'_>, diags: &mut Diagnostics) {
         });
         let mut found = found.collect::<Vec<_>>().into_iter();
         let Some((element, first)) = found.next() else { continue };
+        let line = format!("actor {} resumable", first.template);
         let message = message!(
             "'{}' would suspend '{}', but '{}' cannot continue later",
             view.label(edge.cause),
@@ -76,7 +80,11 @@ fn cannot_continue(view: &View<'_>, diags: &mut Diagnostics) {
             first.template
         );
         let error = Diagnostic::new(Code::E0321, view.span(edge.cause), message)
-            .note(first.span, "this actor starts from the beginning each time");
+            .note(first.span, "this actor starts from the beginning each time")
+            .note(
+                first.declared,
+                message!("a toolbox declares a template that can continue as '{}'", line),
+            );
         let error = found.take(MAX_NOTES).fold(error, |error, (_, other)| {
             error.note(other.span, message!("it would suspend '{}', too", other.path))
         });

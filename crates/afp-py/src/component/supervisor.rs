@@ -2,13 +2,14 @@
 
 use afp::load::{See, SupervisorSlot};
 use afp_core::rt::{Args, BadValue, Outputs};
-use afp_core::{Events, Fault, Instant};
+use afp_core::{Duration, Events, Fault, Instant, OnReturn};
 use afp_session::Simulated;
 use pyo3::prelude::*;
 use pyo3::types::PySet;
 
 use super::PyHandle;
 use super::call::PyTemplate;
+use crate::callout;
 
 /// The slot of a supervisor in Python.
 pub struct PySupervisor {
@@ -20,6 +21,7 @@ pub struct PySupervisor {
 struct Watching {
     /// Its method.
     poll: PyHandle,
+    supervisor: PyHandle,
     /// The set of wanted events passed to it.
     wanted: PyHandle,
     /// The current content of that set.
@@ -42,14 +44,16 @@ impl<R: Simulated> SupervisorSlot<R> for PySupervisor {
     ) -> Result<(), BadValue> {
         let template = &self.template;
         let inputs = template.inputs(args, see)?;
-        let (poll, wanted) = template.host.call_with_robot(env, &template.caller, |py| {
+        let watching = template.host.call_with_robot(env, &template.caller, |py| {
             let robot = template.host.robot.clone_ref(py);
             let wanted = PySet::empty(py)?;
             let supervisor = template.make(py, (robot, inputs.dict(py)?, &wanted))?;
             let poll = template.host.handles.put(supervisor.getattr("poll")?.unbind());
-            Ok((poll, template.host.handles.put(wanted.into_any().unbind())))
+            let wanted = template.host.handles.put(wanted.into_any().unbind());
+            let supervisor = template.host.handles.put(supervisor.unbind());
+            Ok(Watching { poll, supervisor, wanted, told: Events::from_bits(0) })
         })?;
-        self.watching = Some(Watching { poll, wanted, told: Events::from_bits(0) });
+        self.watching = Some(watching);
         Ok(())
     }
 
@@ -75,6 +79,16 @@ impl<R: Simulated> SupervisorSlot<R> for PySupervisor {
             watching.told = wanted;
         }
         self.template.poll(&watching.poll, args, to, env)
+    }
+
+    fn resume(&mut self, env: &mut R, _: Instant, away: Duration) -> Result<OnReturn, Fault> {
+        let template = &self.template;
+        let watching = self.watching.as_ref().ok_or(Fault::INTERNAL)?;
+        template.host.call_with_robot(env, &template.caller, |py| {
+            let resume = watching.supervisor.get(py)?.getattr("resume")?;
+            callout::call(&resume, (away.as_secs_f64(),)).map(drop)
+        })?;
+        Ok(OnReturn::Continues)
     }
 
     fn clear(&mut self) {
