@@ -23,6 +23,6 @@ pub use calibration::{Found, Spin, Straight, solve};
 pub use link::{Heard, Link};
 pub use robot::drives::{Calibrated, Drive, Halt, calibrated};
 pub use robot::{
-    Behind, CONTROLLER_RESTARTED, JsonLine, Line, LocalLine, PicarXRobot, PinRobot, SerialCarbot,
-    SerialRobot, Ugv, WireLine, opener,
+    Behind, JsonLine, Line, LocalLine, PicarXRobot, PinRobot, SerialCarbot, SerialRobot, Ugv,
+    WireLine, opener,
 };

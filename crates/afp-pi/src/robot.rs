@@ -15,9 +15,10 @@ use std::error::Error;
 use std::io;
 
 use afp_carbot::devices::{Body, Bump};
+use afp_carbot::guard::CONTROLLER_RESTARTED;
 use afp_carbot::table::{Carbot, Control, Fault};
 use afp_carbot::trail::Trail;
-use afp_core::{Duration, Environment, Instant, Invalid, Platform, faults};
+use afp_core::{Duration, Environment, Instant, Invalid, Platform};
 use afp_drive::{Command, Report, Setup, VERSION};
 use afp_platform::{Hardware, LastResort, RealTime, Settings};
 use afp_session::{
@@ -130,12 +131,6 @@ pub type Ugv = SerialRobot<JsonLine>;
 pub type PinRobot = SerialRobot<LocalLine<Pins>>;
 /// A robot with the profile `picarx`.
 pub type PicarXRobot = SerialRobot<LocalLine<PicarX>>;
-
-faults! {
-    /// The controller has restarted in mid-run.
-    pub CONTROLLER_RESTARTED = "controller-restarted",
-        "the drive's controller has restarted, so its counts are lost";
-}
 
 /// A robot with a controller on a line.
 #[derive(Debug)]

@@ -74,6 +74,8 @@ pub struct Simulation {
     stopped: bool,
     /// The injected faults, for manual driving.
     faults: Faults<Fault>,
+    /// Whether the controller of the drive has restarted.
+    restarted: bool,
     clock: VirtualClock,
     /// The edge of the map, see [`World::map`].
     map: Vec<[f64; 2]>,
@@ -113,6 +115,7 @@ impl Simulation {
             seed,
             stopped: false,
             faults: Faults::default(),
+            restarted: false,
             clock: VirtualClock::default(),
             map: world.map.clone(),
             left_map: None,

@@ -92,7 +92,10 @@ impl Chance {
 }
 
 fn fault(dice: &mut Dice) -> Fault {
-    let mut rows: Vec<_> = faults(TABLE).collect();
+    // The other faults of the controller end every run at once.
+    let ends = |device: &str, name: &str| device == "controller" && name != "dead";
+    let mut rows: Vec<_> =
+        faults(TABLE).filter(|(_, device, row)| !ends(device.name, row.name)).collect();
     // The recorded worlds depend on this order: faults of all sensors, then the others, then the
     // battery's.
     rows.sort_by_key(|(_, device, row)| match row.name {

@@ -8,6 +8,7 @@ use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Ending, Line, Observe, Record, TraceHash, Verdict};
 use afp_core::{Duration, Instant, Scheduler, Wake};
+use afp_session::Robot as _;
 use afp_sim::{Pose, Simulation};
 
 use crate::case::Case;
@@ -37,6 +38,8 @@ pub struct Outcome {
     pub contacts: Vec<Contact>,
     /// The observations.
     pub seen: Seen,
+    /// The number of steps.
+    pub steps: u64,
     /// The end of the plan, or of the case.
     pub at: Instant,
     /// The robot's pose at that time.
@@ -101,7 +104,7 @@ pub fn run(case: &Case) -> Outcome {
     let start = scheduler.start((&mut robot, &mut sink, &clock), Instant::ZERO);
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
-    let (mut seen, mut at) = (Seen::default(), case.until);
+    let (mut seen, mut at, mut steps) = (Seen::default(), case.until, 1);
     let things: Vec<String> = case.world.obstacles.iter().map(|it| it.name.clone()).collect();
     while robot.sim.now() < end {
         let due = match wake {
@@ -111,6 +114,10 @@ pub fn run(case: &Case) -> Outcome {
         let stimulus = case.chance.0.get(next).map_or(Instant::MAX, |(at, _)| *at);
         robot.sim.advance_to(due.min(look).min(stimulus).min(end));
         let now = robot.sim.now();
+        if let Some(fault) = robot.sim.broken().filter(|_| scheduler.ending().is_none()) {
+            wake = scheduler.abort((&mut robot, &mut sink, &clock), fault);
+            (at, end) = (now, now + REST);
+        }
         if now == look {
             watch.borrow_mut().look(&robot.sim);
             diary.borrow_mut().poses.push(robot.sim.truth().pose());
@@ -119,6 +126,7 @@ pub fn run(case: &Case) -> Outcome {
         }
         case.chance.happen(&mut next, &mut robot.sim);
         if due <= now {
+            steps += 1;
             watch.borrow_mut().step(now);
             wake = scheduler.step((&mut robot, &mut sink, &clock), now);
             watch.borrow_mut().stepped(now);
@@ -135,7 +143,7 @@ pub fn run(case: &Case) -> Outcome {
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("it has no other owner");
     let broken = watch.into_inner().broken();
-    Outcome { trace, ending, broken, timeline, contacts, seen, at, pose }
+    Outcome { trace, ending, broken, timeline, contacts, seen, steps, at, pose }
 }
 
 /// The watch of a case, before it begins.

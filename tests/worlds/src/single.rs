@@ -99,6 +99,9 @@ impl Single {
             ("ultrasonic", "frozen") => "frozen-range",
             ("ultrasonic", _) => "no-range",
             ("rotator", _) => "stuck-rotator",
+            ("controller", "restarted") => "controller-restarted",
+            // Several sensors are silent.
+            ("controller", "stalled") if code.starts_with("no-") => code,
             ("odometry" | "controller", _) => "no-odometry",
             ("touch", _) => "no-touch",
             ("buttons", _) => "no-button",

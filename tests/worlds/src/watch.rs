@@ -8,10 +8,12 @@ use afp_sim::{Fault, Simulation};
 use crate::chance::{Chance, Stimulus};
 use crate::sensor::Sensor;
 
+mod order;
 mod stand;
 #[cfg(test)]
 mod tests;
 
+use order::Order;
 use stand::Stand;
 
 /// The largest usable age of readings from continuous sensors.
@@ -35,8 +37,11 @@ const CURRENT: Duration = Duration::from_millis(100);
 /// 5. While the command is zero, the robot has stopped after the stop time of the templates, unless
 ///    something pushes it. On a slippery floor the time for friction is added, and for a deaf
 ///    controller the time until it stops by itself.
-/// 6. Every body is finite and in the room; valid readings are finite and within the measuring
-///    range.
+/// 6. Every body is finite and in the room; commands are finite; valid readings are finite and
+///    within the measuring range.
+/// 7. One actor is active at a time, and none after the end. Another one starts only after it has
+///    ended or was interrupted or suspended.
+/// 8. A commit writes each entry once, and nothing else changes an entry.
 #[derive(Debug)]
 pub struct Watch {
     sensors: [Use; Sensor::ALL.len()],
@@ -47,6 +52,7 @@ pub struct Watch {
     /// The instants of this step and of the one before.
     steps: [Instant; 2],
     stand: Stand,
+    order: Order,
     reach: f64,
     broken: Vec<(Instant, String)>,
 }
@@ -71,6 +77,7 @@ impl Watch {
             ended: false,
             steps: [Instant::ZERO; 2],
             stand: Stand::new(sim.truth().pose(), stop),
+            order: Order::default(),
             reach,
             broken: Vec::new(),
         }
@@ -117,6 +124,9 @@ impl Watch {
     pub(crate) fn commanded(&mut self, speed: f64, turn: f64, now: Instant) {
         self.command = (speed, turn);
         self.stand.commanded((speed, turn) == (0.0, 0.0), now);
+        if !(speed.is_finite() && turn.is_finite()) {
+            self.breaks(now, format!("{speed} m/s, {turn} rad/s are not finite"));
+        }
         if (speed, turn) == (0.0, 0.0) {
             return;
         }
@@ -142,6 +152,9 @@ impl Watch {
 
     /// Records an event of the plan.
     pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
+        if let Some(why) = self.order.on_record(record, names) {
+            self.breaks(at, why);
+        }
         let actor =
             |id| matches!(names.component(id).kind, ComponentKind::Actor | ComponentKind::SubPlan);
         match *record {

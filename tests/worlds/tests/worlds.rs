@@ -12,6 +12,8 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// The default number of worlds.
 const WORLDS: u64 = 200;
+/// The fewest steps of a world on average: ten million by night and a hundred thousand by day.
+const STEPS: u64 = 1000;
 /// The interval of progress messages.
 const NEWS: Duration = Duration::from_secs(10);
 
@@ -54,11 +56,12 @@ fn all_rules_hold_in_any_world() {
         return tell(number);
     }
     let worlds = asked("AFP_WORLDS").unwrap_or(WORLDS);
-    let done = AtomicU64::new(0);
+    let (done, steps) = (AtomicU64::new(0), AtomicU64::new(0));
     let findings = Mutex::new(Vec::new());
     let (begin, told) = (Instant::now(), Mutex::new(Instant::now()));
     (0..worlds).into_par_iter().for_each(|number| {
-        let (_, broken) = verdict(number);
+        let (outcome, broken) = verdict(number);
+        steps.fetch_add(outcome.map_or(0, |it| it.steps), Ordering::Relaxed);
         if let Some(first) = broken.first() {
             let finding = format!("world {number}: {first}\n    {}", again(number));
             eprintln!("{finding}");
@@ -72,6 +75,8 @@ fn all_rules_hold_in_any_world() {
         }
     });
     let findings = findings.into_inner().expect("nobody panics here");
-    println!("{worlds} worlds in {:.1} s", begin.elapsed().as_secs_f64());
+    let steps = steps.into_inner();
+    println!("{worlds} worlds, {steps} steps in {:.1} s", begin.elapsed().as_secs_f64());
     assert!(findings.is_empty(), "{} of {worlds}:\n{}", findings.len(), findings.join("\n"));
+    assert!(steps >= worlds * STEPS, "only {steps} steps");
 }

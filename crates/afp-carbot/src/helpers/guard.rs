@@ -7,6 +7,9 @@ use afp_core::{Duration, Fault, Instant, faults};
 pub const PATIENCE: Duration = Duration::from_millis(500);
 
 faults! {
+    /// The drive's controller has restarted in mid-run.
+    pub CONTROLLER_RESTARTED = "controller-restarted",
+        "the drive's controller has restarted, so its counts are lost";
     /// The wheel counters give no usable reading.
     pub NO_ODOMETRY = "no-odometry",
         "the odometry gave no valid reading for 500 ms: the counters of the wheels are silent, or the drive's controller, which reads them";

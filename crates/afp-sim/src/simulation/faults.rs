@@ -27,8 +27,11 @@ impl Simulation {
     }
 
     pub(crate) fn apply_faults(&mut self, active: &Active<'_, Fault>) {
+        // After a restart it obeys nothing, until another run begins.
+        self.restarted |= active.any(|fault| fault == Fault::ControllerRestarted);
         self.drive.set_health(Health {
             dead: active.any(|fault| fault == Fault::ControllerDead),
+            halted: self.restarted || active.any(|fault| fault == Fault::ControllerStalled),
             stalled: [Fault::LeftMotorStalled, Fault::RightMotorStalled]
                 .map(|stalled| active.any(|fault| fault == stalled)),
             grip: least(active, Fault::wheels_slip),

@@ -1,5 +1,6 @@
 //! The simulation as the robot of a session.
 
+use afp_carbot::guard::CONTROLLER_RESTARTED;
 use afp_carbot::table::{Carbot, Control, Fault, signal};
 use afp_core::{Instant, Platform};
 use afp_platform::VirtualClock;
@@ -49,6 +50,10 @@ impl Robot for Simulation {
     fn set_faults(&mut self, active: &Active<'_, Fault>) -> Result<(), Refused> {
         self.apply_faults(active);
         Ok(())
+    }
+
+    fn broken(&self) -> Option<afp_core::Fault> {
+        self.restarted.then_some(CONTROLLER_RESTARTED)
     }
 
     fn put(&mut self, what: &Put, at: Pose2) -> Result<(), RequestError> {

@@ -142,15 +142,23 @@ macro_rules! lines {
 }
 
 lines! {
-    ultrasonic: Echo = |sim| sim.sensors.echo, Fault::ultrasonic;
-    rotator: Angle = |sim| sim.measured(sim.sensors.rotator.telemetry()), Fault::rotator;
-    odometry: Motion = |sim| sim.measured(sim.sensors.odometer.motion()), wheel_counters;
-    touch: bool = |sim| sim.measured(sim.is_touched()), Fault::touch;
-    buttons: bool = |sim| Reading::valid(sim.sensors.escape, sim.now), Fault::buttons;
+    ultrasonic: Echo = |sim| sim.sensors.echo, read_by_controller(Fault::ultrasonic);
+    rotator: Angle = |sim| sim.measured(sim.sensors.rotator.telemetry()), read_by_controller(Fault::rotator);
+    odometry: Motion = |sim| sim.measured(sim.sensors.odometer.motion()), read_by_controller(wheel_counters);
+    touch: bool = |sim| sim.measured(sim.is_touched()), read_by_controller(Fault::touch);
+    buttons: bool = |sim| Reading::valid(sim.sensors.escape, sim.now), read_by_controller(Fault::buttons);
     infrared: Option<Glow> = |sim| sim.sensors.glow, Fault::infrared;
     color: Color = |sim| sim.sensors.color, Fault::color;
     camera: Arc<Exposure> = |sim| sim.sensors.exposure.clone(), Fault::camera;
     battery: Charge = |sim| sim.measured(sim.sensors.battery.charge()), Fault::battery;
+}
+
+/// The defect of a sensor that the controller reads.
+fn read_by_controller(own: fn(Fault) -> Option<Defect>) -> impl Fn(Fault) -> Option<Defect> {
+    move |fault| match fault {
+        Fault::ControllerRestarted | Fault::ControllerStalled => Some(Defect::Lost),
+        fault => own(fault),
+    }
 }
 
 /// The defect of the odometry for a fault of the controller, which counts the wheels.

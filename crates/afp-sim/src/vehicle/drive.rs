@@ -33,6 +33,8 @@ pub(crate) struct Drive {
 pub(crate) struct Health {
     /// The controller ignores commands.
     pub(crate) dead: bool,
+    /// The controller has stopped the wheels and ignores commands.
+    pub(crate) halted: bool,
     /// The left and the right motor are blocked.
     pub(crate) stalled: [bool; 2],
     /// The remaining share of the grip.
@@ -41,7 +43,7 @@ pub(crate) struct Health {
 
 impl Default for Health {
     fn default() -> Self {
-        Health { dead: false, stalled: [false; 2], grip: 1.0 }
+        Health { dead: false, halted: false, stalled: [false; 2], grip: 1.0 }
     }
 }
 
@@ -81,7 +83,7 @@ impl Drive {
         let finite = speed.is_finite() && turn.is_finite();
         let (speed, turn) = if finite { (speed, turn) } else { (0.0, 0.0) };
         self.asked = (speed, turn);
-        if self.health.dead {
+        if self.health.dead || self.health.halted {
             return;
         }
         self.commanded = now;
@@ -105,6 +107,9 @@ impl Drive {
 
     pub(crate) fn set_health(&mut self, health: Health) {
         self.health = health;
+        if health.halted {
+            self.obey(0.0, 0.0);
+        }
         for (wheel, stalled) in self.wheels.iter_mut().zip(health.stalled) {
             wheel.set_stalled(stalled);
         }

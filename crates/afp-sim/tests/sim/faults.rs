@@ -190,6 +190,25 @@ fn a_dead_controller_stops_the_robot_within_its_dead_man_time() {
 }
 
 #[test]
+fn a_controller_that_hangs_or_restarts_stops_the_robot() {
+    for fault in [Fault::ControllerStalled, Fault::ControllerRestarted] {
+        let mut sim = among("");
+        drive(&mut sim, 0.2, 0.0, 1000);
+        break_now(&mut sim, fault);
+        assert_eq!(sim.motion().value, Err(Invalid::NoAnswer));
+        assert_eq!(sim.touched().value, Err(Invalid::NoAnswer));
+        drive(&mut sim, 0.2, 0.0, 300);
+        let before = sim.truth().pose().x;
+        drive(&mut sim, 0.2, 0.0, 300);
+        assert!((sim.truth().pose().x - before).abs() < 0.002, "it still drives");
+        // After a restart it obeys only another run.
+        drive(&mut sim, 0.2, 0.0, 1000);
+        let obeys = sim.truth().pose().x > before + 0.1;
+        assert_eq!(obeys, fault == Fault::ControllerStalled);
+    }
+}
+
+#[test]
 fn a_low_battery_is_reported_and_slows_the_robot() {
     let mut sim = among("");
     sim.inject(Fault::BatteryLow { share: 0.04 }, at(0), Duration::MAX);

@@ -2,8 +2,11 @@
 
 use super::*;
 use afp_carbot::devices::Navigator;
+use afp_core::ValueRef;
 use afp_core::quantity::{AngularSpeed, Speed};
-use afp_core::trace::{ComponentId, ComponentName, EntryName, Outcome, Reaction, TraceEntryId};
+use afp_core::trace::{
+    Author, ComponentId, ComponentName, EntryName, Outcome, Reaction, TraceEntryId,
+};
 use afp_sim::World;
 
 const ROOM: &str = "version = 1\n[robot]\npose_m_deg = [2, 2, 0]\n[[wall]]\n\
@@ -127,6 +130,41 @@ fn a_motion_left_behind_breaks_a_rule() {
         watch.stepped(at(20));
         breaks(watch, "failed");
     }
+}
+
+#[test]
+fn a_second_actor_or_a_torn_commit_breaks_a_rule() {
+    let (_, mut watch) = watched();
+    let starts = Record::Started { component: ComponentId(1) };
+    watch.on_record(at(0), &starts, &One);
+    watch.on_record(at(10), &Record::Interrupted { element: ComponentId(1) }, &One);
+    watch.on_record(at(10), &starts, &One);
+    assert!(watch.broken.is_empty(), "{:?}", watch.broken);
+    watch.on_record(at(20), &starts, &One);
+    breaks(watch, "'one' starts while 'one' is active");
+
+    let writes = |old, new| Record::Committed {
+        author: Author::Component(ComponentId(1)),
+        entry: TraceEntryId(0),
+        old: ValueRef::Int(old),
+        new: ValueRef::Int(new),
+    };
+    for (between, old, why) in [(None, 2, "twice"), (Some(Record::StopRequested), 1, "was Int(2)")]
+    {
+        let (_, mut watch) = watched();
+        watch.on_record(at(0), &writes(1, 2), &One);
+        between.iter().for_each(|record| watch.on_record(at(0), record, &One));
+        watch.on_record(at(0), &writes(old, 3), &One);
+        breaks(watch, why);
+    }
+}
+
+#[test]
+fn a_command_that_is_not_finite_breaks_a_rule() {
+    let (_, mut watch) = watched();
+    watch.told(Sensor::Odometry, true, at(0), at(0));
+    watch.commanded(f64::NAN, 0.0, at(0));
+    breaks(watch, "NaN m/s");
 }
 
 #[test]
