@@ -100,11 +100,13 @@ impl SessionLog {
             self.recorder.event(RunEvent::requested(now, request));
         }
         let mut facts = vec![("trace".to_owned(), session.trace().to_string())];
-        if let Some(LoopTimes { late, steps }) = session.loop_times() {
+        if let Some(times) = session.loop_times() {
+            let LoopTimes { late, steps, .. } = times;
             facts.extend(
                 [("loop_late", late), ("loop_steps", steps)]
                     .map(|(key, times)| (key.to_owned(), times.to_string())),
             );
+            facts.extend(times.facts(session.names()));
         }
         self.recorder.end(now, facts);
         self.recorder.finish()
@@ -262,7 +264,10 @@ impl Observer for SessionLog {
             self.recorder.scene(at, std::mem::take(&mut self.moved));
         }
         self.after_loss(at);
-        self.recorder.wake();
+        // In real time, the writer looks often enough by itself.
+        if self.clocks.is_none() {
+            self.recorder.wake();
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 //! Pictures of runs as SVG: the path over the world, the echoes of the range sensor, the camera's
-//! pictures.
+//! pictures, the times of a control loop.
 
 mod canvas;
 mod film;
@@ -7,6 +7,7 @@ mod legend;
 mod marks;
 mod sonar;
 mod symbol;
+mod times;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Names};
@@ -18,6 +19,7 @@ use canvas::{Canvas, View};
 pub use film::draw_film;
 use legend::Legend;
 pub use sonar::draw_sonar;
+pub use times::{TimesRow, draw_times};
 
 /// Nearer points of the path count as one, in metres.
 const NEAR: f64 = 0.004;

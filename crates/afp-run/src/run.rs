@@ -342,7 +342,7 @@ impl Came<'_> {
             trace: Some(session.trace()).filter(|_| lost == 0),
             distance: track.way(),
             requests,
-            times: session.loop_times().filter(|_| setting.options.rt_report).copied(),
+            times: session.loop_times().filter(|_| setting.options.rt_report),
         };
         let figures = ran.figures(&counts, measured, session.names());
         let svg = paths.svg.as_deref();

@@ -4,6 +4,7 @@ mod any;
 mod asked;
 pub(crate) mod broken;
 pub(crate) mod grid;
+mod meter;
 mod report;
 
 use std::sync::Arc;
@@ -11,12 +12,11 @@ use std::sync::Arc;
 use afp_core::devices::Devices;
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{Ending, TraceHash};
-use afp_core::{Clock, Duration, Instant, Scheduler, StartError, Wake};
+use afp_core::{Duration, Instant, Scheduler, StartError, Wake};
 
 use crate::faults::Faults;
 use crate::figures::Figures;
 use crate::holds::Holds;
-use crate::loop_times::LoopTimes;
 use crate::observer::{Gate, Go, Next, Observer, Open};
 use crate::record::{Keep, Kept};
 use crate::request::{Request, Requests};
@@ -26,6 +26,7 @@ use crate::watch::Pulse;
 
 use asked::{Testing, Work};
 use grid::SampleGrid;
+use meter::{Meter, Metered};
 
 /// The period of samples for measures.
 pub const SAMPLE: Duration = Duration::from_millis(20);
@@ -69,8 +70,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     measures: Vec<Box<dyn Measure<R>>>,
     samples: SampleGrid,
     trace: TraceHash,
-    /// The times of a real robot's control loop; `None` in simulation.
-    times: Option<Box<LoopTimes>>,
+    /// Measures a real robot's control loop; `None` in simulation.
+    meter: Option<Box<Meter>>,
     /// Whether the session makes the lines and the hash of the trace.
     makes_trace: bool,
     /// A buffer for the line of a record.
@@ -122,7 +123,7 @@ where
             holds: Holds::default(),
             measures: Vec::new(),
             trace: TraceHash::default(),
-            times: None,
+            meter: None,
             makes_trace: true,
             line: String::new(),
             testing: None,
@@ -174,7 +175,7 @@ where
             still: self.still,
             samples: self.samples,
             trace: self.trace,
-            times: None,
+            meter: None,
             makes_trace: self.makes_trace,
             testing: self.testing.as_ref().map(Testing::copy),
         })
@@ -317,9 +318,7 @@ where
         if let Some(fault) = self.robot.broken() {
             self.distrust(fault, to);
         }
-        if let Some(times) = &mut self.times {
-            times.woke(target, before, now);
-        }
+        self.note_wake_up(target, before, now);
         match now == before && target > now {
             true => self.stood_still(now, to),
             false => self.still = 0,
@@ -329,9 +328,7 @@ where
         }
         if self.due() <= now {
             self.step(now, to)?;
-            if let Some(times) = &mut self.times {
-                times.steps.note(self.clock.now(now).since(now));
-            }
+            self.note_step(now);
         }
         Ok(Go::On)
     }
@@ -361,8 +358,10 @@ where
 
     #[inline]
     fn step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) -> Result<(), StartError> {
-        let Session { scheduler, robot, sink, clock, .. } = self;
-        let on = (robot, sink, &*clock);
+        let Session { scheduler, robot, sink, clock, meter, .. } = self;
+        let clock = &*clock;
+        let mut sink = Metered { sink, clock, meter: meter.as_deref_mut() };
+        let on = (robot, &mut sink, clock);
         self.stepping = true;
         let wake = match self.work {
             Work::Step => scheduler.step(on, now),
@@ -378,6 +377,7 @@ where
         };
         self.work = Work::Step;
         self.stepping = false;
+        self.note_reaction(now);
         self.woke(wake, now, to);
         Ok(())
     }

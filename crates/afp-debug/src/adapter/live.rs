@@ -17,7 +17,7 @@ use crate::target::{Advance, Happened, Target};
 /// The interval of looks at the run's events.
 const LOOK: Wall = Wall::from_millis(10);
 /// The same without clients.
-const LOOK_ALONE: Wall = Wall::from_millis(50);
+const LOOK_ALONE: Wall = Wall::from_secs(1);
 /// The time after which the adapter itself holds a run for a breakpoint.
 const LATE: Wall = Wall::from_millis(100);
 

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, Outcome, TraceHash};
 use afp_session::{
-    AnySession, Applied, Counts, Done, Figure, FigureValue, Figures, LoopTimes, Observer,
-    Requested, Span, Stimulus, Usage,
+    AnySession, Applied, Counts, Done, Figure, FigureValue, Figures, Histogram, LoopTimes,
+    Observer, Requested, Span, Stimulus, Usage,
 };
 use anstyle::{AnsiColor, Style};
 use serde::{Serialize, Serializer};
@@ -68,6 +68,12 @@ pub(crate) struct RunFigures {
     /// How long its steps took.
     #[serde(skip_serializing_if = "Option::is_none")]
     loop_steps: Option<String>,
+    /// How long the calls of its components took.
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    loop_calls: Vec<(String, String)>,
+    /// The times from events of its supervisors to commands.
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    loop_reactions: Vec<(String, String)>,
 }
 
 /// The results, and the places of objects.
@@ -102,7 +108,7 @@ pub(crate) struct Ran<'a> {
     pub distance: Option<f64>,
     pub requests: Vec<Requested>,
     /// The times of a real robot's control loop, if they are wanted.
-    pub times: Option<LoopTimes>,
+    pub times: Option<&'a LoopTimes>,
 }
 
 /// Collects requests from outside.
@@ -165,11 +171,28 @@ impl Ran<'_> {
             trace: self.trace.map_or_else(|| "incomplete".to_owned(), |hash| hash.to_string()),
             loop_late: self.times.map(|times| times.late.to_string()),
             loop_steps: self.times.map(|times| times.steps.to_string()),
+            loop_calls: self.times.map_or_else(Vec::new, |times| timed(&times.calls, names)),
+            loop_reactions: self
+                .times
+                .map_or_else(Vec::new, |times| timed(&times.reactions, names)),
         }
     }
 }
 
 impl RunFigures {
+    /// The times of a real robot's control loop, with their names in front of the first of a kind.
+    fn loop_lines(&self) -> Vec<(&'static str, String)> {
+        let whole = [("loop late", &self.loop_late), ("loop steps", &self.loop_steps)];
+        let whole = whole.into_iter().filter_map(|(key, times)| Some((key, times.clone()?)));
+        let parts = [("calls", &self.loop_calls), ("reactions", &self.loop_reactions)];
+        let parts = parts.into_iter().flat_map(|(key, all)| {
+            all.iter().enumerate().map(move |(n, (path, times))| {
+                (if n == 0 { key } else { "" }, format!("{path}: {times}"))
+            })
+        });
+        whole.chain(parts).collect()
+    }
+
     pub(crate) fn for_picture(&self) -> Vec<(String, String)> {
         let of = |key: &str, value: String| (key.to_owned(), value);
         let mut lines = vec![of("time", format!("{:.1} s", self.time_s))];
@@ -207,6 +230,12 @@ fn counted(
         Some((name.path.to_owned(), count(name.kind, usage)?))
     });
     told.collect()
+}
+
+/// The times of components, in the order of the plan.
+fn timed(times: &[Histogram], names: &dyn Names) -> Vec<(String, String)> {
+    let all = (0..).map(ComponentId).zip(times).filter(|(_, times)| times.count() > 0);
+    all.map(|(id, times)| (names.component(id).path.to_owned(), times.to_string())).collect()
 }
 
 /// States and events that occurred, in the order of the plan.
@@ -262,7 +291,7 @@ fn request(request: &Requested) -> String {
     }
 }
 
-fn in_order<S: Serializer>(pairs: &[(String, u64)], to: S) -> Result<S::Ok, S::Error> {
+fn in_order<T: Serialize, S: Serializer>(pairs: &[(String, T)], to: S) -> Result<S::Ok, S::Error> {
     to.collect_map(pairs.iter().map(|(key, value)| (key, value)))
 }
 
@@ -332,12 +361,7 @@ impl Summary {
         let equal = if self.repeats { ", equal to the log's" } else { "" };
         line("trace", format!("{}{equal}", figures.trace));
         line("speed", format!("{:.0} x real time", self.speed));
-        for (key, times) in [("loop late", &figures.loop_late), ("loop steps", &figures.loop_steps)]
-        {
-            if let Some(times) = times {
-                line(key, times.clone());
-            }
-        }
+        figures.loop_lines().into_iter().for_each(|(key, text)| line(key, text));
         if self.lost > 0 {
             line("lost", format!("{BAD}{} records and samples{BAD:#}", self.lost));
         }

@@ -24,7 +24,7 @@ use crate::watchdog::Watchdog;
 const SLICE: Duration = Duration::from_millis(10);
 
 /// The period in which the observers of a real robot look at their queue, unless they are woken.
-const LOOK: std::time::Duration = std::time::Duration::from_millis(250);
+const LOOK: std::time::Duration = std::time::Duration::from_millis(400);
 
 /// An observer that may work on another thread.
 pub(super) type AnyObserver<'a> = dyn Observer + Send + 'a;

@@ -163,7 +163,7 @@ where
     }
 
     fn loop_times(&self) -> Option<&LoopTimes> {
-        self.times.as_deref()
+        self.meter.as_deref().map(|meter| &meter.times)
     }
 
     fn requests(&self) -> &[(Instant, Request)] {

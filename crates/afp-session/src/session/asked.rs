@@ -9,11 +9,11 @@ use afp_core::ElementId;
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::ComponentId;
-#[cfg(feature = "load")]
 use afp_core::trace::Names as _;
 use afp_core::{Clock, Duration, EntryId, Instant, Release, Value, WriteError};
 
 use super::Session;
+use super::meter::Meter;
 use crate::hardware::{Hardware, STALL};
 use crate::holds::Hold;
 use crate::not_set::NotSet;
@@ -75,7 +75,7 @@ where
         let mut session = Session::with_sink(plan, robot, Kept::with_room(pulse.clone()));
         session.stall = Some(STALL);
         session.pulse = Some(pulse);
-        session.times = Some(Box::default());
+        session.meter = Some(Box::new(Meter::new(session.names.components())));
         session
     }
 

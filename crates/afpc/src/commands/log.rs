@@ -1,5 +1,6 @@
 //! `afpc log`: the events of a run, and the state of its log.
 
+mod budgets;
 mod info;
 mod pictures;
 mod timeline;
@@ -13,6 +14,7 @@ use clap::{Args, ValueEnum};
 use super::print;
 use crate::Linked;
 use crate::no_plan::NoPlan;
+use budgets::Measured;
 
 /// Arguments of `afpc log`.
 #[derive(Args, Debug)]
@@ -40,6 +42,14 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     coverage: Option<PathBuf>,
 
+    /// Also draw the times of a real robot's control loop into this file
+    #[arg(long, value_name = "FILE")]
+    times: Option<PathBuf>,
+
+    /// Compare the times of a real robot with the declared budgets
+    #[arg(long)]
+    budgets: bool,
+
     /// File for 'recover' [default: <log>.recovered.mcap]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -64,6 +74,7 @@ Examples:
   afpc log run.mcap info
   afpc log run.mcap --svg path.svg
   afpc log run.mcap --sonar map.svg --film film.png --coverage cover.png
+  afpc log drive.mcap --budgets --times times.svg
   afpc log run.mcap.part recover
 
 Exit codes: 0 done or intact, 1 the file cannot be read or is damaged, 2 wrong usage";
@@ -81,11 +92,20 @@ pub fn swapped(first: &str, second: &str) -> Option<RunError> {
 /// A file cannot be read or written.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if arguments.output.is_some() && arguments.action != Action::Recover {
-        let help = "'--svg', '--sonar', '--film' and '--coverage' name the files of pictures";
+        let help =
+            "'--svg', '--sonar', '--film', '--coverage' and '--times' name the files of pictures";
         return Err(RunError::usage("'-o' is only for 'recover'", help).into());
+    }
+    if arguments.budgets && arguments.action != Action::Timeline {
+        let help = "call 'afpc log' once for each";
+        return Err(RunError::usage("'--budgets' is only for events", help).into());
     }
     pictures::draw(arguments, linked)?;
     match arguments.action {
+        Action::Timeline if arguments.budgets => {
+            let log = read(&arguments.file).map_err(RunError::from)?;
+            print(&Measured::of(&log, &arguments.file)?.text())
+        }
         Action::Timeline => {
             let log = read(&arguments.file).map_err(RunError::from)?;
             if let Some(cut) = &log.cut_short {

@@ -85,6 +85,31 @@ fn a_robot_from_parts_is_simulated_and_driven_without_cargo() {
         })
     });
     assert!(drove, "no run of five drove the robot");
+    let log = "log target/afp/runs/mycar.mcap --budgets --times times.svg";
+    let budgets = inside(&place, log);
+    budgets.succeeds();
+    for text in ["carbot.", " us", "\nsupervisor ", "\n[target.robot]\nbudgets.carbot."] {
+        assert!(budgets.out.contains(text), "no {text:?} in {}", budgets.out);
+    }
+    let picture = place.read("mycar/times.svg");
+    for name in ["late wake-ups", "calls of carbot."] {
+        assert!(picture.contains(name), "no {name:?} in {picture}");
+    }
+    // Lines of budgets are valid in 'afp.toml'.
+    let toml = place.read("mycar/afp.toml");
+    let (_, target) = budgets.out.split_once("[target.robot]").unwrap();
+    place.write("mycar/afp.toml", &format!("{toml}\n[target.robot]{target}"));
+    inside(&place, "check plans/mycar.afp --target robot").succeeds();
+}
+
+#[test]
+fn the_times_of_a_simulated_run_are_an_error() {
+    let place = Place::with_plan();
+    place.afpc("run wall_following.afp --until 1s --log a.mcap --svg none").succeeds();
+    let error = ["the log has no times of a real robot's control loop"];
+    place.afpc("log a.mcap --budgets").fails(2, &error);
+    place.afpc("log a.mcap --times a.svg").fails(2, &error);
+    place.afpc("log a.mcap info --budgets").fails(2, &["'--budgets' is only for events"]);
 }
 
 #[test]

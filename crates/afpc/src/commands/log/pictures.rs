@@ -8,6 +8,7 @@ use afp_run::{RunError, check_apart, is_of_hardware};
 use afp_test::Coverage;
 
 use super::Arguments;
+use super::budgets::Measured;
 use crate::commands::graph;
 use crate::no_plan::NoPlan;
 use crate::plan_file::{PlanFile, path_of_log};
@@ -18,11 +19,12 @@ use crate::{Linked, picture, runner};
 /// # Errors
 /// The log cannot be read or lacks the data for a picture; a file cannot be written.
 pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoPlan> {
-    let Arguments { svg, sonar, film, coverage, .. } = arguments;
-    if [svg, sonar, film, coverage].iter().all(|picture| picture.is_none()) {
+    let Arguments { svg, sonar, film, coverage, times, .. } = arguments;
+    let pictures = [svg, sonar, film, coverage, times];
+    if pictures.iter().all(|picture| picture.is_none()) {
         return Ok(());
     }
-    let all = [svg, sonar, film, coverage].into_iter().flatten().map(PathBuf::as_path);
+    let all = pictures.into_iter().flatten().map(PathBuf::as_path);
     check_apart(all, [&*arguments.file])?;
     let log = read(&arguments.file).map_err(RunError::from)?;
     if (svg.is_some() || sonar.is_some()) && !is_of_hardware(&log) {
@@ -39,6 +41,9 @@ pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoP
     }
     if let Some(path) = film {
         picture::write(path, &afp_run::draw_film(&log)?)?;
+    }
+    if let Some(path) = times {
+        picture::write(path, &Measured::of(&log, &arguments.file)?.picture())?;
     }
     if let Some(path) = coverage {
         draw_coverage((&log, &arguments.file), path)?;
