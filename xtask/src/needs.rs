@@ -18,6 +18,8 @@ pub enum Need {
     Node,
     /// Chromium, at `/usr/bin/chromium` or where `CHROMIUM` says.
     Chromium,
+    /// `cyclictest`, which measures how late a thread wakes up.
+    Cyclictest,
 }
 
 /// Prefixes of the names of these programs.
@@ -32,6 +34,7 @@ impl Need {
             Need::Node => {
                 answers(Command::new("node").arg("--version")) && answers(npm().arg("--version"))
             }
+            Need::Cyclictest => answers(Command::new("cyclictest").arg("--help")),
             Need::Chromium => {
                 let browser = env::var_os("CHROMIUM").unwrap_or_else(|| "/usr/bin/chromium".into());
                 Path::new(&browser).exists()
@@ -45,6 +48,7 @@ impl Need {
             Need::Python => "Python 3 with venv",
             Need::Node => "Node.js with npm",
             Need::Chromium => "Chromium",
+            Need::Cyclictest => "cyclictest",
         }
     }
 
@@ -59,6 +63,7 @@ impl Need {
             (Need::Node, _) => "nodejs npm",
             (Need::Chromium, "windows") => "Hibbiki.Chromium",
             (Need::Chromium, _) => "chromium",
+            (Need::Cyclictest, _) => "rt-tests",
         }
     }
 }

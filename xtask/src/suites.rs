@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::install::Profile;
-use crate::needs::Need::{Chromium, Node, Python};
+use crate::needs::Need::{Chromium, Cyclictest, Node, Python};
 use crate::needs::{self, Need};
 use crate::shell::{Failure, cargo, output, run as run_command};
 use crate::{
@@ -50,7 +50,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("arm", &[], arm::run),
     ("pi", &[], pi::run),
     ("deploy", &[], deploy::run),
-    ("ways out", &[], ways_out),
+    ("ways out", &[Cyclictest], ways_out),
     ("other systems", &[Python], systems::run),
     ("engine", &[], engine::run),
     ("python", &[Python], python::run),
@@ -259,10 +259,17 @@ fn workspace() -> Result<(), Failure> {
     run_command(needs::hidden_from(&mut tests)?)
 }
 
-/// The times of the ways out of a run on a real robot, in series; needs permission for priorities.
+/// Measures the ways out of a run on a real robot in series, and the punctuality of its control loop.
+/// It needs the permission for priorities.
 fn ways_out() -> Result<(), Failure> {
-    let test = ["test", "--package", "afp-run", "--test", "ways_out", "ways_out_in_series"];
-    run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_WAYS_OUT", WAYS_OUT))
+    let loops = ["test", "--package", "afp-run", "--test", "ways_out", "ways_out_"];
+    let full = ["test", "--package", "afpc", "--features", "afpc/full", "--test", "afpc"];
+    let driver = [&full[..], &["ways_out::"]].concat();
+    for test in [&loops[..], &driver] {
+        let one = ["--", "--nocapture", "--test-threads=1"];
+        run_command(cargo().args(test).args(one).env("AFP_WAYS_OUT", WAYS_OUT))?;
+    }
+    Ok(())
 }
 
 /// The README's first command, on a machine with only Rust and a C linker.

@@ -50,7 +50,14 @@ fn program() {
     let options: Vec<_> = options.lines().collect();
     let (does, to) = (options[0], if options[0] == "laps" { "go" } else { "terminate" });
     let actor = format!("actor go: Go(does = \"{does}\") {{ Arrived -> {to} }}");
-    let plan = format!("use port\nplan Rove {{\n    start go\n    {actor}\n}}");
+    let tick = match options[0] {
+        "often" => {
+            "supervise tick: CheckTimeout(duration = 3600 s) every 1 ms { TimedOut -> terminate }"
+        }
+        _ => "",
+    };
+    let plan =
+        format!("use port\nuse std\nplan Rove {{\n    start go\n    {tick}\n    {actor}\n}}");
     program::drive(&plan, &port, &options[1..]);
 }
 

@@ -1,4 +1,5 @@
-//! An allocator that counts, for tests and measurements of code that must not allocate.
+//! An allocator that counts, for tests and measurements of code that must not allocate; and a trap
+//! for system calls.
 //!
 //! A test that counts needs its own binary, since a program has one allocator:
 //!
@@ -17,8 +18,14 @@
 //! ```
 #![allow(unsafe_code, reason = "a global allocator cannot be written without")]
 
+#[cfg(target_os = "linux")]
+mod trap;
+
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+
+#[cfg(target_os = "linux")]
+pub use trap::trap_system_calls;
 
 thread_local! {
     /// Counts only this thread: test harnesses allocate on others.

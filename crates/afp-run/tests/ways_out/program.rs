@@ -37,33 +37,15 @@ pub struct Rover {
 const SETTLED: u32 = 50;
 
 impl Rover {
-    /// From the call that says so, the system kills the program for any system call of the control thread that is not on
-    /// the list of the design.
+    /// From the call that says so, the system kills the program for any system call of the control
+    /// thread that is not on the list of the design.
     #[cfg(target_os = "linux")]
     fn trap(&mut self) {
-        use seccompiler::{
-            BpfProgram, SeccompAction, SeccompCmpArgLen, SeccompCmpOp, SeccompCondition,
-            SeccompFilter, SeccompRule, apply_filter,
-        };
-
         self.advances += 1;
-        if self.advances != SETTLED || std::env::var(super::TRAP).is_err() {
-            return;
+        if self.advances == SETTLED && std::env::var(super::TRAP).is_ok() {
+            afp_counting::trap_system_calls();
+            self.say("trapped");
         }
-        // Operations on a futex without their flags; the wake-up of another thread.
-        let (operation, wake) = (SeccompCmpOp::MaskedEq(0x7f), libc::FUTEX_WAKE as u64);
-        let wakes = SeccompCondition::new(1, SeccompCmpArgLen::Dword, operation, wake).unwrap();
-        let wakes = SeccompRule::new(vec![wakes]).unwrap();
-        // Reading and writing are the device's here. The clock is no system call on most machines.
-        let all =
-            [libc::SYS_clock_gettime, libc::SYS_clock_nanosleep, libc::SYS_read, libc::SYS_write];
-        let rules = all.map(|call| (call, Vec::new())).into_iter();
-        let rules = rules.chain([(libc::SYS_futex, vec![wakes])]).collect();
-        let arch = std::env::consts::ARCH.try_into().unwrap();
-        let (others, these) = (SeccompAction::KillProcess, SeccompAction::Allow);
-        let filter = SeccompFilter::new(rules, others, these, arch).unwrap();
-        apply_filter(&BpfProgram::try_from(filter).unwrap()).unwrap();
-        self.say("trapped");
     }
 
     #[cfg(not(target_os = "linux"))]
@@ -148,7 +130,7 @@ impl Actor<templates::Go, Rover> for Go {
     fn poll(
         &mut self,
         _: templates::go::Live,
-        _: &mut Rover,
+        env: &mut Rover,
         _: Instant,
     ) -> Result<Poll<templates::go::State>, Fault> {
         self.polls += 1;
@@ -160,7 +142,8 @@ impl Actor<templates::Go, Rover> for Go {
             "fails" => Err(FAILS),
             "panics" => panic!("it breaks"),
             "hangs" => loop {
-                std::thread::sleep(Span::from_secs(1));
+                env.say("hangs");
+                std::thread::sleep(Span::from_secs(1000));
             },
             _ => Ok(Poll::Pending),
         }
@@ -179,6 +162,7 @@ pub fn drive(plan: &str, port: &str, options: &[&str]) -> ! {
     let compiled = compile(&Source::new("plan.afp", plan), &toolboxes, &Texts::default());
     let graph = compiled.graph.clone().unwrap_or_else(|| panic!("{}", compiled.render(false)));
     let mut registry = Registry::new();
+    afp_std::templates::register(&mut registry);
     registry.actor::<templates::Go, Go>("port", "Go");
     let command = RunOptions::augment_args(Command::new("rover").no_binary_name(true));
     let own = ["--robot", "hardware"];

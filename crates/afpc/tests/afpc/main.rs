@@ -38,4 +38,6 @@ mod timing;
 #[cfg(unix)]
 mod toolchain;
 #[cfg(all(feature = "pi", target_os = "linux"))]
+mod ways_out;
+#[cfg(all(feature = "pi", target_os = "linux"))]
 mod wired;

@@ -2,6 +2,7 @@
 
 mod arrows;
 mod errors;
+mod locks;
 mod modules;
 mod rebuilds;
 mod shared;
