@@ -266,6 +266,16 @@ impl<L: Line> SerialRobot<L> {
         }
     }
 
+    /// The time of the next commands. The first standstill of a silent controller does not wait for
+    /// its turn.
+    fn next_tell(&self) -> Instant {
+        let next = self.told + OFTEN;
+        match self.heard {
+            Some(Heard::Message(_, at)) if at + STALE > self.told => next.min(at + STALE),
+            _ => next,
+        }
+    }
+
     /// Stops the wheels, before everything in the output queue.
     fn halt_at_once(&mut self) {
         self.asked = [0.0; 2];
@@ -324,10 +334,10 @@ impl<L: Line> Platform for SerialRobot<L> {
     fn advance(&mut self, to: Instant) {
         loop {
             self.hear();
-            if self.time.now().since(self.told) >= OFTEN {
+            if self.time.now() >= self.next_tell() {
                 self.tell();
             }
-            self.time.sleep_until(to.min(self.told + OFTEN));
+            self.time.sleep_until(to.min(self.next_tell()));
             // A sleep that lasted too long is noticed before anything is sent.
             if self.time.now() >= to {
                 self.hear();

@@ -7,7 +7,7 @@ use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::common::{Place, Said, said};
 use controller::Fake;
@@ -36,6 +36,15 @@ impl Running {
             }
         });
         Running { port, fake, ends, thread: Some(thread) }
+    }
+
+    /// Waits until the last commands of a run have arrived and the robot has stopped.
+    fn stops(&self) {
+        let late = Instant::now() + Duration::from_secs(20);
+        while !self.with(|fake| fake.controller.is_stopped() && !fake.is_moving()) {
+            assert!(Instant::now() < late, "the robot does not stop");
+            thread::sleep(Duration::from_millis(1));
+        }
     }
 
     pub fn with<T>(&self, act: impl FnOnce(&mut Fake) -> T) -> T {
@@ -79,8 +88,8 @@ fn a_robot_from_parts_is_simulated_and_driven_without_cargo() {
     let drove = (0..5).any(|_| {
         let controller = Running::start(|_| {});
         let ran = drive(&place, &controller, "2s");
+        controller.stops();
         controller.with(|fake| {
-            assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
             ran.code == 0 && fake.ways.iter().all(|way| *way > 0.05)
         })
     });
@@ -143,9 +152,7 @@ fn a_controller_that_restarts_in_mid_drive_ends_the_run_and_stays_stopped() {
     });
     let ran = drive(&place, &controller, "20s");
     ran.fails(3, &[]);
-    controller.with(|fake| {
-        assert!(fake.controller.is_stopped() && !fake.is_moving(), "{ran:?}");
-    });
+    controller.stops();
 }
 
 #[test]
