@@ -123,8 +123,8 @@ impl Controller {
             self.ping = Some((Ping { distance, bearing: self.bearing, age: 0 }, now));
         }
         // A computer that was held up does not know what has happened meanwhile: it must start
-        // again.
-        if self.is_moving() && self.receiver.is_silent(now, COMMAND_TIMEOUT) {
+        // again. The next step would be too late.
+        if self.is_moving() && self.receiver.is_silent(now + STEP, COMMAND_TIMEOUT) {
             self.stop();
         }
         let Some(setup) = self.setup else { return Outputs::default() };
