@@ -265,7 +265,7 @@ fn ways_out() -> Result<(), Failure> {
     let loops = ["test", "--package", "afp-run", "--test", "ways_out", "ways_out_"];
     let full = ["test", "--package", "afpc", "--features", "afpc/full", "--test", "afpc"];
     let driver = [&full[..], &["ways_out::"]].concat();
-    for test in [&loops[..], &driver] {
+    for test in [&loops[..], &driver[..]] {
         let one = ["--", "--nocapture", "--test-threads=1"];
         run_command(cargo().args(test).args(one).env("AFP_WAYS_OUT", WAYS_OUT))?;
     }
