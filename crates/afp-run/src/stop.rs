@@ -140,7 +140,8 @@ mod signals {
     use std::thread;
 
     use signal_hook::consts::{
-        SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ,
+        SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2, SIGVTALRM,
+        SIGXCPU, SIGXFSZ,
     };
     use signal_hook::iterator::{Handle, Signals};
     use signal_hook::low_level;
@@ -150,8 +151,10 @@ mod signals {
 
     /// All signals that would end the process before the robot has stopped. A broken pipe is not one of
     /// them: its writer gets an error.
-    const ALL: [i32; 9] =
-        [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
+    const ALL: [i32; 11] = [
+        SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGXCPU,
+        SIGXFSZ,
+    ];
 
     static MADE: Mutex<Option<(StopFlag, Handle)>> = Mutex::new(None);
 

@@ -57,7 +57,7 @@ fn a_limit_of_the_size_of_files_ends_a_run_in_order() {
 
 #[test]
 fn signals_end_a_run_cleanly() {
-    for (name, exit) in [("INT", 0), ("TERM", 143), ("HUP", 129), ("XFSZ", 153)] {
+    for (name, exit) in [("INT", 0), ("TERM", 143), ("HUP", 129), ("XFSZ", 153), ("VTALRM", 154)] {
         let place = Place::with_plan();
         let (code, out) = interrupted(&place, |process| signal(name, process));
         assert_eq!(code, Some(exit), "{out}");
