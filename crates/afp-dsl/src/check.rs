@@ -20,6 +20,7 @@ mod formula;
 mod head;
 mod imports;
 mod meant;
+mod mistaken;
 mod names;
 mod outline;
 pub(crate) mod partial;

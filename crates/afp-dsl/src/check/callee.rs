@@ -8,9 +8,9 @@ use crate::check::names::{ambiguous, offer};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Context, PlanHead};
 use crate::files::relative;
-use crate::toolbox::{TemplateKind, Toolbox};
+use crate::toolbox::{Template, TemplateKind, Toolbox};
 use afp_syntax::ast::{Name, Ref};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, list, words};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
@@ -177,6 +177,13 @@ impl Context<'_> {
         let templates = imports.flat_map(|import| &import.toolbox.templates);
         let fitting = templates
             .filter(|template| SignatureKind::Template(template.kind).keyword() == wanted.keyword);
+        if words::nearest(&name.text, fitting.clone().map(|template| template.name.as_str()))
+            .is_none()
+            && let alike = alike(&name.text, fitting.clone())
+            && !alike.is_empty()
+        {
+            return error.help(message!("write {}", list(alike, "or")));
+        }
         let mut known: Vec<&str> = fitting.map(|template| template.name.as_str()).collect();
         if wanted.keyword == "subplan" {
             known = self.other_plans(span).collect();
@@ -297,4 +304,36 @@ fn unfit(signature: &Signature, span: Span, wanted: &Wanted) -> Diagnostic {
         None => Diagnostic::new(Code::E0217, span, message)
             .help("name a supervisor's template, or use it as an element of the plan"),
     }
+}
+
+/// The templates that another word for them names, best first: `DriveTo` for `NavigateTo`.
+fn alike<'t>(name: &str, templates: impl Iterator<Item = &'t Template>) -> Vec<&'t str> {
+    /// The maximum number of templates in a help.
+    const MOST: usize = 4;
+    let parts = name.split('_').flat_map(|part| {
+        let large: Vec<usize> = part
+            .char_indices()
+            .filter(|(_, it)| it.is_ascii_uppercase())
+            .map(|(at, _)| at)
+            .collect();
+        let ends = large.iter().copied().chain([part.len()]);
+        let starts = std::iter::once(0).chain(large.clone());
+        starts.zip(ends).map(|(from, to)| part[from..to].to_ascii_lowercase()).collect::<Vec<_>>()
+    });
+    let parts: Vec<String> = parts.filter(|part| part.len() > 2).collect();
+    let hits = |template: &Template| {
+        let also = template.doc.split_once("Also:").map_or("", |(_, also)| also);
+        let own = template.name.to_ascii_lowercase();
+        let words = also.split(|each: char| !each.is_alphanumeric());
+        parts
+            .iter()
+            .filter(|part| own.contains(&***part) || words.clone().any(|word| word == **part))
+            .count()
+    };
+    let mut found: Vec<_> =
+        templates.map(|template| (hits(template), template.name.as_str())).collect();
+    found.retain(|(hits, _)| *hits > 0);
+    found.sort_by_key(|(hits, _)| std::cmp::Reverse(*hits));
+    let best = found.first().map_or(0, |(hits, _)| *hits);
+    found.into_iter().filter(|(hits, _)| *hits == best).map(|(_, name)| name).take(MOST).collect()
 }

@@ -7,7 +7,7 @@
 use std::collections::hash_map::Entry;
 
 use super::places::{ByLine, Lines, Ranges, Within};
-use super::{PlanHead, Program, meant};
+use super::{PlanHead, Program, meant, mistaken};
 use crate::gather::PlanFile;
 use afp_syntax::ast::{Element, Item, Name};
 use afp_syntax::diagnostics::{
@@ -66,6 +66,10 @@ pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut D
     if diags.iter().any(|each| each.code == Code::E0603) {
         hold_back_edges(program, diags);
     }
+    mistaken::hold_back(program, diags);
+    if diags.iter().any(|each| each.code == Code::E0212) {
+        hold_back_targets(program, diags);
+    }
     if diags.iter().any(|each| UNKNOWN.contains(&each.code)) {
         join(program, diags);
     }
@@ -81,6 +85,20 @@ pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut D
             *each = meant::explain(program, plan, each.clone());
         }
     });
+}
+
+/// Removes errors about unknown targets in plans with two elements of one name: the second is
+/// probably the missing one.
+fn hold_back_targets(program: &Program<'_>, diags: &mut Diagnostics) {
+    let twice = diags.iter().filter(|each| each.code == Code::E0212).map(|each| each.span);
+    let twice: FxHashSet<Span> = twice.collect();
+    let has_two = |head: &&PlanHead| {
+        let elements = head.node.elements();
+        elements.iter().filter_map(|it| it.name()).any(|name| twice.contains(&name.span))
+    };
+    let plans = program.plans.iter().filter(has_two).map(|head| head.node.span());
+    let plans = Ranges::new(plans.collect());
+    diags.retain(|each| each.code != Code::E0216 || !plans.any(each.span));
 }
 
 /// The unreadable places.
@@ -289,12 +307,17 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
 enum Once {
     /// An unknown name: its kind and its plan.
     Name(Sought, Option<usize>, String),
+    /// A toolbox or file that is not used: the place and the text of the line to add.
+    Use(Span, String),
     /// Another error, at its place.
     Place(Code, Span, Message),
 }
 
 impl Once {
     fn new(program: &Program<'_>, error: &Diagnostic, around: Option<usize>) -> Once {
+        if let Some(fix) = error.fix.as_ref().filter(|fix| fix.text.starts_with("use ")) {
+            return Once::Use(fix.span, fix.text.clone());
+        }
         let Subject::Unknown { what, name, plan } = &error.subject else {
             return Once::Place(error.code, error.span, error.message().clone());
         };
@@ -360,10 +383,10 @@ fn at_declaration(error: &Diagnostic, others: &[Span], name: &Name, meant: &str)
     places.fold(said, |said, place| said.note(*place, message!("'{}' is used here", meant)))
 }
 
-/// Reports it at the first use. One edit does not fix several places.
+/// Reports it at the first use. One edit does not fix several places, unless it adds a `use`.
 fn also_at(mut error: Diagnostic, others: &[Span]) -> Diagnostic {
     if !others.is_empty() {
-        error.fix = None;
+        error.fix = error.fix.filter(|fix| fix.text.starts_with("use "));
     }
     if others.len() > MOST_PLACES {
         error.change_message(|said| places(said, others.len() + 1));

@@ -118,10 +118,31 @@ fn example(ty: &Type, range: Option<(f64, f64)>) -> String {
     }
 }
 
+/// The value that a text means in another spelling: `Side.left` for `"left"`, `1 m / 2` for `1/2 m`.
+fn spelled(found: &Type, want: &Type, text: &str) -> Option<(Code, String)> {
+    match (found, want) {
+        (Type::Text, Type::Enum(home)) => {
+            let value = home.variants.iter().find(|value| text.trim_matches('"') == **value)?;
+            Some((Code::E0206, format!("{}.{value}", home.name)))
+        }
+        (Type::Quantity(_), Type::Quantity(dimension)) => {
+            let (left, right) = text.split_once('/')?;
+            let (left, (number, unit)) = (left.trim(), right.trim().split_once(' ')?);
+            let are_numbers = [left, number].iter().all(|it| it.parse::<f64>().is_ok());
+            let fits = Unit::parse(unit).is_some_and(|unit| unit.dimension == *dimension);
+            (are_numbers && fits).then(|| (Code::E0204, format!("{left} {unit} / {number}")))
+        }
+        _ => None,
+    }
+}
+
 fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &str) -> Diagnostic {
     let span = formula.span;
     let expected =
         message!("expected {}, found {}", Words(a_value(want)), Words(a_value(&formula.ty)));
+    if let Some((code, better)) = spelled(&formula.ty, want, text) {
+        return Diagnostic::new(code, span, expected).write(better);
+    }
     match (&formula.ty, want) {
         (found, want) if found.is_generic() || want.is_generic() => {
             Diagnostic::new(Code::E0206, span, expected).help(one_type(found, want))

@@ -397,13 +397,11 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
             name,
             Words(verb)
         );
-        let either = if origin.supervisor { "'terminate' or 'ignore'" } else { "or 'terminate'" };
-        let edges: Vec<_> = missing.iter().map(|state| format!("{state} -> ...")).collect();
-        diags.push(Diagnostic::new(Code::E0211, origin.span, message).help(message!(
-            "add '{}' with an element, {}",
-            edges.join(", "),
-            Words(either)
-        )));
+        let to = if origin.supervisor { "ignore" } else { "terminate" };
+        let edges: Vec<_> = missing.iter().map(|state| format!("{state} -> {to}")).collect();
+        let it = if missing.len() == 1 { "it to an element" } else { "them to elements" };
+        let help = message!("add '{}', or lead {}", edges.join(", "), Words(it));
+        diags.push(Diagnostic::new(Code::E0211, origin.span, message).help(help));
     }
     // An unknown name may mean this outcome.
     let named = unknown > 0 || seen.iter().any(|name| name.text == "Interrupted");
@@ -416,7 +414,7 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
                 message!("'{}' of '{}' is not connected", "Interrupted", name),
             )
             .note(edge, "this event ends the plan as interrupted")
-            .help("add 'Interrupted -> ...' with an element, or 'terminate'"),
+            .help("add 'Interrupted -> terminate', or lead it to an element"),
         );
     }
 }

@@ -102,7 +102,10 @@ fn path(
     if let Some(element) = elements.iter().find(|it| it.name().is_some_and(|it| it.text == home)) {
         let of = element.template().and_then(|template| template.name()).map(|name| name.text);
         let of = of.unwrap_or_default();
-        let ty = type_of(plan_of(&of)).unwrap_or_else(|| "float".to_owned());
+        let templates = program.toolboxes.iter().flat_map(|toolbox| &toolbox.templates);
+        let outputs = templates.filter(|it| it.name == of).flat_map(|it| &it.outputs);
+        let output = { outputs }.find(|it| it.name == port).map(|output| written(&output.ty));
+        let ty = type_of(plan_of(&of)).or(output).unwrap_or_else(|| "float".to_owned());
         let help = message!(
             "declare 'var {}: {}', write '{}({} => {})', and read '{}'",
             port,
@@ -270,7 +273,7 @@ fn no_element(
         return Some(said.note(plan.span, message!("'{}' is a plan", name)).help(help));
     }
     let is_it = |toolbox: &&Arc<Toolbox>| toolbox.templates.iter().any(|it| it.name == name);
-    program.toolboxes.iter().find(is_it)?;
+    program.toolboxes.iter().find(is_it).filter(|_| error.fix.is_none())?;
     let help = message!("add an element made from '{}', and lead to it by its name", name);
     Some(said.help(help))
 }

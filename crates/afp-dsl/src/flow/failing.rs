@@ -17,7 +17,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> Option<Span> {
         diags.push(
             Diagnostic::new(Code::E0313, element.span, message)
                 .note(edge, "it fails here")
-                .help("add 'Error -> ...' with an element, 'terminate' or 'fail \"...\"'"),
+                .help("add 'Error -> terminate', or lead it to an element or to 'fail \"...\"'"),
         );
     }
     edge(view)

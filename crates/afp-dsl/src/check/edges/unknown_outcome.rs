@@ -40,6 +40,16 @@ fn of_no_outcome(origin: &Origin<'_>, name: &Name) -> Diagnostic {
         return Diagnostic::new(Code::E0210, name.span, message).help(help);
     }
     let own = &origin.signature.outcomes;
+    let without_edge = match name.text.to_ascii_lowercase().as_str() {
+        "running" => Some("remove the edge: an element that runs stays active without one"),
+        "preempted" | "cancelled" | "canceled" | "recalled" | "interrupted" => {
+            Some("remove the edge: the event that interrupts an element has its own")
+        }
+        _ => None,
+    };
+    if let Some(help) = without_edge.filter(|_| !origin.supervisor) {
+        return Diagnostic::new(Code::E0210, name.span, message).help(help);
+    }
     let meant = match (ours(STATES, &name.text), own.as_slice()) {
         (Some("Error"), _) => Some(ERROR),
         (Some(_), [only]) => Some(&**only),
