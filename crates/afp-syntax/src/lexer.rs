@@ -46,8 +46,16 @@ impl Token<'_> {
 pub(super) fn lex<'t>(text: &'t str, file: u16, diags: &mut Diagnostics) -> Vec<Token<'t>> {
     // Files have about this number of tokens; the capacity avoids repeated copies.
     let tokens = Vec::with_capacity(text.len() / 3);
-    let mut lexer =
-        Lexer { text, at: 0, file, tokens, diags, line: Line::default(), unclosed_comment: false };
+    let mut lexer = Lexer {
+        text,
+        at: 0,
+        file,
+        tokens,
+        diags,
+        line: Line::default(),
+        unclosed_comment: false,
+        endless: false,
+    };
     while lexer.at < text.len() {
         lexer.token();
     }
@@ -63,6 +71,8 @@ struct Lexer<'t, 'd> {
     diags: &'d mut Diagnostics,
     line: Line,
     unclosed_comment: bool,
+    /// Whether no comment ends in the rest of the text.
+    endless: bool,
 }
 
 /// Facts about the current line. A file may be one line, which is then searched once and not for
@@ -169,8 +179,9 @@ impl<'t> Lexer<'t, '_> {
 
     fn block_comment(&mut self) {
         let rest = &self.text[self.at..];
-        let length = self.nested_comment(rest).or_else(|| Some(rest[2..].find("*/")? + 4));
-        let length = length.unwrap_or(rest.len());
+        let length = self.nested_comment(rest).or_else(|| self.comment_to_its_end(rest));
+        // Without its end, the comment is a line.
+        let length = length.unwrap_or_else(|| line_length(rest));
         let text = &rest[..length];
         let inner = text[2..].strip_suffix("*/").unwrap_or(&text[2..]);
         // A line comment contains the rest of its line, so the replacement has a line of its own.
@@ -186,14 +197,12 @@ impl<'t> Lexer<'t, '_> {
         );
     }
 
-    /// A string that ends on the next line, after words only: its length, and its text on one line.
-    fn text_of_lines(&self, line: &str) -> Option<(usize, String)> {
-        let behind = self.text.get(self.at + line.len()..)?.trim_start_matches(['\r', '\n']);
-        let end = behind[..line_length(behind)].find('"')?;
-        let words = behind[..end].trim();
-        let length = self.text.len() - self.at - behind.len() + end + 1;
-        let is_text = !words.contains(['{', '}', '(', ')', '=', '>', ':', '/']);
-        is_text.then(|| (length, format!("{} {words}\"", line.trim_end())))
+    /// The length of a comment up to the first end of a comment, if there is one.
+    fn comment_to_its_end(&mut self, rest: &str) -> Option<usize> {
+        let end = rest.get(2..).filter(|_| !self.endless)?.find("*/");
+        // No later comment has an end, either.
+        self.endless = end.is_none();
+        Some(end? + 4)
     }
 
     /// The length of a comment that may contain comments; `None` if one of them is unclosed.
@@ -263,6 +272,7 @@ impl<'t> Lexer<'t, '_> {
             Some((text, _)) => text,
             None => line,
         });
+        let line = foreign::before_bracket(line);
         let joined = self.text_of_lines(line);
         let span = self.push(Kind::Text, line.trim_end().len());
         if let Some((length, text)) = joined {

@@ -38,7 +38,8 @@ use marks::Marks;
 const MAX_DEPTH: usize = 64;
 
 pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> GreenNode {
-    let foreign = diags.iter().filter(|it| it.span.file == file && it.code == Code::E0101);
+    let of_lexer = |code| matches!(code, Code::E0101 | Code::E0113);
+    let foreign = diags.iter().filter(|it| it.span.file == file && of_lexer(it.code));
     let foreign = foreign.map(|it| it.span.start).collect();
     let mended = braces::mend(&mut tokens, file, diags);
     let mut parser = Parser::new(&tokens, file, diags);
@@ -95,6 +96,8 @@ struct Parser<'t, 'd> {
     /// The places of signs of other languages, and of those among them that belong to a habit.
     foreign: BTreeSet<u32>,
     superseded: Vec<(u32, u32)>,
+    /// Whether an item of the file is a part of a program in another language, and reported.
+    is_foreign: bool,
     marks: Marks,
     /// The index in `solid` of a token that is read as another word.
     slip: Option<(usize, &'static str)>,
@@ -143,6 +146,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             has_std: uses(tokens, "std"),
             has_carbot: uses(tokens, "carbot"),
             foreign: BTreeSet::new(),
+            is_foreign: false,
             superseded: Vec::new(),
             marks,
             slip: None,

@@ -58,7 +58,8 @@ impl Unit {
         let composed = || WORDS.iter().find(|(word, _)| spells(word)).map(|(_, symbol)| *symbol);
         single.map(|single| single.symbol).or_else(composed).or_else(|| {
             let mut alike = Unit::symbols().filter(|symbol| symbol.eq_ignore_ascii_case(word));
-            alike.find(|symbol| !changes_prefix(symbol))
+            let plural = || Unit::symbols().find(|symbol| word.len() > 2 && *symbol == one);
+            alike.find(|symbol| !changes_prefix(symbol)).or_else(plural)
         })
     }
 

@@ -29,6 +29,8 @@ const SENSORS: &[Sensor] = &[
             "hit",
             "crash",
             "crashed",
+            "pressed",
+            "edge",
         ],
         supervisor: "supervise touch: CheckTouchSensor { TouchSensorPressed -> {then} }",
         above: "",
@@ -93,7 +95,12 @@ const SENSORS: &[Sensor] = &[
 ];
 
 impl Sensor {
-    /// The sensor that a name mentions, as in `bumperPressed` or `front_distance`.
+    /// The sensor for a reading whose name says nothing.
+    pub fn touch() -> &'static Sensor {
+        &SENSORS[0]
+    }
+
+    /// The sensor that a name or a text mentions, as in `bumperPressed` or `front_distance`.
     pub fn named(name: &str) -> Option<&'static Sensor> {
         let words = words(name);
         SENSORS.iter().find(|sensor| words.iter().any(|word| sensor.words.contains(&&**word)))
@@ -101,7 +108,7 @@ impl Sensor {
 }
 
 /// The words of a name, in small letters.
-fn words(name: &str) -> Vec<String> {
+pub(super) fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut was_small = false;
     for each in name.chars() {

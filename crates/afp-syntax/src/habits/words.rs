@@ -39,6 +39,12 @@ pub(crate) const WORDS: &[(&str, &[&str])] = &[
             "service",
             "acteur",
             "aktion",
+            "aktor",
+            "zustand",
+            "etat",
+            "estado",
+            "accion",
+            "leaf",
         ],
     ),
     (
@@ -62,16 +68,29 @@ pub(crate) const WORDS: &[(&str, &[&str])] = &[
             "surveiller",
             "beobachte",
             "ueberwache",
+            "überwache",
+            "ueberwachung",
+            "waechter",
+            "vigila",
         ],
     ),
     ("supervisor", &["supervise", "guard", "watch", "monitor"]),
-    ("computation", &["choice", "decision", "junction", "compute", "calculation"]),
-    ("in", &["input", "param", "parameter", "eingang", "entree"]),
-    ("out", &["output", "result", "ausgang", "sortie"]),
+    (
+        "computation",
+        &["choice", "decision", "junction", "compute", "calculation", "berechnung", "calcul"],
+    ),
+    ("in", &["input", "param", "parameter", "eingang", "eingabe", "entree", "entrada"]),
+    ("out", &["output", "result", "ausgang", "ausgabe", "sortie", "salida"]),
     ("var", &["variable"]),
-    ("const", &["constant", "static", "final"]),
+    ("const", &["constant", "static", "final", "konstante", "constante"]),
     ("subplan", &["sub", "subtree", "submachine", "composite"]),
-    ("start", &["begin", "initial", "first", "entry", "beginne", "anfang", "commence", "debut"]),
+    (
+        "start",
+        &[
+            "begin", "initial", "first", "entry", "beginne", "anfang", "starte", "commence",
+            "debut", "inicio",
+        ],
+    ),
     ("uses", &["use"]),
     ("needs", &["need", "requires"]),
     ("every", &["each", "period", "interval", "rate", "alle"]),
@@ -113,10 +132,10 @@ pub const REACTIONS: &[(&str, &[&str])] = &[
 
 /// Words for the element that was active before: `return` leads there.
 pub const RETURNS: &[(&str, &[&str])] =
-    &[("return", &["history", "hist", "previous", "last", "pop"])];
+    &[("return", &["history", "hist", "h", "previous", "last", "pop"])];
 
 /// How a plan continues with an interrupted element.
-pub const RETURN: &str = "lead an event to 'suspend pause', and an edge of 'pause' to 'return'";
+pub const RETURN: &str = "lead to an element; to pause one, lead an event to 'suspend pause', and an edge of 'pause' to 'return'";
 
 /// States that are called otherwise elsewhere: the only state of an element, and its failure.
 pub const STATES: &[(&str, &[&str])] = &[
@@ -179,6 +198,35 @@ const UNITS: &[(&[&str], f64, &str)] = &[
     (&["rpm"], 6.0, "deg/s"),
     (&["rotation", "rotations", "turns", "rev", "revolutions", "umdrehungen"], 360.0, "deg"),
 ];
+
+/// Words of other natural languages in the patterns of habits, each with the English word.
+const ENGLISH: &[(&str, &[&str])] = &[
+    ("if", &["wenn", "falls", "si"]),
+    ("then", &["dann", "alors", "entonces"]),
+    ("else", &["sonst", "ansonsten", "sinon", "sino"]),
+    ("while", &["solange", "tantque", "mientras"]),
+    ("until", &["bis", "jusqu"]),
+    ("repeat", &["wiederhole", "repete", "repetir"]),
+    ("times", &["mal", "fois", "veces"]),
+    ("forever", &["immer", "endlos", "toujours"]),
+    ("wait", &["warte", "attendre", "attends", "esperar", "espera"]),
+    ("go", &["gehe", "fahre", "avance", "avanza"]),
+    ("turn", &["drehe", "tourne", "gira"]),
+    ("stop", &["stopp", "halte", "arrete"]),
+    ("set", &["setze"]),
+    ("say", &["sage", "dis"]),
+    ("function", &["funktion", "fonction", "funcion"]),
+];
+
+/// Whether a word of a pattern has this spelling in another natural language.
+pub(crate) fn is_foreign_for(english: &str, written: &str) -> bool {
+    ENGLISH.iter().any(|(word, others)| *word == english && others.contains(&written))
+}
+
+/// The English word.
+pub(crate) fn english(written: &str) -> Option<&'static str> {
+    ENGLISH.iter().find(|(_, others)| others.contains(&written)).map(|(word, _)| *word)
+}
 
 /// Our word for one of another language, in any case of letters.
 pub fn ours(words: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> {

@@ -37,6 +37,9 @@ const QUOTES: (&str, &str) = ("'`“”„‟‘’‚«»", "'`“”‟‘’�
 /// Signs that begin a comment line in other languages.
 const COMMENTS: [&str; 3] = ["--", ";", "%"];
 
+/// The maximum number of lines of a string that is read as one.
+const MOST_LINES: usize = 8;
+
 /// The beginnings of conflict markers.
 const VERSION_MARKS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
@@ -112,6 +115,27 @@ impl<'t> Lexer<'t, '_> {
         let before = self.text[..self.at].trim_end_matches([' ', '\t']).strip_suffix(word)?;
         let is_first = before.trim_end_matches([' ', '\t']).ends_with('\n');
         is_first.then_some(before.len())
+    }
+
+    /// A string that ends on one of the next lines, after words only: its length, and its text on
+    /// one line.
+    pub(super) fn text_of_lines(&self, line: &str) -> Option<(usize, String)> {
+        let (mut at, mut text) = (self.at + line.len(), line.trim_end().to_owned());
+        for _ in 0..MOST_LINES {
+            let behind = self.text.get(at..)?;
+            at += behind.len() - behind.trim_start_matches(['\r', '\n']).len();
+            let next = self.text.get(at..at + line_length(self.text.get(at..)?))?;
+            let (words, ends) = next.split_once('"').map_or((next, false), |(it, _)| (it, true));
+            if words.contains(['{', '}', '(', ')', '=', '>', ':', '/']) {
+                return None;
+            }
+            at += words.len();
+            text = format!("{text} {}", words.trim());
+            if ends {
+                return Some((at + 1 - self.at, text.trim_end().to_owned() + "\""));
+            }
+        }
+        None
     }
 
     /// Whether this line begins with the word of a claim.
@@ -244,6 +268,20 @@ impl<'t> Lexer<'t, '_> {
         let span = self.push(kind, length);
         Diagnostic::new(Code::E0101, span, message).help(help)
     }
+}
+
+/// An unterminated string up to the first closing bracket that it does not open.
+pub(super) fn before_bracket(line: &str) -> &str {
+    let mut depth = 0_usize;
+    for (at, each) in line.char_indices() {
+        match each {
+            '(' | '{' => depth += 1,
+            ')' | '}' if depth == 0 => return line[..at].trim_end(),
+            ')' | '}' => depth -= 1,
+            _ => {}
+        }
+    }
+    line
 }
 
 /// Returns the help for a name with letters that are not ASCII.

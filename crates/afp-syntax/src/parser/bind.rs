@@ -4,6 +4,7 @@ use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, Message, Subject};
 use crate::kind::Kind;
 use crate::message;
+use crate::units::Unit;
 
 impl Parser<'_, '_> {
     /// `"(" {bind [","]} ")"`. Scenarios have no short bindings, because their values are written
@@ -30,7 +31,8 @@ impl Parser<'_, '_> {
 
     /// Whether `=` or `=>`, or a substitute for one, follows the next token.
     pub(super) fn at_sign_of_bind(&self) -> bool {
-        let is_output = self.nth(1) == Kind::GreaterEqual && self.nth(2) == Kind::Name;
+        let is_output =
+            matches!(self.nth(1), Kind::GreaterEqual | Kind::Greater) && self.nth(2) == Kind::Name;
         let is_output = is_output && matches!(self.nth(3), Kind::Comma | Kind::CloseParen);
         self.names_something(0) || self.nth(1) == Kind::EqualEqual || is_output || self.changes()
     }
@@ -75,8 +77,10 @@ impl Parser<'_, '_> {
 
     pub(super) fn bind(&mut self) {
         let is_value = self.nth(1) == Kind::Arrow && self.nth(2) != Kind::Name;
-        let is_output =
-            matches!(self.nth(1), Kind::FatArrow | Kind::Arrow | Kind::GreaterEqual) && !is_value;
+        let is_output = matches!(
+            self.nth(1),
+            Kind::FatArrow | Kind::Arrow | Kind::GreaterEqual | Kind::Greater
+        ) && !is_value;
         let changes = self.changes();
         self.open_item(if is_output { Kind::BindOut } else { Kind::BindIn });
         self.take_name();
@@ -160,6 +164,12 @@ impl Parser<'_, '_> {
         match self.word(0) {
             _ if self.follows_value() && is_arrow && self.nth(1) != Kind::Name => {
                 ("',' or ')' after a value", "remove it".into())
+            }
+            _ if self.follows_value() && self.at(Kind::Dot) => {
+                ("',' or ')' after a value", "remove it".into())
+            }
+            unit if self.follows_value() && Unit::parse(unit).is_some() => {
+                ("',' or ')' after a value", "remove it: a unit only follows a number".into())
             }
             _ if self.follows_value() => {
                 let help = "write ',' and a port before it, or a sign such as '*'";

@@ -1,6 +1,7 @@
 //! Edges: `State -> target`.
 
 use super::Parser;
+use super::elsewhere::is_large;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::message;
@@ -96,7 +97,10 @@ impl Parser<'_, '_> {
             return self.close_item();
         }
         let is_foreign = self.next_written().is_some_and(|at| at < self.token_index(0));
-        let is_called = is_foreign || matches!(self.nth(1), Kind::Name | Kind::OpenParen);
+        let is_path = matches!(self.nth(1), Kind::Dot | Kind::Colon)
+            && (self.nth(3) == Kind::OpenParen || is_large(self.word(0)));
+        let is_called =
+            is_foreign || is_path || matches!(self.nth(1), Kind::Name | Kind::OpenParen);
         if self.at(Kind::Name) && is_called && self.habit_of_target() {
             return self.close_item();
         }

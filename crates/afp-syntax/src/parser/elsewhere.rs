@@ -1,5 +1,6 @@
 //! Finds habits of other languages by one table, and reports the plan text for them.
 
+mod blocks;
 mod conditions;
 mod matcher;
 mod meant;
@@ -8,16 +9,18 @@ mod words;
 use super::Parser;
 use super::habits::is_operator;
 use crate::diagnostics::{Code, Diagnostic, Words};
-use crate::habits::{BEHIND, BODY, Habit, OPERATOR, PLAN, Places, TARGET, VALUE, Write};
+use crate::habits::{
+    BEHIND, BODY, FILE, Habit, OPERATOR, PLAN, Places, TARGET, TEMPLATE, VALUE, Write, action,
+};
 use crate::keywords;
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::message;
 use crate::source::Span;
-pub(super) use matcher::is_large;
-use matcher::{Matcher, beginning, between, is_written};
+use matcher::{ANY_CASE, Matcher, beginning, between, is_written};
+pub(super) use matcher::{QUOTES, is_large};
 use meant::Reads;
-use words::{choose, comparison, time, type_of, with_first};
+use words::{choose, comparison, shown, time, type_of, with_first};
 
 /// The maximum number of tokens that are compared.
 const MOST_TOKENS: usize = 64;
@@ -58,15 +61,13 @@ impl<'t> Parser<'t, '_> {
             Write::Edit(_) => found.end,
         };
         let last = end.checked_sub(1).and_then(|last| line.get(last));
-        let (Some(first), Some(last)) = (line.first(), last) else { return false };
-        let here = self.span_of(*first).to(self.span_of(*last));
+        let (Some(&first), Some(last)) = (line.first(), last) else { return false };
+        let here = self.span_of(first).to(self.span_of(*last));
         // A ';' at the end of the line belongs to it.
         let behind = line.get(end).filter(|token| token.text == ";");
         let whole = behind.map_or(here, |sign| here.to(self.span_of(*sign)));
         let says = self.filled(found.habit.says, &found, place);
-        let place_of_error = if matches!(found.habit.write, Write::Edit(_)) { whole } else { here };
-        let error =
-            |says| Diagnostic::new(Code::E0102, place_of_error, message!("{}", Words(says)));
+        let error = |says| Diagnostic::new(Code::E0102, whole, message!("{}", Words(says)));
         let error = match found.habit.write {
             Write::Drop(text) => {
                 let help = self.filled(text, &found, place);
@@ -82,19 +83,40 @@ impl<'t> Parser<'t, '_> {
                 error(says).elsewhere(message!("{}", Words(help)))
             }
         };
-        self.supersede(here);
-        self.error(error);
-        let next = line.get(found.next).map_or(whole.end, |token| token.start);
-        if place & PLAN != 0 && self.items_in_braces(line) {
+        if place & PLAN != 0
+            && let Some(items) = self.items_ahead(line)
+        {
+            self.supersede(here);
+            self.error(error);
+            self.items_in_braces(items);
             return true;
         }
-        self.pass_to(|p| p.token(0).is_none_or(|token| token.start >= next));
+        let next = line.get(found.next).map_or(whole.end, |token| token.start);
+        self.supersede(here);
+        let error = self.with_block(error, first, place, next);
+        // A program of another language has many such items; the first says it.
+        let is_program = place & FILE != 0 && found.habit.at & PLAN != 0;
+        if !(is_program && self.is_foreign) {
+            self.error(error);
+        }
+        self.is_foreign |= is_program;
         true
     }
 
     /// A help with the declarations that its plan text needs.
     fn with_declarations(&self, mut help: String, found: &Found<'_>) -> String {
         let entries = &self.known().entries;
+        if let Some((_, rest)) = help.split_once("result => ")
+            && let Some((name, _)) = rest.split_once(')')
+            && !entries.contains_key(name)
+            && !help.contains(&format!("var {name}"))
+        {
+            let declared = format!("declare 'var {name}: int = 0', and ");
+            return match help.strip_prefix("remove it, ") {
+                Some(rest) => format!("remove it, {declared}{rest}"),
+                None => declared + &help,
+            };
+        }
         let written = found.captures.first().filter(|_| found.habit.pattern.starts_with("ENTRY"));
         let declared = written.and_then(|name| Some((name, entries.get(name.as_str())?)));
         if let Some((name, word @ (&"in" | &"const"))) = declared {
@@ -125,10 +147,17 @@ impl<'t> Parser<'t, '_> {
         }
         let line = self.written_line(start, place);
         let is_formula = place & (VALUE | OPERATOR) != 0;
+        let any_case = place & ANY_CASE != 0;
         fitting.into_iter().find_map(|habit| {
             let entries = &self.known().entries;
-            let mut matcher =
-                Matcher { line: &line, entries, captures: Vec::new(), next: None, is_formula };
+            let mut matcher = Matcher {
+                line: &line,
+                entries,
+                captures: Vec::new(),
+                next: None,
+                is_formula,
+                any_case,
+            };
             let end = matcher.matches(habit.pattern, 0)?;
             let Matcher { captures, next, .. } = matcher;
             if end == 0 {
@@ -167,13 +196,23 @@ impl<'t> Parser<'t, '_> {
         line
     }
 
+    /// Whether a habit is in the place of a template and its ports; reports it.
+    pub(super) fn habit_of_template(&mut self) -> bool {
+        matches!(self.nth(1), Kind::OpenParen | Kind::OpenBrace) && self.habit(TEMPLATE)
+    }
+
     /// Drops the lexer's errors about signs of a habit and of the rest of its line.
     pub(super) fn supersede(&mut self, here: Span) {
         let end = self.next_line(here.end);
         let cause = self.reported_before(here.start);
         if cause.is_some_and(|cause| cause >= here.start && self.foreign.contains(&cause)) {
             self.reported.remove(&self.next_line(here.start));
-            self.superseded.push((here.start, end));
+        }
+        if self.foreign.range(here.start..end).next().is_some() {
+            match self.superseded.last_mut().filter(|(_, last)| here.start <= *last) {
+                Some((_, last)) => *last = end.max(*last),
+                None => self.superseded.push((here.start, end)),
+            }
         }
     }
 
@@ -187,24 +226,24 @@ impl<'t> Parser<'t, '_> {
             let start = each.span.start;
             let at = ranges.partition_point(|(from, _)| *from <= start);
             let is_in = at.checked_sub(1).is_some_and(|at| start < ranges[at].1);
-            each.span.file != file || each.code != Code::E0101 || !is_in
+            let is_of_lexer = matches!(each.code, Code::E0101 | Code::E0113);
+            each.span.file != file || !is_of_lexer || !is_in
         });
     }
 
-    /// `while (true) { actor go: ... }`: reads the items in the braces of a habit. Returns whether
-    /// there are items.
-    fn items_in_braces(&mut self, line: &[Token<'t>]) -> bool {
-        let Some(brace) = line.iter().position(|token| token.kind == Kind::OpenBrace) else {
-            return false;
-        };
-        let Some(first) = line.get(brace + 1).filter(|_| self.balanced && self.depth == 0) else {
-            return false;
-        };
+    /// `while (true) { actor go: ... }`: the number of tokens before the items in the braces of a
+    /// habit.
+    fn items_ahead(&self, line: &[Token<'t>]) -> Option<usize> {
+        let brace = line.iter().position(|token| token.kind == Kind::OpenBrace)?;
+        let first = line.get(brace + 1).filter(|_| self.balanced && self.depth == 0)?;
         let ahead = self.solid.get(self.at..).unwrap_or_default();
         let ahead = ahead.partition_point(|at| self.tokens[*at as usize].start < first.start);
-        if !keywords::has(self.word(ahead), keywords::PLAN) || self.nth(ahead + 1) != Kind::Name {
-            return false;
-        }
+        let is_item = keywords::has(self.word(ahead), keywords::PLAN);
+        (is_item && self.nth(ahead + 1) == Kind::Name).then_some(ahead)
+    }
+
+    /// Reads the items in the braces of a habit.
+    fn items_in_braces(&mut self, ahead: usize) {
         self.pass(ahead);
         self.depth += 1;
         while self.at_plan_item() {
@@ -215,7 +254,6 @@ impl<'t> Parser<'t, '_> {
         if self.at(Kind::CloseBrace) {
             self.pass(1);
         }
-        true
     }
 
     /// A sentence of the table with its placeholders replaced.
@@ -249,10 +287,25 @@ impl<'t> Parser<'t, '_> {
             time(text, unit)
         };
         match parts[..] {
-            ["word"] => found.line.first().map_or("", |token| token.text).to_owned(),
+            ["word"] => {
+                let is_sign = |it: &&Token<'_>| matches!(it.text, "@" | "with" | "using");
+                found.line.iter().find(|it| !is_sign(it)).map_or("", |it| it.text).to_owned()
+            }
             ["last"] => found.line[..found.end].last().map_or("", |it| it.text).to_owned(),
             ["here"] => self.element.to_owned(),
             ["event"] => self.event.to_owned(),
+            ["act", ref part @ ..] => self.act(found, part),
+            ["shown", at] => shown(capture(at).map_or("", String::as_str)),
+            // Calls count in milliseconds if the number is large.
+            ["wait", at] => {
+                let number = capture(at).map_or("", String::as_str);
+                let is_large = number.parse::<f64>().is_ok_and(|number| number >= 50.0);
+                time(number, if is_large { "ms" } else { "s" })
+            }
+            ["on", event, then] => {
+                let names = [event, then].map(|at| capture(at).map_or("", String::as_str));
+                self.watch_for(names[0], names[1])
+            }
             ["target"] => self.word_before().to_owned(),
             ["template"] => self.template.to_owned(),
             ["left"] if place & OPERATOR != 0 => self.operand_before(),
@@ -304,6 +357,20 @@ impl<'t> Parser<'t, '_> {
         }
     }
 
+    /// The plan text for a call or an action: the text, its name, or a help with it.
+    fn act(&self, found: &Found<'_>, part: &[&str]) -> String {
+        let is_word = |it: &&Token<'_>| matches!(it.kind, Kind::Name | Kind::Text);
+        let words = found.line[..found.end].iter().filter(is_word);
+        let text = action(words.map(|word| word.text));
+        let text = text.replace("{here}", self.element).replace("{int}", self.int);
+        match part {
+            ["name"] => text.split([' ', ':']).nth(1).unwrap_or_default().to_owned(),
+            ["help"] if text.starts_with("supervise") => format!("write '{text}'"),
+            ["help"] => format!("write an element, and lead an edge to it: '{text}'"),
+            _ => text,
+        }
+    }
+
     /// The first state of an element that has an edge in the file, for help texts.
     fn state_of(&self, element: &str) -> String {
         let token = |at: usize| self.solid.get(at).map(|at| self.tokens[*at as usize]);
@@ -322,11 +389,6 @@ impl<'t> Parser<'t, '_> {
             }
         }
         "State".to_owned()
-    }
-
-    fn operand_before(&self) -> String {
-        let has_unit = self.before().is_some_and(|token| token.kind == Kind::Unit);
-        self.text_between(self.at.saturating_sub(1 + usize::from(has_unit)), self.at)
     }
 
     /// Whether a habit follows an arrow or its target; reports it.

@@ -42,6 +42,9 @@ impl Parser<'_, '_> {
                 self.read_as("supervisor", "an item of a toolbox");
                 self.template();
             }
+            // Entries may be part of a program in another language.
+            "const" | "let" | "var" if self.nth(3) == Kind::Name && self.habit(FILE) => {}
+            _ if self.is_foreign => self.pass_line(),
             word if keywords::has(word, PLAN) => self.misplaced(),
             _ if self.at_plan_elsewhere() => {
                 self.read_as("plan", "a plan");
@@ -121,7 +124,8 @@ impl Parser<'_, '_> {
             "plan" | "enum" => {
                 let named = 1 + usize::from(self.nth(1) == Kind::Name);
                 let braces = named + usize::from(self.word(named) == "forever");
-                self.nth(braces) == Kind::OpenBrace
+                let is_indented = self.nth(braces) == Kind::Colon && self.begins_line(braces + 1);
+                self.nth(braces) == Kind::OpenBrace || is_indented
             }
             "table" => {
                 self.nth(1) == Kind::Name

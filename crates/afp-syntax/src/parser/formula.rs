@@ -314,7 +314,8 @@ impl Parser<'_, '_> {
             true => self.take_word(),
             false => _ = self.name("write a name"),
         }
-        if self.nth(1) != Kind::Caret && self.eat(Kind::Dot) || self.double_colon() {
+        let is_sign = matches!(self.nth(1), Kind::Caret | Kind::Star | Kind::Slash);
+        if !is_sign && self.eat(Kind::Dot) || self.double_colon() {
             // An item on the next line does not belong to an incomplete reference.
             if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {
                 self.bump();

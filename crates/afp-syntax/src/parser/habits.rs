@@ -66,7 +66,10 @@ impl Parser<'_, '_> {
     /// `Done -> goto turn`
     pub(super) fn no_word_before_target(&mut self) {
         let ends = self.begins_line(2) || matches!(self.nth(2), Kind::CloseBrace | Kind::End);
-        let is_pair = self.nth(1) == Kind::Name && !self.begins_line(1) && ends;
+        let between = self.token_index(0) + 1..self.token_index(1);
+        let is_foreign =
+            self.tokens.get(between).unwrap_or_default().iter().any(|it| it.kind == Kind::Unknown);
+        let is_pair = self.nth(1) == Kind::Name && !self.begins_line(1) && ends && !is_foreign;
         if is_pair && let Some(ending) = ours(ENDS, self.word(0)) {
             let error = Diagnostic::new(Code::E0102, self.ahead(2), "an edge leads to one element");
             self.error(error.write(ending));
@@ -193,6 +196,7 @@ impl Parser<'_, '_> {
         let same_line = |many: usize| (1..=many).all(|more| !self.begins_line(ahead + more));
         match (self.nth(ahead), self.nth(ahead + 1), self.nth(ahead + 2)) {
             (Kind::Minus, Kind::Minus, Kind::Arrow) => Some(3),
+            (Kind::Greater, Kind::Greater, Kind::Name) if same_line(2) => Some(2),
             (Kind::Minus | Kind::Equal, Kind::Greater | Kind::Arrow | Kind::FatArrow, _) => Some(2),
             (Kind::Arrow | Kind::FatArrow | Kind::Equal, ..) => Some(1),
             (Kind::Minus | Kind::Greater, Kind::Name, _) if same_line(1) => Some(1),
@@ -261,7 +265,7 @@ impl Parser<'_, '_> {
             Kind::Star if doubled => {
                 let here = self.next_span();
                 let error = Diagnostic::new(Code::E0102, here, "formulas have no '**'");
-                self.error(error.help(self.power_help()));
+                self.error(self.with_product(error));
                 self.pass(1);
                 Some(true)
             }

@@ -23,7 +23,9 @@ impl Parser<'_, '_> {
         self.element = "terminate";
         self.keyword();
         self.word_twice();
-        self.name("give the plan a name, such as 'Main'");
+        if !self.name_in_two_words() {
+            self.name("give the plan a name, such as 'Main'");
+        }
         self.eat_meant("forever", |next| next == Kind::OpenBrace);
         let help = match self.nth(0) {
             Kind::OpenParen => self.help_for_parameters(),
@@ -76,6 +78,9 @@ impl Parser<'_, '_> {
             None if self.item_meant(ITEMS, &self.possible_items_of_plan()) => {
                 return self.plan_item();
             }
+            None if !self.begins_body() && self.word(0).starts_with(|it: char| it.is_ascii()) => {
+                return self.foreign_line();
+            }
             None => ITEM_HELP.into(),
         };
         let is_body = self.begins_body();
@@ -122,7 +127,8 @@ impl Parser<'_, '_> {
                     self.element = self.word(0);
                 }
                 // The name of an edge or entry belongs to the next item.
-                if self.on_same_line() || !self.names_something(0) {
+                if self.at(Kind::Text) && self.target_in_signs() {
+                } else if self.on_same_line() || !self.names_something(0) {
                     self.name("name the first element");
                 } else {
                     self.expected_name("name the first element");
@@ -151,6 +157,7 @@ impl Parser<'_, '_> {
         let end = self.at;
         self.ty_of_entry();
         let is_typed = self.at != end;
+        self.no_sign_before_value();
         if is_typed && self.word_before() == "int" {
             self.int = name;
         }
@@ -165,7 +172,9 @@ impl Parser<'_, '_> {
     fn element(&mut self) {
         self.open_item(Kind::Element);
         self.keyword();
-        self.head("an actor's template, a computation's or a plan", false);
+        if !self.head("an actor's template, a computation's or a plan", false) {
+            return self.close_item();
+        }
         self.no_timing();
         if self.edge_without_braces() {
             return self.close_item();
@@ -211,8 +220,8 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    /// `NAME ":" ref [args]`
-    fn head(&mut self, what: &'static str, watches: bool) {
+    /// `NAME ":" ref [args]`. Returns whether a body may follow.
+    fn head(&mut self, what: &'static str, watches: bool) -> bool {
         self.word_twice();
         self.times_before_template(watches);
         if !watches && self.at(Kind::Name) {
@@ -228,6 +237,9 @@ impl Parser<'_, '_> {
             self.word_before_template();
             // The name of an edge or of the next item is not a template.
             let template = !self.names_something(0) && !self.begins_item();
+            if !watches && template && self.habit_of_template() {
+                return false;
+            }
             if self.at(Kind::Name) && (self.on_same_line() || template) {
                 self.template_name();
             } else {
@@ -239,6 +251,7 @@ impl Parser<'_, '_> {
         } else {
             self.ports_without_parentheses();
         }
+        true
     }
 
     fn template_name(&mut self) {
@@ -310,7 +323,7 @@ impl Parser<'_, '_> {
             self.error(error.replace("").about(subject));
             return self.pass(1);
         }
-        if self.port_in_braces() {
+        if self.port_in_braces() || self.state_in_two_words() {
             return;
         }
         if self.at_edge_with_hyphens() || self.at_edge() {
@@ -327,6 +340,11 @@ impl Parser<'_, '_> {
         if self.nth(1) == Kind::Dot && self.nth(2) == Kind::Name && self.arrow_at(3).is_some() {
             let message = "an edge begins with only the name of its state or event";
             return self.instead(2, message, message!("write '{}'", self.word(2)), "");
+        }
+        if what == BODY && self.at(Kind::Name) && self.nth(1) == Kind::Colon && self.explains() {
+            let message = message!("an element has no '{}'", self.word(0));
+            let error = Diagnostic::new(Code::E0102, self.next_span(), message).help("remove it");
+            return self.foreign_block(error.replace(""));
         }
         let help = match self.word(0) {
             "every" | "deadline" if self.at_timing() => TIME_BEHIND_BODY,

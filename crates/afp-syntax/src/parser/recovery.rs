@@ -71,7 +71,12 @@ impl Parser<'_, '_> {
         let at = self.tokens.partition_point(|token| token.start < cause);
         let is_sign = self.tokens.get(at).is_some_and(|token| token.text == ";");
         let behind = self.tokens.get(at + 1);
-        if !is_sign || !behind.is_none_or(|token| token.ends_line()) {
+        let ends = behind.is_none_or(|token| token.ends_line())
+            || self.tokens[at + 1..]
+                .iter()
+                .find(|it| !it.kind.is_trivia())
+                .is_some_and(|it| it.kind == Kind::CloseBrace);
+        if !is_sign || !ends {
             return;
         }
         self.supersede(diagnostic.span);

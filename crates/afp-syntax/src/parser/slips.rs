@@ -40,6 +40,9 @@ impl Parser<'_, '_> {
 
     /// Reports a word and reads it as another word.
     pub(super) fn read_as(&mut self, meant: &'static str, what: impl Into<Message>) {
+        if !self.word(0).is_ascii() {
+            self.supersede(self.next_span());
+        }
         self.report_skipped(what, message!("write '{}'", meant), Some(meant));
         self.slip = Some((self.at, meant));
     }

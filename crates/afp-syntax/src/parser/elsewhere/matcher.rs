@@ -3,14 +3,18 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use crate::habits::{HABITS, Habit, Places};
+use crate::habits::{FILE, HABITS, Habit, PLAN, Places, TEMPLATE, english, is_foreign_for};
 use crate::kind::Kind;
 use crate::lexer::Token;
+use crate::units::Unit;
 
 /// Whether a name begins with a capital letter, as states and templates do.
 pub(in crate::parser) fn is_large(name: &str) -> bool {
     name.starts_with(|first: char| first.is_ascii_uppercase())
 }
+
+/// The quotes of strings, and those of other languages.
+pub(in crate::parser) const QUOTES: [char; 3] = ['"', '\'', '`'];
 
 /// Whether a token is text of a plan, and not a comment or white space.
 pub(super) fn is_written(token: &Token<'_>) -> bool {
@@ -32,6 +36,9 @@ static BY_FIRST: LazyLock<BTreeMap<&'static str, Vec<usize>>> = LazyLock::new(||
     first
 });
 
+/// Where words of a pattern match in any case of letters: no name of a state can be there.
+pub(super) const ANY_CASE: Places = FILE | PLAN | TEMPLATE;
+
 /// The habits of a place with patterns that may begin with a token, in the order of the table.
 pub(super) fn beginning(token: &str, place: Places) -> Vec<&'static Habit> {
     let is_name = token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
@@ -40,10 +47,13 @@ pub(super) fn beginning(token: &str, place: Places) -> Vec<&'static Habit> {
         true => &["NAME", "ENTRY"],
         false if token == "^" => &["POWER"],
         false if token == "|" => &["PIPE"],
-        false if token.len() > 2 && token.starts_with('"') => &["TEXT"],
+        false if token.len() > 2 && token.starts_with(QUOTES) => &["TEXT"],
         false => &[],
     };
-    let words = std::iter::once(token).chain(classes.iter().copied());
+    let small = token.to_ascii_lowercase();
+    let small = Some(&*small).filter(|small| place & ANY_CASE != 0 && *small != token);
+    let words = [Some(token), small, english(token)].into_iter().flatten();
+    let words = words.chain(classes.iter().copied());
     let all = words.filter_map(|word| BY_FIRST.get(word)).flatten().copied();
     let mut found: Vec<usize> = all.filter(|index| HABITS[*index].at & place != 0).collect();
     found.sort_unstable();
@@ -57,6 +67,7 @@ pub(super) struct Matcher<'l, 't> {
     pub captures: Vec<String>,
     pub next: Option<usize>,
     pub is_formula: bool,
+    pub any_case: bool,
 }
 
 impl Matcher<'_, '_> {
@@ -119,10 +130,18 @@ impl Matcher<'_, '_> {
                 self.captures.push(text.to_owned());
             }
             "TEXT" if kind == Some(Kind::Text) => {
-                self.captures.push(text.trim_matches('"').to_owned());
+                self.captures.push(text.trim_matches(QUOTES).to_owned());
             }
+            "GOAL" => return self.goal(at),
             "NUM" if matches!(kind, Some(Kind::Int | Kind::Float)) => {
-                let unit = self.line.get(at + 1).is_some_and(|token| token.kind == Kind::Unit);
+                let behind = self.line.get(at + 1);
+                let unit = behind.is_some_and(|token| token.kind == Kind::Unit);
+                // `2 seconds`
+                let meant = behind.filter(|it| it.kind == Kind::Name && it.text.len() > 1);
+                if let Some(meant) = meant.and_then(|token| Unit::meant(token.text)) {
+                    self.captures.push(format!("{text} {meant}"));
+                    return Some(at + 2);
+                }
                 self.captures.push(self.between(at, at + 1 + usize::from(unit)));
                 return Some(at + 1 + usize::from(unit));
             }
@@ -134,7 +153,9 @@ impl Matcher<'_, '_> {
                     "NAME" => kind == Some(Kind::Name),
                     "PIPE" => text == "|",
                     "POWER" => text == "^",
-                    _ => !each.is_empty() && each == text,
+                    _ if each.is_empty() => false,
+                    _ if self.any_case && each.eq_ignore_ascii_case(text) => true,
+                    _ => each == text || kind == Some(Kind::Name) && is_foreign_for(each, text),
                 };
                 return match part.split('|').any(is_it) {
                     true => Some(at + 1),
@@ -142,6 +163,26 @@ impl Matcher<'_, '_> {
                 };
             }
         }
+        Some(at + 1)
+    }
+
+    /// `turn`, `'turn'`, `.turn`, `#robot.turn`: the name of a target.
+    fn goal(&mut self, mut at: usize) -> Option<usize> {
+        if matches!(self.text(at), "#" | ".") {
+            at += 1;
+        }
+        let name = self.text(at).trim_matches(QUOTES);
+        let is_name = |name: &str| {
+            name.starts_with(|first: char| first.is_ascii_alphabetic())
+                && name.bytes().all(|each| each.is_ascii_alphanumeric() || each == b'_')
+        };
+        let name = name.rsplit(['.', '#']).next().filter(|name| is_name(name))?.to_owned();
+        let next = self.text(at + 2).to_owned();
+        if self.text(at + 1) == "." && is_name(&next) {
+            self.captures.push(next);
+            return Some(at + 3);
+        }
+        self.captures.push(name);
         Some(at + 1)
     }
 

@@ -4,6 +4,7 @@ use super::words::{time, type_of};
 use super::{Found, OF_STD};
 use crate::diagnostics::words;
 use crate::habits::{BEHIND, GUARD, Sensor};
+use crate::kind::Kind;
 use crate::parser::Parser;
 
 /// The value that a computation of a help reads.
@@ -79,6 +80,39 @@ impl Parser<'_, '_> {
         self.sensor((help, &edge), &reads, found)
     }
 
+    /// The help for an edge of an event or state in another language; the sensor that it names
+    /// watches.
+    pub(super) fn watch_for(&self, event: &str, then: &str) -> String {
+        if let Some(supervisor) = self.known().events.get(event) {
+            return format!("write '{event} -> {then}' in the braces of '{supervisor}'");
+        }
+        let is_state = event.starts_with(|first: char| first.is_ascii_uppercase())
+            && event.contains(|each: char| each.is_ascii_lowercase());
+        let sensor = Sensor::named(event);
+        if is_state && sensor.is_none() {
+            return format!(
+                "write '{event} -> {then}'; an event belongs in the braces of its supervisor"
+            );
+        }
+        let sensor = sensor.unwrap_or_else(Sensor::touch);
+        let text = sensor.supervisor.replace("{limit}", sensor.limit.2).replace("{then}", then);
+        format!("write '{}'", text.replacen("supervise ", "supervise on_", 1))
+    }
+
+    /// The operand before a sign, with its unit or its brackets.
+    pub(super) fn operand_before(&self) -> String {
+        let mut first = self.at.saturating_sub(1);
+        let kind = |at: usize| self.solid.get(at).map(|at| self.tokens[*at as usize].kind);
+        if kind(first) == Some(Kind::Unit) {
+            first = first.saturating_sub(1);
+        } else if kind(first) == Some(Kind::CloseParen) {
+            let opens = (0..first).rev().find(|at| kind(*at) == Some(Kind::OpenParen));
+            first = opens.unwrap_or(first);
+            first -= usize::from(first > 0 && kind(first - 1) == Some(Kind::Name));
+        }
+        self.text_between(first, self.at)
+    }
+
     /// The state or event of an edge with a condition; the edge stays without it.
     fn edge_of<'f>(&'f self, found: &'f Found<'_>) -> Option<&'f str> {
         let is_first = found.habit.pattern.starts_with("NAME");
@@ -97,7 +131,13 @@ impl Parser<'_, '_> {
         found: &Found<'_>,
     ) -> Option<(String, String)> {
         let then = reads.then;
-        let sensor = Sensor::named(reads.name)?;
+        let is_called = |text: &&String| {
+            let behind = text.split_once(reads.name).map_or("", |(_, behind)| behind);
+            behind.starts_with(['(', '.'])
+        };
+        let call = found.captures.iter().find(is_called).map(String::as_str);
+        let sensor = Sensor::named(reads.name)
+            .or_else(|| call.map(|call| Sensor::named(call).unwrap_or_else(Sensor::touch)))?;
         let is_above = found.captures.iter().any(|capture| capture.contains('>'));
         let supervisor = match is_above && !sensor.above.is_empty() {
             true => sensor.above,

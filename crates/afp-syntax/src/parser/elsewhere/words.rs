@@ -1,5 +1,7 @@
 //! The plan text for a condition, a time or a name of another language.
 
+use super::matcher::QUOTES;
+use crate::habits::Sensor;
 use crate::units::Unit;
 
 /// A time in source form. A bare number gets a unit: `1 s` for `1000` ms.
@@ -31,7 +33,7 @@ pub(super) fn with_first(name: Option<&String>, change: impl Fn(&str) -> String)
 pub(super) fn first_of(condition: &str) -> &str {
     let inner = condition.trim().trim_end_matches([':', ',']).trim();
     let inner = inner.strip_prefix('(').and_then(|it| it.strip_suffix(')')).unwrap_or(inner);
-    let signs = ["&&", "&", "|", " and ", " or ", " xor ", "=>"];
+    let signs = ["&&", "&", "|", " and ", " or ", " und ", " oder ", " xor ", "=>", ", "];
     let end = signs.into_iter().filter_map(|sign| inner.find(sign)).min();
     inner[..end.unwrap_or(inner.len())].trim()
 }
@@ -48,11 +50,60 @@ pub(super) fn comparison(condition: &str) -> Option<(&str, &str, &str)> {
 /// A value without the parts that formulas lack: its first name, if there is more.
 fn simple(value: &str) -> &str {
     let value = value.trim();
-    if !value.contains(['(', ':', '[', '{', '?']) && !value.contains("->") {
+    let mut words = value.split_whitespace().zip(value.split_whitespace().skip(1));
+    let is_name = |word: &str| word.starts_with(|first: char| first.is_ascii_alphabetic());
+    let is_sentence = words.any(|(one, next)| is_name(one) && is_name(next));
+    let is_formula = !value.contains(['(', ':', '[', '{', '?']) && !value.contains("->");
+    if is_formula && !is_sentence && !value.starts_with('/') {
         return value;
     }
-    let ends = value.find(|each: char| !each.is_ascii_alphanumeric() && each != '_');
-    &value[..ends.unwrap_or(value.len())]
+    let inner = value.trim_start_matches(|each: char| !each.is_ascii_alphanumeric());
+    // Of words without a sign, the one that a sensor is known by is the value.
+    let word = inner.split_whitespace().find(|word| is_sentence && Sensor::named(word).is_some());
+    let inner = word.unwrap_or(inner);
+    let ends = inner.find(|each: char| !each.is_ascii_alphanumeric() && each != '_');
+    &inner[..ends.unwrap_or(inner.len())]
+}
+
+/// The value that a call shows: `"n is " + n` for `"n is", n`.
+pub(super) fn shown(arguments: &str) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    let (mut depth, mut quote, mut part) = (0_usize, None, String::new());
+    for each in arguments.chars() {
+        match (quote, each) {
+            (None, '(' | '[' | '{') => depth += 1,
+            (None, ')' | ']' | '}') => depth = depth.saturating_sub(1),
+            (None, ',') if depth == 0 => {
+                parts.push(std::mem::take(&mut part));
+                continue;
+            }
+            (None, sign) if QUOTES.contains(&sign) => quote = Some(sign),
+            (Some(open), sign) if sign == open => quote = None,
+            _ => {}
+        }
+        part.push(each);
+    }
+    parts.push(part);
+    let parts: Vec<_> = parts.iter().map(|part| part.trim()).filter(|it| !it.is_empty()).collect();
+    let is_text = |part: &str| part.starts_with(QUOTES) && part.len() > 1;
+    let has_more = parts.len() > 1;
+    let texts = parts.iter().map(|part| match is_text(part) {
+        true => {
+            let inner = part.trim_matches(QUOTES).replace("\\n", "");
+            let inner =
+                ["%d", "%f", "%s", "%i", "{}"].iter().fold(inner, |it, of| it.replace(of, ""));
+            format!("\"{}{}\"", inner.trim_end(), if has_more { " " } else { "" })
+        }
+        false => (*part).to_owned(),
+    });
+    let texts: Vec<_> = texts.collect();
+    match texts.as_slice() {
+        [] => "\"\"".to_owned(),
+        [first, ..] if has_more && !first.starts_with('"') => {
+            format!("\"\" + {}", texts.join(" + \" \" + "))
+        }
+        texts => texts.join(" + "),
+    }
 }
 
 /// A number with its unit, without the text after it; any other text unchanged.

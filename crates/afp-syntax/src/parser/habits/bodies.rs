@@ -1,6 +1,7 @@
 //! Text in the braces of an element or a supervisor as in other languages.
 
 use crate::diagnostics::{Code, Diagnostic};
+use crate::habits::{STATES, ours};
 use crate::kind::Kind;
 use crate::message;
 use crate::parser::Parser;
@@ -59,9 +60,44 @@ impl Parser<'_, '_> {
         match self.nth(1) {
             _ if !self.at(Name) || self.begins_line(1) || self.begins_line(2) => false,
             Equal | Colon if is_value => true,
-            Equal | FatArrow => is_small && self.nth(2) == Name,
+            Equal | FatArrow => {
+                let is_entry = self.known().entries.contains_key(self.word(2));
+                let is_state = ours(STATES, self.word(0)).is_some() && !is_entry;
+                is_small && self.nth(2) == Name && !is_state
+            }
             _ => self.changes() && is_small,
         }
+    }
+
+    /// Reports and takes an edge whose state is written in two words: `Forward Successful -> turn`.
+    /// Returns whether there is one.
+    pub(in crate::parser) fn state_in_two_words(&mut self) -> bool {
+        let [first, second] = [self.word(0), self.word(1)];
+        let stands = is_large(first)
+            && is_large(second)
+            && first != second
+            && !self.begins_line(1)
+            && self.nth(2) == Kind::Arrow;
+        if stands {
+            let error = Diagnostic::new(Code::E0102, self.ahead(2), "a name is one word");
+            let (one, two) = (format!("{first}{second}"), format!("{first}, {second}"));
+            self.error(error.help(message!("write '{}', or '{}' for two names", one, two)));
+            self.pass(1);
+            self.edge();
+        }
+        stands
+    }
+
+    /// Reports and skips a line of a plan that has no meaning, with the block below it.
+    pub(in crate::parser) fn foreign_line(&mut self) {
+        let (word, element) = (self.word(0), self.element);
+        let message = message!("a plan has no '{}'", word);
+        let help = message!(
+            "remove it, or write an element, such as 'actor wait: Wait {{ Elapsed -> {} }}'",
+            element
+        );
+        let error = Diagnostic::new(Code::E0102, self.next_span(), message).help(help);
+        self.foreign_block(error);
     }
 
     /// Whether an edge begins here, perhaps with an invalid word before it.

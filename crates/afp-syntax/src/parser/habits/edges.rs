@@ -5,6 +5,7 @@ use crate::keywords::{self, PLAN};
 use crate::kind::Kind;
 use crate::message;
 use crate::parser::Parser;
+use crate::parser::elsewhere::QUOTES;
 
 impl Parser<'_, '_> {
     /// `fail("why")`, `terminate()`, `home()`: reports the brackets after a target and returns
@@ -47,12 +48,15 @@ impl Parser<'_, '_> {
         }
         if self.at(Kind::Text) {
             let text = self.token(0).map_or("", |token| token.text);
-            let name = text.trim_matches('"');
+            let name = text.trim_matches(QUOTES);
             let is_name = name.chars().all(|sign| sign.is_alphanumeric() || sign == '_');
             let (message, better) = match is_name && !name.is_empty() {
                 true => ("a target has no quotes", name.to_owned()),
                 false => ("only 'fail' takes a string", format!("fail {text}")),
             };
+            if is_name {
+                self.supersede(self.next_span());
+            }
             self.instead(1, message, message!("write '{}'", better), &better);
             return true;
         }

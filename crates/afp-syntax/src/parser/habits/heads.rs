@@ -107,8 +107,10 @@ impl Parser<'_, '_> {
     /// Reports and reads a name of two words: `actor hold still: Hold`. Returns whether there is
     /// one.
     pub(in crate::parser) fn name_in_two_words(&mut self) -> bool {
-        let stands = (self.nth(0), self.nth(1), self.nth(2))
-            == (Kind::Name, Kind::Name, Kind::Colon)
+        let behind = if self.word_before() == "plan" { Kind::OpenBrace } else { Kind::Colon };
+        let stands = (self.nth(0), self.nth(1), self.nth(2)) == (Kind::Name, Kind::Name, behind)
+            && !matches!(self.word(1), "forever" | "loop" | "always" | "cyclic" | "endless")
+            && crate::diagnostics::words::nearest(self.word(1), ["forever"]).is_none()
             && self.on_same_line()
             && !self.begins_line(1);
         if stands {
@@ -157,10 +159,14 @@ impl Parser<'_, '_> {
             return false;
         };
         let is_port = (0..tokens).any(|at| matches!(self.nth(at), Kind::Equal | Kind::FatArrow));
-        if self.at(Kind::OpenParen) || is_port || !self.on_same_line() {
+        if self.at(Kind::OpenParen) || !self.on_same_line() {
             return false;
         }
-        if !self.habit(HEAD) {
+        let is_habit = self.habit(HEAD);
+        if is_port && !is_habit {
+            return false;
+        }
+        if !is_habit {
             let message = message!("unexpected '{}' before '{{'", self.text_of(0, tokens));
             self.instead(tokens, message, "remove it", "");
         }

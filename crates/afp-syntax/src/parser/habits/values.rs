@@ -52,14 +52,28 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `x ** 2`, after the first sign: the help that names the product.
-    pub(in crate::parser) fn power_help(&self) -> crate::diagnostics::Message {
+    /// `x ** 2`, after the first sign: the error with the product.
+    pub(in crate::parser) fn with_product(&self, error: Diagnostic) -> Diagnostic {
         let base = self.at.checked_sub(2).map(|at| self.text_between(at, at + 1));
-        match (self.token(1).map_or("", |power| power.text), base) {
-            ("2", Some(base)) if !base.is_empty() && base != ")" => {
-                message!("write '{} * {}'", base, base)
+        match (self.token(1), base) {
+            (Some(power), Some(base)) if power.text == "2" && !base.is_empty() && base != ")" => {
+                let better = format!("{base} * {base}");
+                let place = self.place_between(self.at - 2, self.at).to(self.span_of(power));
+                error.help(message!("write '{}'", better)).fix(place, better)
             }
-            _ => "write a product, such as 'x * x'".into(),
+            _ => error.help("write a product, such as 'x * x'"),
+        }
+    }
+
+    /// `var x: length 3 m`: reports the missing '=' before a value, which is read next.
+    pub(in crate::parser) fn no_sign_before_value(&mut self) {
+        let is_value = matches!(self.nth(0), Kind::Int | Kind::Float | Kind::Text)
+            || matches!(self.word(0), "true" | "false");
+        if is_value && self.on_same_line() {
+            let here = self.here().before();
+            let error = Diagnostic::new(Code::E0102, here, "missing '=' before the value");
+            self.error(error.help("write '='").fix(here, "= "));
+            self.formula();
         }
     }
 
