@@ -23,7 +23,7 @@ pub enum Need {
 }
 
 /// Prefixes of the names of these programs.
-const PROGRAMS: [&str; 6] = ["python", "pip", "node", "npm", "npx", "chrom"];
+const PROGRAMS: [&str; 7] = ["python", "pip", "node", "npm", "npx", "chrom", "cyclictest"];
 
 impl Need {
     /// Whether the program is installed.
