@@ -13,6 +13,8 @@
 //! on Networking 7 (2), 1999) removes all zero bytes from a frame, and a zero byte ends it. So a receiver finds the next
 //! frame after any disturbance.
 //!
+//! A frame has at most 253 bytes before it is stuffed.
+//!
 //! A connection begins with a hello from both ends. Before it, messages are rejected; so are messages of another version
 //! and of another life of the other end. The receiver of commands stops its motors after [`COMMAND_TIMEOUT`] without a
 //! command.

@@ -146,6 +146,31 @@ fn silence_is_measured_from_the_last_frame_that_counts() {
     assert!(End::new(3).is_silent(START, limit), "never heard");
 }
 
+/// Byte stuffing with zeros at every place, up to the longest frame.
+#[test]
+fn frames_of_every_length_arrive_and_longer_frames_are_refused() {
+    for length in 0..400 {
+        for zero in [0, 1, 7, 400] {
+            let mut sender = Sender::new(1, 3);
+            let mut receiver = Receiver::<512>::new(3);
+            let mut buffer = [0; 512];
+            for byte in sender.hello(&mut buffer).unwrap() {
+                let _ = receiver.receive::<Vec<u8>>(*byte, START);
+            }
+            let bytes: Vec<u8> =
+                (0..length).map(|at: usize| u8::from(zero == 0 || at % zero != 0)).collect();
+            let Ok(frame) = sender.send(&bytes, &mut buffer) else {
+                assert!(length > 240, "{length}");
+                continue;
+            };
+            assert!(frame.len() <= 255 && !frame[..frame.len() - 1].contains(&0));
+            let heard = frame.iter().filter_map(|byte| receiver.receive::<Vec<u8>>(*byte, START));
+            let expected = Ok(Received::Message { message: bytes.clone(), lost: 0 });
+            assert_eq!(heard.collect::<Vec<_>>(), [expected]);
+        }
+    }
+}
+
 fn command() -> impl Strategy<Value = Command> {
     prop_oneof![
         (any::<f64>(), any::<f64>()).prop_filter_map("NaN equals nothing", |(speed, turn)| {
