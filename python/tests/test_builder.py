@@ -13,7 +13,7 @@ import afp
 EVERYTHING = (
     afp.WorldBuilder(
         'A "hall"\n\x7fä', start=(afp.cm(80), 0.8, afp.deg(20)), charge=0.9, floor="#c0c0c0", floor_texture="checks",
-        length=0.3, width=0.2, track=0.16, wheelbase=0.1, steering=afp.deg(30.0), fastest=0.4, sonar=0.1,
+        length=0.3, width=0.2, track=0.16, wheelbase=0.1, steering=afp.deg(30.0), fastest=0.4, sonar=0.1, encoders=False,
     )
     .room(5.0, 4.0, texture="bricks", height=2.0)
     .wall([(3.0, 0.0), (3.0, 1.0)], name="stub", thickness=0.08, echo=0.5, mapped=False, color="#112233")

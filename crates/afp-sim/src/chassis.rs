@@ -26,6 +26,8 @@ pub struct Measures {
     pub fastest: f64,
     /// The distance from the turning centre ahead to the range sensor, in metres.
     pub sonar: f64,
+    /// Whether the wheels have encoders. Otherwise the odometry counts the commands.
+    pub encoders: bool,
 }
 
 impl Measures {
@@ -36,6 +38,7 @@ impl Measures {
         narrowest: 0.0,
         fastest: 0.31,
         sonar: 0.10,
+        encoders: true,
     };
 
     /// The chassis. Only its outline differs from the Carbot's.

@@ -24,8 +24,8 @@ class WorldBuilder:
     `afp.deg(20)`. An invalid part raises at once, in its own method. `toml` is the text of the
     world's file, which reads as the same world.
 
-    `length`, `width`, `track`, `fastest` (metres a second) and `sonar` are measures of the robot, by
-    default those of the Carbot. `wheelbase` and `steering` (an angle) make it a car.
+    `length`, `width`, `track`, `fastest` (metres a second), `sonar` and `encoders` describe the
+    robot, by default the Carbot. `wheelbase` and `steering` (an angle) make it a car.
 
     >>> hall = WorldBuilder("Hall", start=(0.8, 0.8)).room(5.0, 4.0).box("crate", (2.0, 2.0), size=(0.4, 0.4), height=0.5)
     >>> hall.build()
@@ -47,6 +47,7 @@ class WorldBuilder:
         steering: float | None = None,
         fastest: float | None = None,
         sonar: float | None = None,
+        encoders: bool | None = None,
         floor: str | None = None,
         floor_texture: str | None = None,
     ) -> None:
@@ -62,6 +63,7 @@ class WorldBuilder:
             "steering_deg": None if steering is None else round(math.degrees(steering), 10),
             "fastest_m_s": number_in("fastest", fastest, "m/s"),
             "sonar_m": number_in("sonar", sonar, "m"),
+            "encoders": encoders,
         }
         look = {"color": floor, "texture": floor_texture}
         self._parts: tuple[str, ...] = (_lines(head), _table("[robot]", robot))

@@ -2,6 +2,10 @@
 //!
 //! Its errors are realistic: the controller's wheel size and track width are slightly wrong, the
 //! wheels slip, and the counts are noisy.
+//!
+//! Without encoders, it counts the commanded speeds. Such an estimate does not notice that the motors
+//! need time, that a wheel slips or that the robot pushes against a wall, and no two robots drive
+//! equally fast with the same power.
 
 use crate::noise::{Noise, Source};
 use crate::vehicle::wheel::Wheel;
@@ -11,6 +15,8 @@ use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 /// Standard deviations of the robots' calibration: wheel size and track width.
 const SCALE: f64 = 0.006;
 const TRACK: f64 = 0.008;
+/// The same for robots without encoders: the speed at a power, and the steering. Assumed.
+const ESTIMATED: [f64; 2] = [0.08, 0.08];
 /// Standard deviation of the counts of one step, as a share of the speed.
 const COUNTS: f64 = 0.03;
 
@@ -19,6 +25,7 @@ pub(crate) struct Odometer {
     noise: Noise,
     scale: f64,
     turn_scale: f64,
+    encoders: bool,
     x: f64,
     y: f64,
     heading: f64,
@@ -27,12 +34,14 @@ pub(crate) struct Odometer {
 }
 
 impl Odometer {
-    pub(crate) fn new(seed: u64, build: &mut Noise) -> Self {
-        let scale = 1.0 + SCALE * build.normal();
+    pub(crate) fn new(seed: u64, build: &mut Noise, encoders: bool) -> Self {
+        let [speed, turn] = if encoders { [SCALE, TRACK] } else { ESTIMATED };
+        let scale = 1.0 + speed * build.normal();
         Odometer {
             noise: Source::Odometry.of(seed),
             scale,
-            turn_scale: scale * (1.0 + TRACK * build.normal()),
+            turn_scale: scale * (1.0 + turn * build.normal()),
+            encoders,
             x: 0.0,
             y: 0.0,
             heading: 0.0,
@@ -43,7 +52,8 @@ impl Odometer {
 
     /// Counts `dt` seconds of the wheels' motion.
     pub(crate) fn step(&mut self, wheels: &[Wheel; 2], dt: f64) {
-        let ((left_x, left_y), (right_x, right_y)) = (wheels[0].velocity(), wheels[1].velocity());
+        let velocity = if self.encoders { Wheel::velocity } else { Wheel::commanded };
+        let ((left_x, left_y), (right_x, right_y)) = (velocity(&wheels[0]), velocity(&wheels[1]));
         // The least-squares motion of the body for both wheels.
         let [x, y] = wheels[0].at();
         let across = y * (right_x - left_x) + x * (left_y + right_y);

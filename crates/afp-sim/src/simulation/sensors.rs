@@ -64,7 +64,7 @@ pub(super) struct Sensors {
 impl Sensors {
     pub(super) fn new(world: &World, seed: u64) -> Self {
         let mut differences = Source::Build.of(seed);
-        let odometer = Odometer::new(seed, &mut differences);
+        let odometer = Odometer::new(seed, &mut differences, world.measures.encoders);
         let noise = Source::Ultrasonic.of(seed);
         Sensors {
             odometer,

@@ -58,6 +58,11 @@ impl Wheel {
         (self.speed * self.direction.0, self.speed * self.direction.1)
     }
 
+    /// The commanded velocity of the contact in the body's frame.
+    pub(crate) fn commanded(&self) -> (f64, f64) {
+        self.wanted
+    }
+
     /// Sets the contact's velocity from the body's commanded motion.
     pub(super) fn obey(&mut self, speed: f64, turn: f64) {
         let (x, y) = (speed - turn * self.at[1], turn * self.at[0]);

@@ -137,7 +137,9 @@ impl Check<'_> {
         }
         let sonar = robot.sonar_m.unwrap_or(usual.sonar);
         self.not_negative(&key.at("sonar_m"), sonar)?;
-        Ok(Measures { half: [length / 2.0, width / 2.0], wheels, narrowest, fastest, sonar })
+        let half = [length / 2.0, width / 2.0];
+        let encoders = robot.encoders.unwrap_or(usual.encoders);
+        Ok(Measures { half, wheels, narrowest, fastest, sonar, encoders })
     }
 
     fn wall(

@@ -9,7 +9,7 @@ use toml_edit::{DocumentMut, Item};
 const FULL: &str = r##"
 version = 1
 name = "everything"
-robot = { pose_m_deg = [0, 0, 0], charge = 0.5, length_m = 0.3, width_m = 0.2, track_m = 0.16, wheelbase_m = 0.09, steering_deg = 30, fastest_m_s = 0.4, sonar_m = 0.1 }
+robot = { pose_m_deg = [0, 0, 0], charge = 0.5, length_m = 0.3, width_m = 0.2, track_m = 0.16, wheelbase_m = 0.09, steering_deg = 30, fastest_m_s = 0.4, sonar_m = 0.1, encoders = false }
 floor = { color = "#ffffff", texture = "checks" }
 [[wall]]
 name = "wall"

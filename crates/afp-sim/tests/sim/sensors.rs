@@ -1,8 +1,8 @@
 //! The readings of the sensors.
 
-use crate::{among, drive, the_box, wait};
+use crate::{among, among_with, drive, the_box, wait};
 use afp_carbot::devices::{
-    Button, Buttons, Echo, Invalid, RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
+    Button, Buttons, Echo, Invalid, Odometry, RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
 };
 use afp_core::quantity::Angle;
 use afp_sim::Simulation;
@@ -138,4 +138,24 @@ fn a_wall_behind_the_robot_is_not_beside_it() {
         assert!(sim.truth().right_side_gap().is_some());
     }
     assert_eq!(among("").truth().right_side_wall(), None);
+}
+
+/// The odometry of a robot against a wall that it pushes: the true way, and the counted way.
+fn pushed(encoders: bool, seed: u64) -> (f64, f64) {
+    let wall = "[[wall]]\npoints_m = [[1.0, -1.0], [1.0, 1.0]]\n";
+    let mut sim = among_with(&format!("encoders = {encoders}\n{wall}"), seed);
+    drive(&mut sim, 0.2, 0.0, 8000);
+    (sim.truth().pose().x, sim.motion().value.unwrap().x.si())
+}
+
+#[test]
+fn a_robot_without_encoders_counts_on_while_a_wall_blocks_it() {
+    let (way, counted) = pushed(true, 1);
+    assert!((counted / way - 1.0).abs() < 0.05, "{way} {counted}");
+    let all: Vec<_> = (0..20).map(|seed| pushed(false, seed)).collect();
+    assert!(all.iter().all(|(way, counted)| *way < 1.0 && *counted > 1.2), "{all:?}");
+    // No two robots drive equally fast with the same power.
+    let counts = all.iter().map(|(_, counted)| counted / 1.6);
+    let spread = (counts.map(|it| (it - 1.0).powi(2)).sum::<f64>() / 20.0).sqrt();
+    assert!((0.04..0.15).contains(&spread), "{spread}");
 }

@@ -74,6 +74,7 @@ const ROBOT: &[Key] = &[
     maybe("steering_deg", Number, "steering_deg = 30"),
     maybe("fastest_m_s", Number, "fastest_m_s = 0.5"),
     maybe("sonar_m", Number, "sonar_m = 0.08"),
+    maybe("encoders", Truth, "encoders = false"),
 ];
 
 const WALL: &[Key] = &[

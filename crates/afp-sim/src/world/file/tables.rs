@@ -42,6 +42,7 @@ pub(super) struct Robot {
     pub(super) steering_deg: Option<f64>,
     pub(super) fastest_m_s: Option<f64>,
     pub(super) sonar_m: Option<f64>,
+    pub(super) encoders: Option<bool>,
 }
 
 #[derive(Default, Deserialize)]
