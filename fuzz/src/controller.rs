@@ -1,8 +1,9 @@
-//! Bytes and commands for the controller of a drive.
+//! Bytes and commands for the controller of a drive, and bytes of controllers.
 
 use afp_core::Instant;
-use afp_drive::{Command, Controller, Inputs, LONGEST, STEP, Setup, VERSION};
-use afp_wire::{COMMAND_TIMEOUT, Sender};
+use afp_drive::{Command, Controller, Inputs, LONGEST, Report, STEP, Setup, VERSION};
+use afp_pi::Reports;
+use afp_wire::{COMMAND_TIMEOUT, Receiver, Sender};
 
 /// The motors' power is always valid, and zero after silence.
 pub fn controller(data: &[u8]) {
@@ -33,6 +34,22 @@ pub fn controller(data: &[u8]) {
     let steps = COMMAND_TIMEOUT.as_nanos() / STEP.as_nanos() + 1;
     let last = (0..steps).map(|_| step(&mut controller, 0).0).last();
     assert_eq!(last, Some([0.0; 2]));
+}
+
+/// Every report of a UGV's bytes is possible, and the next whole line is a report, unless a counter
+/// has jumped. A second controller may send the same bytes.
+pub fn ugv(data: &[u8]) {
+    let mut reports = Reports::new(&Setup::default());
+    let mut receiver = Receiver::<LONGEST>::new(VERSION);
+    for byte in data {
+        assert!(reports.take(*byte).is_none_or(|report| report.is_possible()));
+        let _ = receiver.receive::<Report>(*byte, Instant::ZERO);
+    }
+    let mut last = None;
+    for byte in b"\n{\"T\":1001,\"L\":0.1,\"R\":0.1,\"odl\":1,\"odr\":1}\n" {
+        last = reports.take(*byte);
+    }
+    assert!(last.is_some_and(|report| report.speed == 0.1) || reports.has_restarted());
 }
 
 /// A command, possible or not.

@@ -12,7 +12,7 @@ mod messages;
 mod names;
 mod text;
 
-pub use controller::controller;
+pub use controller::{controller, ugv};
 pub use debugger::debugger;
 pub use deploy::deploy;
 pub use edits::edits;
@@ -32,6 +32,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("messages", messages),
     ("debugger", debugger),
     ("controller", controller),
+    ("ugv", ugv),
     ("deploy", deploy),
     ("frames", frames),
     ("settings", settings),

@@ -24,6 +24,7 @@ const SEEDS: &[(&str, &[&str])] = &[
     ("messages", &[]),
     ("debugger", &[]),
     ("controller", &[]),
+    ("ugv", &[]),
     ("deploy", &[]),
     ("frames", &[]),
 ];

@@ -1,5 +1,9 @@
-//! Reads a linked image: its symbols and its code size.
+//! Reads a linked image: its symbols, its code size, and the bytes for a board's flash.
 
+use std::collections::BTreeMap;
+
+use object::elf::PT_LOAD;
+use object::read::elf::{ElfFile32, ProgramHeader};
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
 
 use crate::shell::Failure;
@@ -29,6 +33,47 @@ pub fn read(bytes: &[u8]) -> Result<Image, Failure> {
     Ok(Image { text: kept.map(|section| section.size()).sum(), symbols })
 }
 
+/// The bytes of an UF2 block with its payload, and of the payload.
+const BLOCK: usize = 512;
+const PAGE: usize = 256;
+/// The numbers that begin and end a block, the flag of a block with a family, and the family of the
+/// Pico's microcontroller.
+const BEGIN: [u32; 2] = [0x0a32_4655, 0x9e5d_5157];
+const END: u32 = 0x0ab1_6f30;
+const HAS_FAMILY: u32 = 0x2000;
+const RP2040: u32 = 0xe48b_ff56;
+
+/// The UF2 file of an image for a Raspberry Pi Pico, which is copied to the Pico's drive.
+///
+/// # Errors
+/// The file is not an image.
+pub fn uf2(bytes: &[u8]) -> Result<Vec<u8>, Failure> {
+    let file = ElfFile32::<object::Endianness>::parse(bytes)?;
+    let endian = file.endian();
+    let mut pages: BTreeMap<u32, [u8; PAGE]> = BTreeMap::new();
+    for header in file.elf_program_headers() {
+        if header.p_type(endian) != PT_LOAD {
+            continue;
+        }
+        let data = header.data(endian, bytes).map_err(|()| "a segment is not in the file")?;
+        for (at, byte) in (header.p_paddr(endian)..).zip(data) {
+            let within = at % PAGE as u32;
+            pages.entry(at - within).or_insert([0; PAGE])[within as usize] = *byte;
+        }
+    }
+    let count = pages.len() as u32;
+    let block = |(number, (at, page)): (usize, (u32, [u8; PAGE]))| {
+        let [first, second] = BEGIN;
+        let numbers = [first, second, HAS_FAMILY, at, PAGE as u32, number as u32, count, RP2040];
+        let mut block: Vec<u8> = numbers.iter().flat_map(|it| it.to_le_bytes()).collect();
+        block.extend(page);
+        block.resize(BLOCK - 4, 0);
+        block.extend(END.to_le_bytes());
+        block
+    };
+    Ok(pages.into_iter().enumerate().flat_map(block).collect())
+}
+
 impl Image {
     /// The symbols that belong to panics.
     pub fn panics(&self) -> Vec<&str> {
@@ -50,6 +95,6 @@ mod tests {
 
     #[test]
     fn bytes_that_are_not_an_image_are_refused() {
-        assert!(read(b"plan").is_err());
+        assert!(read(b"plan").is_err() && uf2(b"plan").is_err());
     }
 }

@@ -51,6 +51,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("pi", &[], pi::run),
     ("deploy", &[], deploy::run),
     ("ways out", &[Cyclictest], ways_out),
+    ("guard", &[], guard),
     ("other systems", &[Python], systems::run),
     ("engine", &[], engine::run),
     ("python", &[Python], python::run),
@@ -107,6 +108,9 @@ const FUZZED: u32 = 600;
 
 /// Runs of each way out of a run on a real robot.
 const WAYS_OUT: &str = "100";
+
+/// Kills of a run and of its guard.
+const GUARD: &str = "100";
 
 /// Runs the named suites and prints the summary. Without a name it runs all suites whose
 /// requirements are met. With `all`, or with `CI` set, an unmet requirement is a failure.
@@ -235,7 +239,9 @@ fn again(name: &str) -> String {
         "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
         "ways out" | "python long" | "other systems" => format!("    cargo xtask nightly '{name}'"),
         "wheels" => "    cargo xtask wheels".to_owned(),
-        "arm" | "pi" | "deploy" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
+        "arm" | "pi" | "deploy" | "engine" | "guard" | "opencv" => {
+            format!("    cargo xtask nightly {name}")
+        }
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
         }
@@ -270,6 +276,14 @@ fn ways_out() -> Result<(), Failure> {
         run_command(cargo().args(test).args(one).env("AFP_WAYS_OUT", WAYS_OUT))?;
     }
     Ok(())
+}
+
+/// The times from a killed run to motors without power, and from a killed guard to the end of the
+/// run, in series.
+fn guard() -> Result<(), Failure> {
+    let test =
+        ["test", "--package", "afpc", "--features", "full", "--test", "afpc", "wired::after"];
+    run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_GUARD", GUARD))
 }
 
 /// The README's first command, on a machine with only Rust and a C linker.

@@ -5,7 +5,8 @@
 //! does, without hardware, so that the same code runs in the controller's program and in tests. A
 //! program for a board calls [`Controller::receive`] for each byte from the line and
 //! [`Controller::step`] every [`STEP`]. It applies the [`Outputs`] to the motors and the servo, and
-//! sends the bytes of [`Controller::transmit`].
+//! sends the bytes of [`Controller::transmit`]. [`parts`] has drivers of motors, encoders, switches and
+//! range sensors.
 //!
 //! The life of a connection, with frames of [`afp_wire`]:
 //!
@@ -45,6 +46,7 @@ extern crate std;
 mod controller;
 mod messages;
 mod odometry;
+pub mod parts;
 mod wheel;
 
 use afp_types::Duration;

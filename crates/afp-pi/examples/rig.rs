@@ -33,6 +33,8 @@ pub struct State {
     pub ways: [f64; 2],
     /// Position in metres and heading in radians.
     pub pose: [f64; 3],
+    /// The car of the profile `picarx` with its errors; `None` for the profile `pi`.
+    pub car: Option<Car>,
     /// How often the body has touched a wall.
     pub bumps: u32,
     touches: bool,
@@ -40,6 +42,21 @@ pub struct State {
     stepped: Instant,
     pinged: Instant,
 }
+
+/// A car: its measures as the program knows them, and its errors.
+#[derive(Clone, Copy)]
+pub struct Car {
+    /// The driven distance over the commanded distance.
+    pub scale: f64,
+    /// The real wheelbase in metres.
+    pub wheelbase: f64,
+    /// The angle of the front wheels at the command straight ahead, in radians to the left.
+    pub aside: f64,
+}
+
+/// The track and the wheelbase of the project of `afpc new --profile picarx`.
+const CAR_TRACK: f64 = 0.1167;
+const WHEELBASE: f64 = 0.0872;
 
 /// A rig that runs until the end of the program.
 #[derive(Clone)]
@@ -56,6 +73,7 @@ impl Rig {
             rims: [0.0; 2],
             ways: [0.0; 2],
             pose,
+            car: None,
             bumps: 0,
             touches: false,
             bearing: 0.0,
@@ -93,6 +111,17 @@ impl Rig {
     }
 }
 
+impl Car {
+    /// The speed and the turn rate for the commanded speeds of the rear wheels.
+    fn motion(&self, left: f64, right: f64) -> (f64, f64) {
+        let asked = (left + right) / 2.0;
+        let curvature = if asked.abs() < 1e-9 { 0.0 } else { (right - left) / CAR_TRACK / asked };
+        let angle = (WHEELBASE * curvature).atan() + self.aside;
+        let speed = asked * self.scale;
+        (speed, speed * angle.tan() / self.wheelbase)
+    }
+}
+
 impl State {
     /// Takes a command, and gives the readings.
     fn step(&mut self, line: &str) -> String {
@@ -109,10 +138,15 @@ impl State {
             *way += *rim * dt;
         }
         let [left, right] = self.rims;
+        let (speed, turn) = match self.car {
+            Some(car) => car.motion(left, right),
+            None => ((left + right) / 2.0, (right - left) / TRACK),
+        };
         let [x, y, heading] = &mut self.pose;
-        *x += (left + right) / 2.0 * dt * heading.cos();
-        *y += (left + right) / 2.0 * dt * heading.sin();
-        *heading += (right - left) / TRACK * dt;
+        let (sin, cos) = (*heading + turn * dt / 2.0).sin_cos();
+        *x += speed * dt * cos;
+        *y += speed * dt * sin;
+        *heading += turn * dt;
         let touches = [0.0, PI].iter().any(|side| self.ray(0.0, *side) < HALF);
         self.bumps += u32::from(touches && !self.touches);
         self.touches = touches;

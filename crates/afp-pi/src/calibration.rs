@@ -2,6 +2,9 @@
 //!
 //! The wheels count ways that are wrong by a factor each. A drive whose counts say "straight" is
 //! therefore an arc of a circle, and its end gives both factors. Turns on the spot give the track.
+//!
+//! A car without encoders counts its commands. Its drive gives the speed and the steering angle at
+//! which it drives straight ahead, and circles give the wheelbase.
 
 use std::f64::consts::TAU;
 
@@ -38,25 +41,74 @@ pub struct Found {
     pub trim: f64,
 }
 
+/// The errors of the measures of a car without encoders.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundCar {
+    /// The driven distance over the commanded distance.
+    pub scale: f64,
+    /// The distance between the axes, in metres.
+    pub wheelbase: f64,
+    /// The angle of the front wheels at which it drives straight ahead, in radians to the left.
+    pub straight: f64,
+}
+
+/// The length of the arc that begins in the direction of the line and ends at a place, and the
+/// change of its direction.
+fn arc([ahead, left]: [f64; 2]) -> (f64, f64) {
+    let bend = 2.0 * libm::atan2(left, ahead);
+    let (chord, half) = (libm::hypot(ahead, left), bend / 2.0);
+    (if half.abs() < 1e-6 { chord } else { chord * half / libm::sin(half) }, bend)
+}
+
+/// Whether a factor is that of a possible error.
+fn is_near(factor: f64) -> bool {
+    (0.8..=1.25).contains(&factor)
+}
+
+/// Solves for the measures of a car that drove with this wheelbase, in metres: straight ahead, and
+/// in circles with this radius, as commanded.
+///
+/// Returns `None` as [`solve`] does.
+pub fn solve_car(
+    wheelbase: f64,
+    straight: &Straight,
+    (radius, circles): (f64, &Spin),
+) -> Option<FoundCar> {
+    if straight.counted < 0.5 || circles.counted.abs() < TAU || straight.end[0] <= 0.0 {
+        return None;
+    }
+    let (way, bend) = arc(straight.end);
+    let scale = way / straight.counted;
+    let drift = bend / way;
+    let curvature = circles.seen / (scale * circles.counted * radius);
+    // The tangent of the commanded angle, to which the front wheels add the angle of the drift.
+    let asked = wheelbase / radius;
+    let mut found = wheelbase;
+    for _ in 0..50 {
+        let added = drift * found;
+        found = (asked + added) / ((1.0 - asked * added) * curvature);
+    }
+    let angle = -libm::atan(drift * found);
+    let is_car = is_near(scale) && is_near(found / wheelbase) && angle.abs() < STEERS;
+    is_car.then_some(FoundCar { scale, wheelbase: found, straight: angle })
+}
+
+/// Front wheels that point farther aside are not mounted well, in radians.
+const STEERS: f64 = 0.35;
+
 /// Solves for the measures of a robot that drove with this track, in metres.
 ///
 /// Returns `None` if the drives are too short or the numbers are not those of a robot: an error of
 /// more than 25%.
 pub fn solve(track: f64, straight: &Straight, spin: &Spin) -> Option<Found> {
-    let [ahead, left] = straight.end;
-    if straight.counted < 0.5 || spin.counted.abs() < TAU || ahead <= 0.0 {
+    if straight.counted < 0.5 || spin.counted.abs() < TAU || straight.end[0] <= 0.0 {
         return None;
     }
-    // The arc that begins in the direction of the line and ends at the tape's place.
-    let bend = 2.0 * libm::atan2(left, ahead);
-    let chord = libm::hypot(ahead, left);
-    let half = bend / 2.0;
-    let way = if half.abs() < 1e-6 { chord } else { chord * half / libm::sin(half) };
+    let (way, bend) = arc(straight.end);
     let scale = way / straight.counted;
     let found_track = scale * spin.counted * track / spin.seen;
     let difference = (bend * found_track - scale * straight.turned * track) / straight.counted;
     let trim = (scale + difference / 2.0) / (scale - difference / 2.0);
-    let is_near = |factor: f64| (0.8..=1.25).contains(&factor);
     [scale, found_track / track, trim].into_iter().all(is_near).then_some(Found {
         scale,
         track: found_track,
@@ -93,6 +145,32 @@ mod tests {
             assert!((found.track - 0.14 * track).abs() < 1e-9, "{found:?}");
             assert!((found.trim - trim).abs() < 1e-9, "{found:?}");
         }
+    }
+
+    #[test]
+    fn errors_of_a_car_are_found() {
+        let (nominal, radius) = (0.0872, 0.25);
+        for (scale, base, aside) in
+            [(1.0, 1.0, 0.0), (1.05, 1.0, 0.0), (1.0, 0.95, 0.03), (0.95, 1.05, -0.1)]
+        {
+            let wheelbase = nominal * base;
+            let curvature = |asked: f64| ((nominal * asked).atan() + aside).tan() / wheelbase;
+            let (way, drift) = (2.0 * scale, curvature(0.0));
+            let end = match drift.abs() < 1e-9 {
+                true => [way, 0.0],
+                false => [(drift * way).sin() / drift, (1.0 - (drift * way).cos()) / drift],
+            };
+            let counted = 2.0 * TAU;
+            let seen = counted * radius * scale * curvature(1.0 / radius);
+            let straight = Straight { counted: 2.0, turned: 0.0, end };
+            let found = solve_car(nominal, &straight, (radius, &Spin { counted, seen })).unwrap();
+            assert!((found.scale - scale).abs() < 1e-9, "{found:?}");
+            assert!((found.wheelbase - wheelbase).abs() < 1e-9, "{found:?}");
+            assert!((found.straight + aside).abs() < 1e-9, "{found:?}");
+        }
+        let straight = Straight { counted: 2.0, turned: 0.0, end: [2.0, 0.0] };
+        let none = Spin { counted: 1.0, seen: 1.0 };
+        assert_eq!(solve_car(nominal, &straight, (radius, &none)), None);
     }
 
     #[test]

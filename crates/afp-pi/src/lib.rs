@@ -19,10 +19,10 @@ mod robot;
 mod values;
 
 pub use board::{PicarX, Pins, enable_line};
-pub use calibration::{Found, Spin, Straight, solve};
+pub use calibration::{Found, FoundCar, Spin, Straight, solve, solve_car};
 pub use link::{Heard, Link};
 pub use robot::drives::{Calibrated, Drive, Halt, calibrated};
 pub use robot::{
-    Behind, JsonLine, Line, LocalLine, PicarXRobot, PinRobot, SerialCarbot, SerialRobot, Ugv,
-    WireLine, opener,
+    Behind, JsonLine, Line, LocalLine, PicarXRobot, PinRobot, Reports, SerialCarbot, SerialRobot,
+    Ugv, WireLine, opener,
 };

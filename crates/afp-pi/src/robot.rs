@@ -29,7 +29,7 @@ use crate::board::{PicarX, Pins};
 use crate::link::Heard;
 use crate::values::Values;
 
-pub use json::JsonLine;
+pub use json::{JsonLine, Reports};
 pub use local::LocalLine;
 pub use wire::WireLine;
 

@@ -4,6 +4,8 @@
 
 #[path = "../examples/controller.rs"]
 mod controller;
+#[path = "carbot/qemu.rs"]
+mod qemu;
 
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -46,7 +46,7 @@ pub use key::Key;
 pub use keys::keys;
 pub use krate::{CrateLink, HardwareLink, RobotLink};
 pub use path::shown;
-pub use profile::{Of, PROFILES, Profile, ProfileRobot, Section, Setting};
+pub use profile::{Of, PROFILES, Profile, ProfileRobot, Section, Setting, Wire, WireKind};
 pub use project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
 pub use read::{read, read_calibration};
 pub use realtime::Realtime;

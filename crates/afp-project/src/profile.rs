@@ -4,6 +4,7 @@
 //! every command and every editor checks them, also without a driver for the robot.
 
 mod robots;
+mod wires;
 
 use std::ops::Range;
 
@@ -14,6 +15,7 @@ use crate::key::Key;
 use crate::time::duration;
 
 pub use robots::PROFILES;
+pub use wires::{Wire, WireKind};
 
 /// The highest line on the header of a Raspberry Pi.
 const LAST_LINE: u32 = 27;
@@ -232,7 +234,8 @@ impl ProfileRobot {
         let values = self.values.iter();
         let known =
             values.filter_map(|(path, text)| Some((profile.setting(path)?.in_world?, &**text)));
-        known.collect()
+        let blind = profile.lacks.contains(&"encoders").then_some(("robot.encoders", "false"));
+        known.chain(blind).collect()
     }
 
     /// The devices of the Carbot's toolbox that this robot does not have.

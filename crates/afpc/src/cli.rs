@@ -78,7 +78,7 @@ enum Command {
     #[cfg(unix)]
     #[command(after_help = deploy::EXAMPLES)]
     Deploy(deploy::Arguments),
-    /// Show, arm, stop and roll back a robot; fetch its logs
+    /// Show a robot's wires; show, arm, stop and roll back a robot; fetch its logs
     #[cfg(unix)]
     #[command(after_help = robot::EXAMPLES)]
     Robot(robot::Arguments),

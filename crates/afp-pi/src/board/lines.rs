@@ -3,12 +3,12 @@
 use std::io;
 
 use afp_core::Instant;
+use afp_drive::parts::{Quadrature, Ranger, Switch};
 use gpiocdev::Request;
 use gpiocdev::line::{Bias, EdgeDetection, EdgeEvent, EdgeKind, Value};
 use gpiocdev_embedded_hal::{InputPin, OutputPin};
 
 use crate::guard::EnableLine;
-use crate::parts::{Quadrature, Ranger, Switch};
 
 /// Edges that the kernel keeps between two steps: enough for 70 turns a second at 1440 ticks.
 const KEPT: u32 = 1024;

@@ -4,6 +4,7 @@
 use std::io;
 
 use afp_core::Instant;
+use afp_drive::parts::servo_pulse;
 use afp_drive::{Inputs, Outputs, Setup};
 use afp_platform::Settings;
 use embedded_hal::digital::OutputPin as _;
@@ -13,7 +14,7 @@ use linux_embedded_hal::I2cdev;
 
 use super::lines::{Sonar, output};
 use super::{Board, Reckoned};
-use crate::parts::{Hat, servo_pulse};
+use crate::parts::Hat;
 
 /// The channels of the Robot HAT: the steering servo, and the left and the right motor.
 const STEERING: u8 = 2;
@@ -108,13 +109,23 @@ struct Steering {
     track: f32,
     at_full_power: f32,
     angle: f32,
+    /// The angle at which the robot drives straight ahead.
+    straight: f32,
 }
 
 impl Steering {
     fn new(settings: &Settings, setup: &Setup) -> Self {
-        let wheelbase = crate::values::number("picarx", settings, "drive.wheelbase");
-        let wheelbase = wheelbase.ok().flatten().unwrap_or_default() as f32;
-        Steering { wheelbase, track: setup.track, at_full_power: setup.at_full_power(), angle: 0.0 }
+        let number = |path: &str| {
+            crate::values::number("picarx", settings, path).ok().flatten().unwrap_or_default()
+                as f32
+        };
+        Steering {
+            wheelbase: number("drive.wheelbase"),
+            track: setup.track,
+            at_full_power: setup.at_full_power(),
+            angle: 0.0,
+            straight: number("drive.straight"),
+        }
     }
 
     /// The angle of the front wheels in radians, to the left, for the power of the rear wheels.
@@ -125,7 +136,7 @@ impl Steering {
             let angle = libm::atanf(turn * self.wheelbase / speed);
             self.angle = angle.clamp(-FARTHEST, FARTHEST);
         }
-        self.angle
+        self.angle + self.straight
     }
 }
 
@@ -136,8 +147,10 @@ mod tests {
     #[test]
     fn the_front_wheels_steer_into_the_curve() {
         let setup = Setup { track: 0.1167, narrowest: 0.151, ..Setup::default() };
-        let settings = Settings::new([("drive.wheelbase", "8.72 cm")]);
-        let mut steering = Steering::new(&settings, &setup);
+        let settings = [("drive.wheelbase", "8.72 cm"), ("drive.straight", "2 deg")];
+        let mut steering = Steering::new(&Settings::new(settings), &setup);
+        assert!((steering.angle([0.3, 0.3]).to_degrees() - 2.0).abs() < 0.01);
+        steering.straight = 0.0;
         let mut at = |speed: f32, radius: f32| {
             let rims = setup.rims(speed, speed / radius);
             steering.angle(rims.map(|rim| rim / setup.at_full_power())).to_degrees()

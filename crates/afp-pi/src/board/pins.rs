@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use afp_core::Instant;
+use afp_drive::parts::{Motor, Switch, servo_pulse};
 use afp_drive::{Inputs, Outputs, Setup};
 use afp_platform::Settings;
 use embedded_hal::pwm::SetDutyCycle;
@@ -11,7 +12,7 @@ use gpiocdev_embedded_hal::{InputPin, OutputPin};
 
 use super::Board;
 use super::lines::{Encoder, Sonar, output, switch};
-use crate::parts::{Motor, Pwm, Switch, servo_pulse};
+use crate::parts::{Pwm, broken};
 use crate::values::pair;
 
 /// The PWM of a motor: the TB6612 takes 20 kHz, which nobody hears. The L298N is too slow for it.
@@ -71,7 +72,7 @@ impl Board for PinBoard {
     fn read(&mut self, now: Instant) -> io::Result<Inputs> {
         let [left, right] = &mut self.encoders;
         let closed = |switch: &mut Option<Switch<InputPin>>| match switch {
-            Some(switch) => switch.is_closed(now),
+            Some(switch) => switch.is_closed(now).map_err(broken),
             None => Ok(false),
         };
         Ok(Inputs {
@@ -84,7 +85,7 @@ impl Board for PinBoard {
 
     fn apply(&mut self, outputs: &Outputs) -> io::Result<()> {
         for (motor, power) in self.motors.iter_mut().zip(outputs.power) {
-            motor.set(power)?;
+            motor.set(power).map_err(broken)?;
         }
         if let Some(servo) = &mut self.servo {
             servo.set_duty_cycle(servo_pulse(outputs.bearing)).map_err(io::Error::other)?;

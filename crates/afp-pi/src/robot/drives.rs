@@ -9,7 +9,7 @@ use afp_core::{Duration, Environment, Instant, Platform};
 use afp_platform::{Hardware, Settings};
 
 use super::{JsonLine, Line, LocalLine, SerialRobot, WireLine};
-use crate::board::Pins;
+use crate::board::{PicarX, Pins};
 
 /// The interval of commands.
 const STEP: Duration = Duration::from_millis(10);
@@ -30,7 +30,10 @@ pub trait Calibrated {
     /// The reason why the drive ended before.
     fn ahead(&mut self, metres: f64, goes: &dyn Fn() -> bool) -> Result<Drive, Halt>;
 
-    /// Turns so often on the spot by the counts, counter-clockwise.
+    /// The radius of its turns in metres; 0 on the spot.
+    fn radius(&self) -> f64;
+
+    /// Turns so often by the counts, counter-clockwise.
     ///
     /// # Errors
     /// The reason why the turns ended before.
@@ -95,6 +98,7 @@ pub fn calibrated(
         WireLine::PROFILE => Some(open::<WireLine>(settings)),
         JsonLine::PROFILE => Some(open::<JsonLine>(settings)),
         <LocalLine<Pins>>::PROFILE => Some(open::<LocalLine<Pins>>(settings)),
+        <LocalLine<PicarX>>::PROFILE => Some(open::<LocalLine<PicarX>>(settings)),
         _ => None,
     }
 }
@@ -197,12 +201,19 @@ impl<L: Line> Calibrated for SerialRobot<L> {
         })
     }
 
+    fn radius(&self) -> f64 {
+        // A car must not need all of its steering.
+        f64::from(self.values.setup.narrowest) * 1.5
+    }
+
     fn turns(&mut self, turns: f64, goes: &dyn Fn() -> bool) -> Result<Drive, Halt> {
-        let easy = self.easy() / (self.track() / 2.0);
+        let radius = self.radius();
+        let easy = self.easy() / (radius + self.track() / 2.0);
         let patience = patience(turns * TAU / easy);
         self.drive_by(goes, patience, |drive| {
             let left = turns * TAU - drive.turned;
-            (left > 0.0).then(|| [0.0, slowing(left, easy)])
+            let turn = slowing(left, easy);
+            (left > 0.0).then(|| [turn * radius, turn])
         })
     }
 

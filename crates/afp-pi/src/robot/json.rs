@@ -50,6 +50,14 @@ struct Feedback {
 #[derive(Debug)]
 pub struct JsonLine {
     port: Port,
+    reports: Reports,
+    /// The time of the last dead-man setting.
+    guarded: Option<Instant>,
+}
+
+/// The reports of a UGV's controller, and the odometry that they give.
+#[derive(Debug)]
+pub struct Reports {
     line: [u8; LONGEST],
     length: usize,
     /// The distances of both wheels in the last report, in metres.
@@ -59,13 +67,33 @@ pub struct JsonLine {
     track: f64,
     /// The way of each wheel in metres for one metre of its counter.
     scale: [f64; 2],
-    /// The time of the last dead-man setting.
-    guarded: Option<Instant>,
 }
 
-impl JsonLine {
-    /// Takes a byte; returns whether it completes a report.
-    fn take(&mut self, byte: u8) -> bool {
+impl Reports {
+    /// No reports so far, of a robot with these measures.
+    pub fn new(setup: &Setup) -> Self {
+        Reports {
+            line: [0; LONGEST],
+            length: 0,
+            ways: None,
+            report: Report::default(),
+            restarted: false,
+            track: f64::from(setup.track),
+            scale: setup.metres_per_tick.map(f64::from),
+        }
+    }
+
+    /// Takes a byte; returns the report that it completes.
+    pub fn take(&mut self, byte: u8) -> Option<Report> {
+        self.completes(byte).then_some(self.report)
+    }
+
+    /// Whether a counter has jumped, as in a restart of the controller.
+    pub fn has_restarted(&self) -> bool {
+        self.restarted
+    }
+
+    fn completes(&mut self, byte: u8) -> bool {
         if byte != b'\n' {
             if let Some(place) = self.line.get_mut(self.length) {
                 *place = byte;
@@ -115,13 +143,7 @@ impl Line for JsonLine {
         let path = settings.get(Self::PLACE).unwrap_or_default();
         Ok(JsonLine {
             port: Port::open(path, 115_200, b'\n')?,
-            line: [0; LONGEST],
-            length: 0,
-            ways: None,
-            report: Report::default(),
-            restarted: false,
-            track: f64::from(setup.track),
-            scale: setup.metres_per_tick.map(f64::from),
+            reports: Reports::new(setup),
             guarded: None,
         })
     }
@@ -160,15 +182,15 @@ impl Line for JsonLine {
         loop {
             let read = self.port.read(&mut bytes);
             for byte in bytes.get(..read).unwrap_or_default() {
-                if self.take(*byte) {
-                    last = Some(Heard::Message(self.report, time.now()));
+                if let Some(report) = self.reports.take(*byte) {
+                    last = Some(Heard::Message(report, time.now()));
                 }
             }
             if read < LONGEST {
                 break;
             }
         }
-        if self.restarted { Some(Heard::Restarted) } else { last }
+        if self.reports.restarted { Some(Heard::Restarted) } else { last }
     }
 
     fn last_resort(&self) -> Option<LastResort> {

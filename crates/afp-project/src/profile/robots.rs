@@ -165,6 +165,15 @@ const PICARX: Profile = Profile {
                 ),
                 "robot.steering_deg",
             ),
+            usual(
+                key(
+                    "straight",
+                    "The angle of the front wheels at which the robot drives straight ahead.",
+                    "straight = \"1.5 deg\"",
+                ),
+                Of::Angle([-0.35, 0.35]),
+                "0 deg",
+            ),
             FASTEST,
         ]),
         section(
@@ -181,7 +190,7 @@ const PICARX: Profile = Profile {
             key("ultrasonic", "The range sensor in front.", "[robot.ultrasonic]"),
             false,
             &["ultrasonic", "rotator"],
-            &[FORWARD],
+            &[FORWARD, OFFSET],
         ),
     ],
     lacks: &[

@@ -2,6 +2,7 @@
 
 pub mod connect;
 pub mod setup;
+mod wiring;
 
 use std::fs::{self, OpenOptions};
 use std::path::{Path, PathBuf};
@@ -24,6 +25,8 @@ pub struct Arguments {
 
 #[derive(Subcommand, Debug)]
 enum Verb {
+    /// Show the wires of the project's robot
+    Wiring(wiring::Arguments),
     /// Prepare a robot's computer, or upgrade it
     Setup(setup::Arguments),
     /// Show the state of the robot and its releases
@@ -60,6 +63,7 @@ struct Host {
 
 pub const EXAMPLES: &str = "\
 Examples:
+  afpc robot wiring -o wiring.svg
   afpc robot setup pi@robot.local
   afpc robot status afp@robot.local
   afpc robot arm afp@robot.local
@@ -67,12 +71,13 @@ Examples:
   afpc robot rollback afp@robot.local
   afpc robot logs afp@robot.local Patrol-1-1.mcap";
 
-/// Asks the robot's agent.
+/// Asks the robot's agent, or shows the robot's wires.
 ///
 /// # Errors
-/// The robot cannot be reached, or refuses the request.
+/// The project has no such robot, or the robot cannot be reached or refuses the request.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     match &arguments.verb {
+        Verb::Wiring(arguments) => wiring::run(arguments),
         Verb::Setup(arguments) => setup::run(arguments),
         Verb::Status(host) => {
             let status = Remote::connect(&host.host)?.ask(|robot| robot.status())?;

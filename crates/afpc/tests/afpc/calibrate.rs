@@ -2,12 +2,13 @@
 
 #[allow(dead_code)]
 #[path = "../../../afp-pi/examples/ugv.rs"]
-mod ugv;
+pub mod ugv;
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::Stdio;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
 
 use crate::common::Place;
 use crate::profile::Running;
@@ -19,6 +20,8 @@ type Pose = [f64; 3];
 trait Robot {
     fn port(&self) -> &str;
     fn pose(&self) -> Pose;
+    /// Puts the robot in front of a wall.
+    fn before_wall(&self) {}
 }
 
 impl Robot for Running {
@@ -38,14 +41,18 @@ fn answer(question: &str, robot: &dyn Robot, start: &mut Pose) -> Option<String>
         *start = pose;
         return Some(String::new());
     }
+    if question.contains("in front of a wall") {
+        robot.before_wall();
+    }
     let (dx, dy) = (pose[0] - start[0], pose[1] - start[1]);
     let (sin, cos) = start[2].sin_cos();
-    let beyond = (pose[2] - start[2]).to_degrees() - 3600.0;
+    let turned = (pose[2] - start[2]).to_degrees();
     let known = [
         ("[y/n]", "y".to_owned()),
         ("How far along", format!("{:.2} cm", (dx * cos + dy * sin) * 100.0)),
         ("left of the line", format!("{:.2} cm", (dy * cos - dx * sin) * 100.0)),
-        ("beyond ten turns", format!("{beyond:.1} deg")),
+        ("beyond ten turns", format!("{:.1} deg", turned - 3600.0)),
+        ("beyond two turns", format!("{:.1} deg", turned - 720.0)),
         ("is the wall from", "50 cm".to_owned()),
     ];
     known.into_iter().find(|(words, _)| question.contains(words)).map(|(_, answer)| answer)
@@ -156,11 +163,35 @@ fn a_robot_that_cannot_be_calibrated_is_refused_with_the_reason() {
     assert!(stuck && controller.with(|fake| !fake.is_moving()));
 }
 
-/// A UGV with wrong measures.
-struct Ugv {
-    port: String,
-    fake: Arc<Mutex<ugv::Fake>>,
+/// A UGV that runs until it is dropped.
+pub struct Ugv {
+    pub port: String,
+    pub fake: Arc<Mutex<ugv::Fake>>,
     ends: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Ugv {
+    pub fn start() -> Ugv {
+        let (fake, port) = ugv::Fake::new().unwrap();
+        let (fake, ends) = (Arc::new(Mutex::new(fake)), Arc::new(AtomicBool::new(false)));
+        let (stepped, is_over) = (fake.clone(), ends.clone());
+        let thread = std::thread::spawn(move || {
+            while !is_over.load(Ordering::Relaxed) {
+                stepped.lock().unwrap().step().unwrap();
+                // Others may look at it.
+                std::thread::sleep(std::time::Duration::from_millis(1));
+            }
+        });
+        Ugv { port, fake, ends, thread: Some(thread) }
+    }
+}
+
+impl Drop for Ugv {
+    fn drop(&mut self) {
+        self.ends.store(true, Ordering::Relaxed);
+        let _ = self.thread.take().map(JoinHandle::join);
+    }
 }
 
 impl Robot for Ugv {
@@ -177,27 +208,68 @@ impl Robot for Ugv {
 fn errors_of_a_ugv_are_measured() {
     let place = Place::new();
     place.afpc("new mycar --profile ugv").succeeds();
-    let (mut fake, port) = ugv::Fake::new().unwrap();
+    let robot = Ugv::start();
     let (scale, trim, track) = (0.95, 1.05, 0.17 * 0.95);
     let left = 2.0 * scale / (1.0 + trim);
-    (fake.factors, fake.track) = ([left, left * trim], track);
-    let robot =
-        Ugv { port, fake: Arc::new(Mutex::new(fake)), ends: Arc::new(AtomicBool::new(false)) };
-    let (fake, ends) = (robot.fake.clone(), robot.ends.clone());
-    let thread = std::thread::spawn(move || {
-        while !ends.load(Ordering::Relaxed) {
-            fake.lock().unwrap().step().unwrap();
-            // Others may look at it.
-            std::thread::sleep(std::time::Duration::from_millis(1));
-        }
-    });
+    {
+        let mut fake = robot.fake.lock().unwrap();
+        (fake.factors, fake.track) = ([left, left * trim], track);
+    }
     let finished = (0..10).any(|_| calibrate(&place, &robot, 100).0 == 0);
-    robot.ends.store(true, Ordering::Relaxed);
-    thread.join().unwrap();
     assert!(finished, "no call of ten finished");
     let text = place.read("mycar/calibration.toml");
     for (key, expected) in [("scale", scale), ("track", track * 1000.0), ("trim", trim)] {
         let found = number(&text, key);
         assert!((found / expected - 1.0).abs() < 0.005, "{key}: {found}, not {expected}");
     }
+}
+
+/// A car on the rig, which has the rig's path in its project.
+#[cfg(target_os = "linux")]
+impl Robot for crate::wired::rig::Rig {
+    fn port(&self) -> &str {
+        "none"
+    }
+
+    fn pose(&self) -> Pose {
+        self.state().pose
+    }
+
+    fn before_wall(&self) {
+        // The room ends at 4 m, and the sensor is 8 cm ahead of the axis.
+        self.state().pose = [4.0 - 0.488 - 0.08, 1.5, 0.0];
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn errors_of_a_car_are_measured_and_used() {
+    use crate::wired::rig::{Car, Rig};
+
+    let place = Place::new();
+    place.afpc("new mycar --profile picarx").succeeds();
+    let path = place.path("rig");
+    let rig = Rig::start(&path, [0.6, 1.5, 0.0]).unwrap();
+    let (scale, wheelbase, aside) = (1.05, 0.0872 * 0.95, 0.02);
+    rig.state().car = Some(Car { scale, wheelbase, aside });
+    let text = place.read("mycar/afp.toml").replace("/dev/gpiochip0", &path.display().to_string());
+    place.write("mycar/afp.toml", &text);
+    let finished = (0..10).any(|_| {
+        rig.state().pose = [0.6, 1.5, 0.0];
+        calibrate(&place, &rig, 100).0 == 0
+    });
+    assert!(finished, "no call of ten finished");
+    assert!(!rig.state().enabled.0);
+    let text = place.read("mycar/calibration.toml");
+    for (key, expected) in [("fastest", 45.0 * scale), ("wheelbase", wheelbase * 1000.0)] {
+        let found = number(&text, key);
+        assert!((found / expected - 1.0).abs() < 0.005, "{key}: {found}, not {expected}");
+    }
+    assert!((number(&text, "straight") + aside.to_degrees()).abs() < 0.1, "{text}");
+    assert!((number(&text, "offset") - 12.0).abs() < 1.0, "{text}");
+    assert!(!text.contains("stop"), "{text}");
+    // The driver takes the values.
+    let mut check = place.command();
+    check.current_dir(place.path("mycar")).args(["check", "plans/mycar.afp"]);
+    crate::common::said(check.output().unwrap()).succeeds();
 }

@@ -29,6 +29,8 @@ mod outputs;
 mod own_toolboxes;
 #[cfg(all(feature = "pi", unix))]
 mod profile;
+#[cfg(all(feature = "pi", target_os = "linux"))]
+mod profiles;
 mod run;
 mod sweep;
 #[cfg(target_os = "linux")]

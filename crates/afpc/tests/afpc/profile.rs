@@ -203,14 +203,3 @@ fn a_plan_for_a_missing_part_is_an_error_of_the_check() {
     let set = "--set robot.port=/no/such --until 1s";
     inside(&place, &format!("run plans/look.afp --robot hardware {set}")).fails(1, &texts);
 }
-
-#[test]
-fn a_ugv_is_simulated_and_tested_without_cargo() {
-    let place = Place::new();
-    place.afpc("new mycar --profile ugv").succeeds();
-    inside(&place, "check plans/mycar.afp").succeeds();
-    inside(&place, "run plans/mycar.afp").succeeds();
-    let tested = inside(&place, "test");
-    tested.succeeds();
-    assert!(tested.out.contains("2 passed, 0 failed"), "{}", tested.out);
-}

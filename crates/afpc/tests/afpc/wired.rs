@@ -1,7 +1,7 @@
 //! Robots on a computer's own pins, with their guard: on a test rig, without cargo.
 
 #[path = "../../../afp-pi/examples/rig.rs"]
-mod rig;
+pub mod rig;
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -92,22 +92,6 @@ fn nightly() -> (u32, Duration) {
 }
 
 #[test]
-fn a_robot_on_pins_is_simulated_and_driven_without_cargo() {
-    let (place, rig) = project("pi", [1.0, 1.0, 0.5]);
-    runs(&place, "check plans/mycar.afp").succeeds();
-    runs(&place, "run plans/mycar.afp --until 10s").succeeds();
-    let tested = runs(&place, "test");
-    tested.succeeds();
-    assert!(tested.out.contains("3 passed, 0 failed"), "{}", tested.out);
-    let drove = (0..5).any(|_| {
-        let ran = said(drive(&place, "plans/mycar.afp", "2s").output().unwrap());
-        wait("the motors stay on", || !rig.state().enabled.0);
-        ran.code == 0 && rig.state().ways.iter().all(|way| *way > 0.05)
-    });
-    assert!(drove, "no run of five drove the robot");
-}
-
-#[test]
 fn a_robot_on_pins_follows_a_wall() {
     let (place, rig) = project("pi", [0.8, 0.8, -0.6]);
     let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/../../plans/wall_following.afp");
@@ -129,9 +113,9 @@ fn a_robot_on_pins_follows_a_wall() {
 }
 
 #[test]
-fn the_motors_are_off_after_a_run_was_killed() {
+fn after_a_killed_run_the_motors_are_off() {
     let (place, rig) = project("pi", [1.0, 1.0, 0.5]);
-    let (times, limit) = nightly();
+    let ((times, limit), mut slowest) = (nightly(), Duration::ZERO);
     for _ in 0..times {
         rig.state().pose = [1.0, 1.0, 0.5];
         let mut run = driving(&place, &rig);
@@ -141,14 +125,16 @@ fn the_motors_are_off_after_a_run_was_killed() {
         wait("the motors stay on", || !rig.state().enabled.0);
         let after = rig.state().enabled.1.duration_since(killed);
         assert!(after < limit, "{after:?}");
+        slowest = slowest.max(after);
         run.wait().unwrap();
     }
+    println!("killed runs: {times}, the slowest stop took {slowest:?}");
 }
 
 #[test]
-fn a_run_without_its_guard_ends_and_commands_nothing() {
+fn after_a_killed_guard_the_run_ends_and_commands_nothing() {
     let (place, rig) = project("pi", [1.0, 1.0, 0.5]);
-    let (times, limit) = nightly();
+    let ((times, limit), mut slowest) = (nightly(), Duration::ZERO);
     for _ in 0..times {
         rig.state().pose = [1.0, 1.0, 0.5];
         let mut run = driving(&place, &rig);
@@ -163,10 +149,12 @@ fn a_run_without_its_guard_ends_and_commands_nothing() {
         });
         let after = killed.elapsed();
         assert!(after < limit, "{after:?}");
+        slowest = slowest.max(after);
         assert_eq!(status.and_then(|status| status.code()), Some(3));
         let state = rig.state();
         assert_eq!((state.power, state.enabled.0), ([0.0; 2], false));
     }
+    println!("killed guards: {times}, the slowest run ended after {slowest:?}");
 }
 
 #[test]
@@ -182,23 +170,15 @@ fn a_suspended_run_loses_the_motors() {
 }
 
 #[test]
-fn a_car_is_simulated_and_driven_without_cargo() {
-    let (place, rig) = project("picarx", [1.0, 1.0, 0.0]);
+fn the_check_knows_that_a_car_neither_turns_on_the_spot_nor_counts() {
+    let (place, _rig) = project("picarx", [1.0, 1.0, 0.0]);
     let checked = runs(&place, "check plans/mycar.afp");
     checked.succeeds();
     assert!((checked.out + &checked.err).contains("'Curve' needs 'odometry'"), "{:?}", checked.err);
-    let tested = runs(&place, "test");
-    tested.succeeds();
-    assert!(tested.out.contains("2 passed, 0 failed"), "{}", tested.out);
     let turn = "use carbot\nplan Spin {\n    start spin\n    actor spin: Turn { TurnSuccessful -> terminate }\n}\n";
     place.write("mycar/plans/spin.afp", turn);
     let texts = ["E0518", "'Turn' needs 'turning_in_place', which the robot does not have"];
     runs(&place, "check plans/spin.afp").fails(1, &texts);
-    let drove = (0..5).any(|_| {
-        let ran = said(drive(&place, "plans/mycar.afp", "3s").output().unwrap());
-        ran.code == 0 && rig.state().ways.iter().all(|way| *way > 0.05)
-    });
-    assert!(drove, "no run of five drove the car");
 }
 
 #[test]

@@ -13,6 +13,8 @@ const AHEAD: f64 = 2.0;
 const TURNS: f64 = 10.0;
 /// The same with the wheels off the ground.
 const SHORT: (f64, f64) = (0.2, 0.5);
+/// The number of circles of a car.
+const CIRCLES: f64 = 2.0;
 
 /// The rest of a calibration.
 pub struct Steps<'a> {
@@ -32,9 +34,12 @@ impl Steps<'_> {
             part.wheels = true;
         } else if part.straight.is_none() {
             let (straight, stop) = self.straight()?;
-            (part.straight, part.stop) = (Some(straight), Some(stop));
+            // A car without encoders does not notice when it stops.
+            part.stop = (!self.is_car()).then_some(stop);
+            part.straight = Some(straight);
         } else if part.spin.is_none() {
             part.spin = Some(self.spin()?);
+            part.radius = self.robot.radius();
         } else if has_sonar && part.offset.is_none() {
             part.offset = Some(self.sonar()?);
         } else {
@@ -43,14 +48,26 @@ impl Steps<'_> {
         Ok(true)
     }
 
+    /// Whether the robot steers and has no encoders.
+    fn is_car(&self) -> bool {
+        self.robot.radius() > 0.0
+    }
+
     fn wheels(&mut self) -> Result<(), RunError> {
-        self.user
-            .wait("Lift the wheels off the ground. Both turn forwards, then against each other.")?;
+        let (then, seen) = match self.is_car() {
+            true => ("then in a curve", "Did the front wheels steer to the left?"),
+            false => (
+                "then against each other",
+                "Did the right wheel turn forwards and the left wheel backwards?",
+            ),
+        };
+        let lift = format!("Lift the wheels off the ground. Both turn forwards, {then}.");
+        self.user.wait(&lift)?;
         let (metres, turns) = SHORT;
         finished(self.robot.ahead(metres, self.goes))?;
         self.user.agree("Did both wheels turn forwards?")?;
         finished(self.robot.turns(turns, self.goes))?;
-        self.user.agree("Did the right wheel turn forwards and the left wheel backwards?")
+        self.user.agree(seen)
     }
 
     fn straight(&mut self) -> Result<(Straight, f64), RunError> {
@@ -67,15 +84,17 @@ impl Steps<'_> {
     }
 
     fn spin(&mut self) -> Result<Spin, RunError> {
-        self.user.wait(
-            "Mark the direction of the robot. It turns ten times to the left on the spot. Count the \
-             turns.",
-        )?;
-        let drive = finished(self.robot.turns(TURNS, self.goes))?;
-        let beyond = self.user.angle(
-            "How far did it turn beyond ten turns, such as 15 deg? If it fell short, write -15 deg.",
-        )?;
-        Ok(Spin { counted: drive.turned, seen: TURNS * std::f64::consts::TAU + beyond })
+        let (turns, many, what) = match self.is_car() {
+            true => (CIRCLES, "two", "drives two circles to the left"),
+            false => (TURNS, "ten", "turns ten times to the left on the spot"),
+        };
+        let mark = format!("Mark the direction of the robot. It {what}. Count the turns.");
+        self.user.wait(&mark)?;
+        let drive = finished(self.robot.turns(turns, self.goes))?;
+        let beyond = self.user.angle(&format!(
+            "How far did it turn beyond {many} turns, such as 15 deg? If it fell short, write -15 deg."
+        ))?;
+        Ok(Spin { counted: drive.turned, seen: turns * std::f64::consts::TAU + beyond })
     }
 
     fn sonar(&mut self) -> Result<f64, RunError> {

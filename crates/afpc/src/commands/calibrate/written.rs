@@ -2,7 +2,7 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use afp_pi::{Spin, Straight, solve};
+use afp_pi::{Spin, Straight, solve, solve_car};
 use afp_project::ProfileRobot;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +15,8 @@ pub struct Part {
     pub wheels: bool,
     pub straight: Option<Straight>,
     pub spin: Option<Spin>,
+    /// The radius of the turns in metres.
+    pub radius: f64,
     /// The distance to add to an echo, in metres.
     pub offset: Option<f64>,
     /// The time from the command to stop to standstill, in seconds.
@@ -34,17 +36,47 @@ impl Part {
 
 /// The text of `calibration.toml`; `None` if steps are missing or the numbers are impossible.
 pub fn calibration(robot: &ProfileRobot, part: &Part) -> Option<String> {
+    let drive = match robot.number("drive.wheelbase") {
+        Some(wheelbase) => car(robot, part, wheelbase)?,
+        None => wheels(robot, part)?,
+    };
+    let mut text = format!(
+        "# Written by 'afpc calibrate'. Its values replace those of '[robot]' in afp.toml.\n\
+         date = \"{}\"\nrobot = \"{}\"\n\n[drive]\n{drive}",
+        today(),
+        robot.name,
+    );
+    if let Some(offset) = part.offset {
+        text += &format!("\n[ultrasonic]\noffset = \"{:.1} mm\"\n", offset * 1000.0);
+    }
+    if let Some(stop) = part.stop {
+        text += &format!("\n[measured]\nstop = \"{:.0} ms\"\n", stop * 1000.0);
+    }
+    Some(text)
+}
+
+/// The values of a car without encoders.
+fn car(robot: &ProfileRobot, part: &Part, wheelbase: f64) -> Option<String> {
+    let circles = (part.radius, part.spin.as_ref()?);
+    let found = solve_car(wheelbase, part.straight.as_ref()?, circles)?;
+    // The drives used the values of afp.toml.
+    let fastest = robot.number("drive.fastest")? * found.scale;
+    let straight = robot.number("drive.straight").unwrap_or_default() + found.straight;
+    Some(format!(
+        "fastest = \"{:.3} cm/s\"\nwheelbase = \"{:.2} mm\"\nstraight = \"{:.2} deg\"\n",
+        fastest * 100.0,
+        found.wheelbase * 1000.0,
+        straight.to_degrees()
+    ))
+}
+
+/// The values of driven wheels with encoders.
+fn wheels(robot: &ProfileRobot, part: &Part) -> Option<String> {
     let (straight, spin) = (part.straight.as_ref()?, part.spin.as_ref()?);
     let found = solve(robot.number("drive.track")?, straight, spin)?;
     // The drives used the values of afp.toml, which may have a trim.
     let trim = robot.number("drive.trim").unwrap_or(1.0) * found.trim;
-    let mut text = format!(
-        "# Written by 'afpc calibrate'. Its values replace those of '[robot]' in afp.toml.\n\
-         date = \"{}\"\nrobot = \"{}\"\n\n[drive]\ntrack = \"{:.2} mm\"\ntrim = {trim:.5}\n",
-        today(),
-        robot.name,
-        found.track * 1000.0,
-    );
+    let mut text = format!("track = \"{:.2} mm\"\ntrim = {trim:.5}\n", found.track * 1000.0);
     text += &match robot.number("drive.wheel_diameter") {
         Some(diameter) => {
             format!("wheel_diameter = \"{:.3} mm\"\n", diameter * found.scale * 1000.0)
@@ -54,11 +86,6 @@ pub fn calibration(robot: &ProfileRobot, part: &Part) -> Option<String> {
             format!("scale = {scale:.5}\n")
         }
     };
-    if let Some(offset) = part.offset {
-        text += &format!("\n[ultrasonic]\noffset = \"{:.1} mm\"\n", offset * 1000.0);
-    }
-    let stop = part.stop.unwrap_or_default() * 1000.0;
-    text += &format!("\n[measured]\nstop = \"{stop:.0} ms\"\n");
     Some(text)
 }
 

@@ -1,20 +1,21 @@
 //! A wheel encoder with two lines, whose edges are a quarter of a period apart.
 
+/// A wheel encoder.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Quadrature {
+pub struct Quadrature {
     levels: [bool; 2],
     count: i32,
 }
 
 impl Quadrature {
     /// An encoder whose lines have these levels.
-    pub(crate) fn new(levels: [bool; 2]) -> Self {
+    pub fn new(levels: [bool; 2]) -> Self {
         Quadrature { levels, count: 0 }
     }
 
     /// Takes an edge of the first or the second line. The first line leads if the wheel turns
     /// forwards.
-    pub(crate) fn edge(&mut self, second: bool, rises: bool) {
+    pub fn edge(&mut self, second: bool, rises: bool) {
         let level = &mut self.levels[usize::from(second)];
         // An edge was lost, and with it the direction.
         if *level == rises {
@@ -26,8 +27,19 @@ impl Quadrature {
         self.count = self.count.wrapping_add(if is_ahead { 1 } else { -1 });
     }
 
+    /// Takes the levels of both lines. If both have changed, the direction is lost, and neither edge
+    /// counts.
+    pub fn look(&mut self, levels: [bool; 2]) {
+        let [a, b] = levels;
+        match [self.levels[0] != a, self.levels[1] != b] {
+            [true, true] => self.levels = levels,
+            [false, false] => {}
+            [first, _] => self.edge(!first, if first { a } else { b }),
+        }
+    }
+
     /// The edges so far, forwards up. It overflows.
-    pub(crate) fn count(&self) -> i32 {
+    pub fn count(&self) -> i32 {
         self.count
     }
 }
@@ -54,5 +66,12 @@ mod tests {
         let mut turned = Quadrature::new([true, true]);
         turned.edge(false, false);
         assert_eq!(turned.count(), 1);
+        for levels in [[false, false], [true, false], [true, false], [true, true]] {
+            turned.look(levels);
+        }
+        assert_eq!(turned.count(), 4);
+        turned.look([false, false]);
+        turned.look([false, true]);
+        assert_eq!(turned.count(), 3);
     }
 }

@@ -1,7 +1,7 @@
 //! The range sensor HC-SR04: a pulse on its trigger sends a ping, and the length of the pulse on
 //! its echo line is the time of flight.
 
-use afp_core::{Duration, Instant};
+use afp_types::{Duration, Instant};
 
 /// The time between two pings, so that the echoes of one have died away at the next.
 const PERIOD: Duration = Duration::from_millis(60);
@@ -10,8 +10,9 @@ const HALF_SOUND: f64 = 343.0e-9 / 2.0;
 /// A longer pulse means no echo: without an obstacle, the sensor holds the line for 38 ms.
 const FAR: f64 = 4.0;
 
+/// A range sensor.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Ranger {
+pub struct Ranger {
     sent: Option<Instant>,
     /// The time of the echo line's rise in nanoseconds, by the clock of its edges.
     rose: Option<u64>,
@@ -19,7 +20,7 @@ pub(crate) struct Ranger {
 
 impl Ranger {
     /// Whether a ping is due. The caller then sends it.
-    pub(crate) fn is_due(&mut self, now: Instant) -> bool {
+    pub fn is_due(&mut self, now: Instant) -> bool {
         let due = self.sent.is_none_or(|sent| now.since(sent) >= PERIOD);
         if due {
             (self.sent, self.rose) = (Some(now), None);
@@ -29,7 +30,7 @@ impl Ranger {
 
     /// Takes an edge of the echo line and its time in nanoseconds. Returns the distance of a
     /// completed ping in metres, or its lack. A sensor whose line never rises completes no ping.
-    pub(crate) fn edge(&mut self, rises: bool, at: u64) -> Option<Option<f32>> {
+    pub fn edge(&mut self, rises: bool, at: u64) -> Option<Option<f32>> {
         if rises {
             self.rose = Some(at);
             return None;

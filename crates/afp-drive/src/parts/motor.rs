@@ -1,15 +1,14 @@
 //! A motor at an H-bridge with two inputs for the direction and a PWM for the power, such as the
 //! TB6612 and the L298N.
 
-use std::io;
-
 use embedded_hal::digital::OutputPin;
-use embedded_hal::pwm::SetDutyCycle;
+use embedded_hal::pwm::{Error as _, SetDutyCycle};
 
-use super::broken;
+use super::{Broken, pin};
 
+/// A motor at its bridge.
 #[derive(Debug)]
-pub(crate) struct Motor<P, A, B> {
+pub struct Motor<P, A, B> {
     pwm: P,
     ahead: A,
     back: B,
@@ -18,12 +17,16 @@ pub(crate) struct Motor<P, A, B> {
 }
 
 impl<P: SetDutyCycle, A: OutputPin, B: OutputPin> Motor<P, A, B> {
-    pub(crate) fn new(pwm: P, ahead: A, back: B) -> Self {
+    /// A motor at a PWM and the two inputs of its bridge: high for forwards, and high for backwards.
+    pub fn new(pwm: P, ahead: A, back: B) -> Self {
         Motor { pwm, ahead, back, inputs: None }
     }
 
     /// Sets the power from -1 (backwards) to 1; the motor brakes at 0 and at a NaN.
-    pub(crate) fn set(&mut self, power: f32) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// A pin cannot be set.
+    pub fn set(&mut self, power: f32) -> Result<(), Broken> {
         if power > 0.0 {
             self.apply([true, false], power)
         } else if power < 0.0 {
@@ -34,26 +37,35 @@ impl<P: SetDutyCycle, A: OutputPin, B: OutputPin> Motor<P, A, B> {
     }
 
     /// Cuts the power.
-    pub(crate) fn off(&mut self) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// A pin cannot be set.
+    pub fn off(&mut self) -> Result<(), Broken> {
         self.apply([false, false], 0.0)
     }
 
-    fn apply(&mut self, inputs: [bool; 2], duty: f32) -> io::Result<()> {
+    fn apply(&mut self, inputs: [bool; 2], duty: f32) -> Result<(), Broken> {
         if self.inputs != Some(inputs) {
             // The inputs change without power, so that the bridge is never in a third state.
-            self.pwm.set_duty_cycle(0).map_err(broken)?;
-            self.ahead.set_state(inputs[0].into()).map_err(broken)?;
-            self.back.set_state(inputs[1].into()).map_err(broken)?;
+            self.duty(0)?;
+            self.ahead.set_state(inputs[0].into()).map_err(pin)?;
+            self.back.set_state(inputs[1].into()).map_err(pin)?;
             self.inputs = Some(inputs);
         }
         let all = self.pwm.max_duty_cycle();
         let duty = (duty.clamp(0.0, 1.0) * f32::from(all)) as u16;
-        self.pwm.set_duty_cycle(duty).map_err(broken)
+        self.duty(duty)
+    }
+
+    fn duty(&mut self, duty: u16) -> Result<(), Broken> {
+        self.pwm.set_duty_cycle(duty).map_err(|error| Broken::Pwm(error.kind()))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::vec::Vec;
+
     use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
     use embedded_hal_mock::eh1::pwm::{Mock as Duty, Transaction as Set};
 

@@ -1,11 +1,9 @@
 //! A switch, whose contacts bounce.
 
-use std::io;
-
-use afp_core::{Duration, Instant};
+use afp_types::{Duration, Instant};
 use embedded_hal::digital::InputPin;
 
-use super::broken;
+use super::{Broken, pin};
 
 /// After a change, the contacts may bounce for this time.
 const BOUNCES: Duration = Duration::from_millis(20);
@@ -13,21 +11,25 @@ const BOUNCES: Duration = Duration::from_millis(20);
 /// A switch between a pin with a pull-up resistor and ground: the pin is low while it is closed. A
 /// broken wire reads as open.
 #[derive(Debug)]
-pub(crate) struct Switch<P> {
+pub struct Switch<P> {
     pin: P,
     /// Whether it is closed, and the time of the last change.
     last: Option<(bool, Instant)>,
 }
 
 impl<P: InputPin> Switch<P> {
-    pub(crate) fn new(pin: P) -> Self {
+    /// A switch at a pin.
+    pub fn new(pin: P) -> Self {
         Switch { pin, last: None }
     }
 
     /// Whether the switch is closed. A change counts at once, and the next one only after the
     /// contacts are at rest.
-    pub(crate) fn is_closed(&mut self, now: Instant) -> io::Result<bool> {
-        let closed = self.pin.is_low().map_err(broken)?;
+    ///
+    /// # Errors
+    /// The pin cannot be read.
+    pub fn is_closed(&mut self, now: Instant) -> Result<bool, Broken> {
+        let closed = self.pin.is_low().map_err(pin)?;
         let (before, changed) = *self.last.get_or_insert((closed, now));
         if closed != before && now.since(changed) >= BOUNCES {
             self.last = Some((closed, now));
@@ -39,6 +41,8 @@ impl<P: InputPin> Switch<P> {
 
 #[cfg(test)]
 mod tests {
+    use std::vec::Vec;
+
     use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
 
     use super::*;
