@@ -4,8 +4,8 @@
 //! wheels slip, and the counts are noisy.
 //!
 //! Without encoders, it counts the commanded speeds. Such an estimate does not notice that the motors
-//! need time, that a wheel slips or that the robot pushes against a wall, and no two robots drive
-//! equally fast with the same power.
+//! need time, that a wheel slips or that the robot pushes against a wall. In addition, no two robots
+//! drive equally fast with the same power.
 
 use crate::noise::{Noise, Source};
 use crate::vehicle::wheel::Wheel;
