@@ -89,9 +89,7 @@ fn a_robot_from_parts_is_simulated_and_driven_without_cargo() {
         let controller = Running::start(|_| {});
         let ran = drive(&place, &controller, "2s");
         controller.stops();
-        controller.with(|fake| {
-            ran.code == 0 && fake.ways.iter().all(|way| *way > 0.05)
-        })
+        controller.with(|fake| ran.code == 0 && fake.ways.iter().all(|way| *way > 0.05))
     });
     assert!(drove, "no run of five drove the robot");
     let log = "log target/afp/runs/mycar.mcap --budgets --times times.svg";
