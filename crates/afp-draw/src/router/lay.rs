@@ -60,6 +60,9 @@ impl<'a> Laid<'a> {
             self.search.route(&self.connectors[connector], self.boxes, full, tree);
         let alone = if full { Join::Nearest } else { Join::None };
         let aligned = junction.map(|on| on.aligned(&mut points, &self.corners[on.edge]));
+        if let Some(on) = aligned.filter(|on| on.along) {
+            self.joins[on.edge].keep_line();
+        }
         self.joins[connector] = aligned.map_or(alone, Join::At);
         self.trees.add(connector, &points, self.lines);
         self.corners[connector] = points;

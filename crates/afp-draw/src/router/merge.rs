@@ -4,6 +4,8 @@
 //! several edges to one box end in one tip. No other kind is between them, so this adds no
 //! crossings.
 
+use std::collections::BTreeSet;
+
 use super::bundle::Junction;
 use super::{Connector, PITCH, Point, TIP};
 
@@ -20,6 +22,14 @@ pub(super) enum Join {
 }
 
 impl Join {
+    /// The edge stays on its line, because another one comes along it from above: moved to another
+    /// tip, that one could meet a box.
+    pub(super) fn keep_line(&mut self) {
+        if let Join::Nearest | Join::Edge(_) = self {
+            *self = Join::None;
+        }
+    }
+
     /// Its end on an edge of its bundle.
     pub(super) fn junction(&self) -> Option<Junction> {
         match self {
@@ -46,8 +56,11 @@ pub(super) fn merged(
     let alike = |a: &usize, b: &usize| {
         (connectors[*a].to, connectors[*a].kind) == (connectors[*b].to, connectors[*b].kind)
     };
+    let continued: BTreeSet<usize> =
+        joins.iter().filter_map(Join::junction).filter(|on| on.along).map(|on| on.edge).collect();
     for run in arrivals.chunk_by(alike).filter(|run| run.len() > 1) {
-        let joins_in = |edge: &usize| !fixed[*edge] && comes_from_the_side(&corners[*edge]);
+        let from_side = |edge: &usize| comes_from_the_side(&corners[*edge]);
+        let joins_in = |edge: &usize| !fixed[*edge] && !continued.contains(edge) && from_side(edge);
         let straight: Vec<usize> = run.iter().copied().filter(|edge| !joins_in(edge)).collect();
         let middle = [run[run.len() / 2]];
         let trunks = if straight.is_empty() { &middle[..] } else { &straight[..] };
