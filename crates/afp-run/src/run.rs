@@ -70,6 +70,11 @@ pub fn run(
         let help = "'afpc build --hardware' links it, if the robot's project has it";
         return Err(RunError::usage(message, help));
     }
+    if options.attach && extras.debugger.is_none() {
+        let message = "'--attach' needs a debugger, and this program has none";
+        let help = "run the plan with 'afpc run', which has one with the feature 'dap'";
+        return Err(RunError::usage(message, help));
+    }
     if options.disarmed && !armed::wait(None)? {
         return Ok(EXIT_OK);
     }

@@ -282,9 +282,11 @@ fn a_log_names_the_real_robot_and_is_not_repeated() {
     assert!(drawn.contains("nothing to draw") && drawn.contains("'pose'"), "{drawn}");
     let none = afp_run::draw_sonar(&read, robot.kind()).unwrap_err().to_string();
     assert!(none.contains("the log has no echoes"), "{none}");
-    let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
-    let again = command.get_matches_from(["--again", name, "--log", "none"]);
-    let again = RunOptions::from_arg_matches(&again).unwrap();
+    let simulated_with = |arguments: &[&str]| {
+        let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
+        RunOptions::from_arg_matches(&command.get_matches_from(arguments)).unwrap()
+    };
+    let again = simulated_with(&["--again", name, "--log", "none"]);
     let program = Program {
         name: "P",
         file: "plan.afp",
@@ -293,11 +295,15 @@ fn a_log_names_the_real_robot_and_is_not_repeated() {
         project: "",
         hardware: &[],
     };
-    let make = Box::new(|_: &dyn afp_session::AnyWorld, _: u64, _: &[&str]| {
-        panic!("there is nothing to make")
-    });
-    let ran = run(&program, robot.kind(), make, &again, Extras::default());
+    let make =
+        |_: &dyn afp_session::AnyWorld, _: u64, _: &[&str]| panic!("there is nothing to make");
+    let make = Box::new(make);
+    let ran = run(&program, robot.kind(), make.clone(), &again, Extras::default());
     assert!(message(ran).contains("which cannot be repeated"));
+    // A built program has no debugger, and refuses the option.
+    let attach = simulated_with(&["--attach", "--log", "none"]);
+    let ran = run(&program, robot.kind(), make, &attach, Extras::default());
+    assert!(message(ran).contains("'--attach' needs a debugger, and this program has none"));
 }
 
 #[test]

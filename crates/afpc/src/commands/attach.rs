@@ -3,13 +3,14 @@
 use std::io::{self, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::sync::mpsc::channel;
+use std::sync::Arc;
 use std::thread;
 
+use afp_output::frames::frame;
 use afp_run::{EXIT_OK, RunError};
 use clap::Args;
 
-use super::dap::{Begun, Link, connect, connect_to_only};
+use super::dap::{Begun, Incoming, Link, Tell, connect, connect_to_only};
 use super::stream::read;
 use crate::no_plan::NoPlan;
 
@@ -41,11 +42,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
             join(connect(Path::new(path))?)
         }
         Some(host) => {
-            let (sender, arrived) = channel();
-            thread::spawn(move || read(io::stdin(), |bytes| sender.send(bytes).is_ok()));
-            let relayed = Link::to(host)?.relay(Begun::nothing(), &arrived, io::stdout());
+            let mut incoming = Incoming::new(io::stdin());
+            let tell: Tell = Arc::new(|message| {
+                let mut out = io::stdout().lock();
+                out.write_all(&frame(message)).and_then(|()| out.flush()).is_ok()
+            });
+            let relayed = Link::to(host)?.relay(Begun::default(), |due| incoming.next(due), &tell);
             let failed = RunError::file("cannot talk over", "standard input".as_ref());
-            relayed.map_err(|why| failed(io::Error::other(why)))?;
+            if let Some(why) = relayed.map_err(|why| failed(io::Error::other(why)))? {
+                return Err(why.into());
+            }
         }
     }
     Ok(EXIT_OK)

@@ -4,6 +4,7 @@
 mod beside;
 #[cfg(unix)]
 mod elsewhere;
+mod incoming;
 #[cfg(unix)]
 mod link;
 mod listen;
@@ -26,14 +27,20 @@ use crate::{Linked, runner};
 
 #[cfg(unix)]
 pub use beside::Socket;
+#[cfg(all(feature = "studio", unix))]
+pub use elsewhere::Elsewhere;
 #[cfg(unix)]
-pub use link::{Begun, Link};
+pub use incoming::Incoming;
+#[cfg(feature = "studio")]
+pub use incoming::{Arrived, wait};
+#[cfg(unix)]
+pub use link::{Begun, Link, Tell};
 pub use simulator::Simulator;
 #[cfg(unix)]
 pub use sockets::{connect, connect_to_only};
-use talk::serve;
 #[cfg(feature = "studio")]
-pub use talk::{Arrived, converse, read, wait};
+pub use talk::converse;
+use talk::serve;
 
 /// Arguments of `afpc dap`.
 #[derive(Args, Debug)]

@@ -84,7 +84,7 @@ impl Client {
     }
 
     /// The reason why a request is rejected.
-    fn refused(&mut self, command: &str, arguments: Value) -> String {
+    pub fn refused(&mut self, command: &str, arguments: Value) -> String {
         let seq = self.send(command, &arguments);
         let answer = self.wait(command, |it| it["type"] == "response" && it["request_seq"] == seq);
         assert_eq!(answer["success"], false, "{command}: {answer}");
@@ -341,4 +341,39 @@ fn a_robot_is_debugged_through_ssh() {
     client.ask("terminate", json!({}));
     client.event("terminated");
     assert!(robot.run.wait().unwrap().success());
+}
+
+#[test]
+fn a_robot_that_cannot_be_reached_is_reported_with_the_next_step() {
+    let place = Place::new();
+    let path = format!("{}:{}", place.path("bin").display(), std::env::var("PATH").unwrap());
+    for (said, message, help) in [
+        (
+            "ssh: Could not resolve hostname robto.local: Name or service not known",
+            "does not know the name 'robto.local'",
+            "check the name",
+        ),
+        ("bash: afpc: command not found", "has no afpc", "afpc robot setup afp@robto.local"),
+        ("afp@robto.local: Permission denied (publickey).", "your key", "ssh-copy-id"),
+        (
+            "error: no run on this machine lets debuggers attach",
+            "no run that lets debuggers attach",
+            "afpc robot arm",
+        ),
+    ] {
+        place.program("bin/ssh", &format!("#!/bin/sh\necho '{said}' >&2\nexit 255\n"));
+        let mut command = place.command();
+        command.args(["attach", "afp@robto.local"]).env("PATH", &path).stdin(Stdio::piped());
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        // An editor that waits keeps its end open.
+        let editor = child.stdin.take();
+        let ended = crate::common::said(child.wait_with_output().unwrap());
+        drop(editor);
+        ended.fails(1, &[said, message, help]);
+        let mut command = place.command();
+        let mut editor = Client::of(command.arg("dap").env("PATH", &path));
+        editor.ask("initialize", json!({"clientID": "test", "adapterID": "afp"}));
+        let why = editor.refused("attach", json!({"host": "afp@robto.local"}));
+        assert!(why.contains(message) && why.contains(help), "{why}");
+    }
 }

@@ -1,35 +1,51 @@
-//! Clients of `afpc dap` that attach to a run elsewhere: on a robot, or on a socket.
+//! Clients of `afpc dap` and of the studio that attach to a run elsewhere: on a robot or a socket.
 
-use std::io::Write;
-use std::sync::mpsc::Receiver;
+use std::time::Duration;
 
-use afp_output::frames::{Frames, WireError, frame};
+use afp_output::frames::WireError;
 use serde_json::{Value, json};
 
-use super::link::{Begun, Link};
+use super::incoming::Arrived;
+use super::link::{Begun, Link, Tell};
 
 /// The messages for a run elsewhere.
 #[derive(Default)]
 pub struct Elsewhere {
-    /// The client's first request.
+    /// The client's first request, which is answered here.
     initialize: Option<String>,
     /// Its request to attach.
-    attach: Option<String>,
+    attach: Option<Value>,
+    begun: Begun,
+    /// Whether a host cannot be a local command.
+    no_commands: bool,
 }
 
 impl Elsewhere {
-    /// Whether the message attaches to a run elsewhere, so that the conversation here ends.
-    pub fn takes(&mut self, message: &str) -> bool {
-        let parsed: Value = serde_json::from_str(message).unwrap_or_default();
-        match parsed["command"].as_str() {
-            Some("initialize") => self.initialize = Some(message.to_owned()),
-            Some("attach") if place(&parsed).is_some() => {
-                self.attach = Some(message.to_owned());
-                return true;
+    /// For a client that must not start programs of this machine.
+    #[cfg(feature = "studio")]
+    pub fn without_commands() -> Elsewhere {
+        Elsewhere { no_commands: true, ..Elsewhere::default() }
+    }
+
+    /// Ends the conversation here with a message that attaches to a run elsewhere.
+    pub fn look(&mut self, arrived: Arrived) -> Arrived {
+        let Arrived::Messages(all) = arrived else { return arrived };
+        let parsed: Vec<Value> =
+            all.iter().map(|message| serde_json::from_str(message).unwrap_or_default()).collect();
+        let allowed = |place: &str| !(self.no_commands && place.starts_with("exec:"));
+        let attaches = |it: &&Value| it["command"] == "attach" && place(it).is_some_and(allowed);
+        self.attach = parsed.iter().find(attaches).cloned();
+        let Some(attach) = &self.attach else {
+            let greeted = parsed.iter().position(|it| it["command"] == "initialize");
+            if let Some(at) = greeted {
+                self.initialize = all.get(at).cloned();
+                self.begun.answered = parsed.get(at).and_then(|it| it["seq"].as_i64());
             }
-            _ => {}
-        }
-        false
+            return Arrived::Messages(all);
+        };
+        self.begun.leases = attach["arguments"]["lease"] == true;
+        self.begun.first = self.initialize.take().into_iter().chain(all).collect();
+        Arrived::End
     }
 
     /// Continues the conversation with that run.
@@ -38,31 +54,23 @@ impl Elsewhere {
     /// The client's input is not a sequence of messages.
     pub fn go_on(
         self,
-        frames: Frames,
-        arrived: &Receiver<Vec<u8>>,
-        mut to: impl Write + Send + 'static,
+        next: impl FnMut(Option<Duration>) -> Result<Arrived, WireError>,
+        tell: &Tell,
     ) -> Result<(), WireError> {
         let Some(attach) = self.attach else { return Ok(()) };
-        let parsed: Value = serde_json::from_str(&attach).unwrap_or_default();
-        match Link::to(place(&parsed).unwrap_or_default()) {
-            Ok(link) => {
-                let initialize: Option<Value> =
-                    self.initialize.as_ref().and_then(|it| serde_json::from_str(it).ok());
-                let answered = initialize.and_then(|it| it["seq"].as_i64());
-                let first = self.initialize.into_iter().chain([attach]).collect();
-                let leases = parsed["arguments"]["lease"] == true;
-                link.relay(Begun { first, answered, leases, frames }, arrived, to)
-            }
-            Err(why) => {
-                let response = json!({
-                    "type": "response", "request_seq": parsed["seq"], "command": "attach", "seq": 0,
-                    "success": false, "message": why.to_string(),
-                });
-                // If the client is gone, nobody needs the reason.
-                let _ = to.write_all(&frame(&response.to_string())).and_then(|()| to.flush());
-                Ok(())
-            }
+        let unreached = match Link::to(place(&attach).unwrap_or_default()) {
+            Ok(link) => link.relay(self.begun, next, tell)?,
+            Err(why) => Some(why),
+        };
+        if let Some(why) = unreached {
+            let response = json!({
+                "type": "response", "request_seq": attach["seq"], "command": "attach", "seq": 0,
+                "success": false, "message": why.to_string(),
+            });
+            // If the client is gone, nobody needs the reason.
+            tell(&response.to_string());
         }
+        Ok(())
     }
 }
 

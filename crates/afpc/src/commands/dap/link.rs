@@ -5,17 +5,17 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use afp_output::frames::{Frames, WireError, frame};
 use afp_run::RunError;
 use serde_json::{Value, json};
 
+use super::incoming::Arrived;
 use super::sockets;
-use crate::commands::robot::connect::command;
+use crate::commands::robot::connect::{command, no_ssh, shown, unreachable};
 use crate::commands::stream::read;
 
 /// The interval of checks whether the run has closed the connection.
@@ -23,14 +23,25 @@ const LOOK: Duration = Duration::from_millis(50);
 /// The time that the connection has for its last messages.
 const PATIENCE: Duration = Duration::from_secs(2);
 
+/// Sends a message to the client; returns whether the client still listens.
+pub type Tell = Arc<dyn Fn(&str) -> bool + Send + Sync>;
+
 /// A connection to a run.
 pub struct Link {
     from: Box<dyn Read + Send>,
     to: Box<dyn Write + Send>,
-    child: Option<Child>,
+    ssh: Option<Ssh>,
+}
+
+/// The program that connects to another machine, with the errors that it prints.
+struct Ssh {
+    host: String,
+    child: Child,
+    errors: Option<JoinHandle<String>>,
 }
 
 /// The messages of a client that comes from elsewhere.
+#[derive(Default)]
 pub struct Begun {
     /// Its first messages, to be sent again.
     pub first: Vec<String>,
@@ -38,14 +49,6 @@ pub struct Begun {
     pub answered: Option<i64>,
     /// Whether the client answers the lease itself.
     pub leases: bool,
-    pub frames: Frames,
-}
-
-impl Begun {
-    /// A client that has sent nothing.
-    pub fn nothing() -> Begun {
-        Begun { first: Vec::new(), answered: None, leases: false, frames: Frames::default() }
-    }
 }
 
 impl Link {
@@ -58,61 +61,77 @@ impl Link {
             let stream = sockets::connect(Path::new(place))?;
             let copy =
                 stream.try_clone().map_err(RunError::file("cannot attach to", place.as_ref()))?;
-            return Ok(Link { from: Box::new(copy), to: Box::new(stream), child: None });
+            return Ok(Link { from: Box::new(copy), to: Box::new(stream), ssh: None });
         }
         let mut command: Command = command(place, "afpc attach")?;
         let name = command.get_program().to_string_lossy().into_owned();
-        let spawned = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut child = spawned.map_err(RunError::file("cannot start", name.as_ref()))?;
+        let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = piped.spawn().map_err(|why| no_ssh(&name, &why))?;
+        let errors = child.stderr.take().map(shown);
         let (Some(to), Some(from)) = (child.stdin.take(), child.stdout.take()) else {
             return Err(RunError::usage(format!("'{name}' has no pipes"), ""));
         };
-        Ok(Link { from: Box::new(from), to: Box::new(to), child: Some(child) })
+        let ssh = Ssh { host: place.to_owned(), child, errors };
+        Ok(Link { from: Box::new(from), to: Box::new(to), ssh: Some(ssh) })
     }
 
-    /// Passes messages on in both directions until one side ends.
+    /// Passes messages on in both directions until one side ends. Returns the reason if the other
+    /// machine has not answered.
     ///
     /// # Errors
     /// The client's input is not a sequence of messages.
     pub fn relay(
         self,
-        mut begun: Begun,
-        arrived: &Receiver<Vec<u8>>,
-        out: impl Write + Send + 'static,
-    ) -> Result<(), WireError> {
-        let Link { from, to, child } = self;
+        begun: Begun,
+        mut next: impl FnMut(Option<Duration>) -> Result<Arrived, WireError>,
+        tell: &Tell,
+    ) -> Result<Option<RunError>, WireError> {
+        let Link { from, to, ssh } = self;
         let to: Arc<Way> = Arc::new(Mutex::new(Some(to)));
         let over = Arc::new(AtomicBool::new(false));
-        let back = Back { to: to.clone(), out, answered: begun.answered, leases: begun.leases };
+        let (tell, answered) = (tell.clone(), begun.answered);
+        let back = Back { to: to.clone(), tell, answered, leases: begun.leases, heard: false };
         let ended = over.clone();
         let receiving = thread::spawn(move || {
-            back.pass_on(from);
+            let heard = back.pass_on(from);
             ended.store(true, Ordering::Release);
+            heard
         });
         begun.first.iter().for_each(|message| send(&to, message));
-        loop {
-            while let Some(message) = begun.frames.next_message()? {
-                send(&to, &message);
+        let left = loop {
+            match next(Some(LOOK))? {
+                Arrived::Messages(all) => all.iter().for_each(|message| send(&to, message)),
+                Arrived::Nothing if over.load(Ordering::Acquire) => break false,
+                Arrived::Nothing => {}
+                Arrived::End => break true,
             }
-            match arrived.recv_timeout(LOOK) {
-                Ok(bytes) => begun.frames.push(&bytes),
-                Err(RecvTimeoutError::Timeout) if over.load(Ordering::Acquire) => break,
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => break,
-            }
-        }
+        };
         // The other side ends with its input, after it has read all messages.
         *to.lock().unwrap_or_else(PoisonError::into_inner) = None;
-        if let Some(mut child) = child {
-            let since = Instant::now();
-            while matches!(child.try_wait(), Ok(None)) && since.elapsed() < PATIENCE {
-                thread::sleep(LOOK);
-            }
-            let _ = child.kill();
-            let _ = child.wait();
-            let _ = receiving.join();
+        let Some(ssh) = ssh else { return Ok(None) };
+        let (host, said) = ssh.end();
+        let heard = receiving.join().unwrap_or_default();
+        Ok((!heard && !left).then(|| unreachable(&host, &said)))
+    }
+}
+
+impl Ssh {
+    /// Waits for the end of the program; returns the host and the program's errors.
+    fn end(mut self) -> (String, String) {
+        let since = Instant::now();
+        while matches!(self.child.try_wait(), Ok(None)) && since.elapsed() < PATIENCE {
+            thread::sleep(LOOK);
         }
-        Ok(())
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        // A process that ssh has started can keep its errors open.
+        let is_read = |errors: &JoinHandle<String>| errors.is_finished();
+        while self.errors.as_ref().is_some_and(|it| !is_read(it)) && since.elapsed() < 2 * PATIENCE
+        {
+            thread::sleep(LOOK);
+        }
+        let said = self.errors.filter(is_read).and_then(|errors| errors.join().ok());
+        (self.host, said.unwrap_or_default())
     }
 }
 
@@ -120,25 +139,30 @@ impl Link {
 type Way = Mutex<Option<Box<dyn Write + Send>>>;
 
 /// The way back to the client.
-struct Back<W> {
+struct Back {
     to: Arc<Way>,
-    out: W,
+    tell: Tell,
     answered: Option<i64>,
     leases: bool,
+    /// Whether the run has sent a message.
+    heard: bool,
 }
 
-impl<W: Write> Back<W> {
-    fn pass_on(mut self, from: impl Read) {
+impl Back {
+    /// Passes messages on; returns whether there was one.
+    fn pass_on(mut self, from: impl Read) -> bool {
         let mut frames = Frames::default();
         read(from, |bytes| {
             frames.push(&bytes);
             while let Ok(Some(message)) = frames.next_message() {
+                self.heard = true;
                 if !self.message(&message) {
                     return false;
                 }
             }
             true
         });
+        self.heard
     }
 
     /// Handles a message of the run; returns whether the client still listens.
@@ -159,7 +183,7 @@ impl<W: Write> Back<W> {
             self.answered = None;
             return true;
         }
-        self.out.write_all(&frame(message)).and_then(|()| self.out.flush()).is_ok()
+        (self.tell)(message)
     }
 }
 

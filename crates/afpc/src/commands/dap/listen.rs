@@ -13,8 +13,10 @@ use afp_run::{RunError, say};
 use afp_token::Token;
 
 use super::Simulator;
-use super::talk::{Clock, read, wait};
+use super::incoming::wait;
+use super::talk::Clock;
 use crate::Linked;
+use crate::commands::stream::read;
 
 /// The maximum number of clients.
 const CLIENTS: usize = 8;

@@ -1,24 +1,15 @@
 //! The conversation with a client, over any transport.
 
 use std::io::{Read, Write};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::thread;
+#[cfg(unix)]
+use std::sync::Arc;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use afp_debug::{Adapter, Outgoing};
-use afp_output::frames::{Frames, WireError, frame};
+use afp_output::frames::{WireError, frame};
 
-pub use crate::commands::stream::read;
-
-/// The next thing to handle.
-pub enum Arrived {
-    /// Messages of the client; an empty list if no message is complete yet.
-    Messages(Vec<String>),
-    /// Time has passed.
-    Nothing,
-    /// The client is gone.
-    End,
-}
+use super::incoming::{Arrived, Incoming};
 
 /// The maximum delay of the run while clients send messages.
 const LATE: Duration = Duration::from_millis(10);
@@ -110,46 +101,29 @@ pub fn converse(
 pub(super) fn serve(
     adapter: Adapter<'_>,
     from: impl Read + Send + 'static,
-    mut to: impl Write + Send + 'static,
+    to: impl Write + Send + 'static,
 ) -> Result<(), WireError> {
-    let (sender, arrived) = channel();
-    // The thread ends with the stream or with the program.
-    thread::spawn(move || read(from, |bytes| sender.send(bytes).is_ok()));
-    let mut frames = Frames::default();
+    let mut incoming = Incoming::new(from);
     #[cfg(unix)]
     let mut elsewhere = super::elsewhere::Elsewhere::default();
-    let next = |due: Option<Duration>| match wait(&arrived, due) {
-        Ok(bytes) => {
-            frames.push(&bytes);
-            let mut messages = Vec::new();
-            while let Some(message) = frames.next_message()? {
-                #[cfg(unix)]
-                if elsewhere.takes(&message) {
-                    return Ok(Arrived::End);
-                }
-                messages.push(message);
-            }
-            Ok(Arrived::Messages(messages))
-        }
-        Err(RecvTimeoutError::Timeout) => Ok(Arrived::Nothing),
-        Err(RecvTimeoutError::Disconnected) => {
-            std::mem::take(&mut frames).finish().map(|()| Arrived::End)
-        }
+    let next = |due: Option<Duration>| {
+        let arrived = incoming.next(due)?;
+        #[cfg(unix)]
+        let arrived = elsewhere.look(arrived);
+        Ok(arrived)
     };
-    let send = |out: &[String]| {
-        let bytes: Vec<u8> = out.iter().flat_map(|message| frame(message)).collect();
-        to.write_all(&bytes).and_then(|()| to.flush()).is_ok()
+    let to = Mutex::new(to);
+    let write = move |bytes: &[u8]| {
+        let mut to = to.lock().unwrap_or_else(PoisonError::into_inner);
+        to.write_all(bytes).and_then(|()| to.flush()).is_ok()
     };
+    let send =
+        |out: &[String]| write(&out.iter().flat_map(|message| frame(message)).collect::<Vec<_>>());
     converse(adapter, next, send)?;
     #[cfg(unix)]
-    elsewhere.go_on(frames, &arrived, to)?;
-    Ok(())
-}
-
-/// Waits for an arrival until the next step of the run.
-pub fn wait<T>(arrived: &Receiver<T>, due: Option<Duration>) -> Result<T, RecvTimeoutError> {
-    match due {
-        None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),
-        Some(due) => arrived.recv_timeout(due),
+    {
+        let tell: super::Tell = Arc::new(move |message| write(&frame(message)));
+        elsewhere.go_on(|due| incoming.next(due), &tell)?;
     }
+    Ok(())
 }

@@ -120,7 +120,7 @@ pub fn no_ssh(program: &str, why: &std::io::Error) -> RunError {
 }
 
 /// Prints the errors of a program at once, and keeps their beginning.
-fn shown(mut errors: ChildStderr) -> JoinHandle<String> {
+pub fn shown(mut errors: ChildStderr) -> JoinHandle<String> {
     thread::spawn(move || {
         let (mut all, mut part) = (Vec::new(), [0; 1024]);
         while let Ok(read @ 1..) = errors.read(&mut part) {
@@ -156,6 +156,16 @@ pub fn unreachable(host: &str, said: &str) -> RunError {
         (
             format!("the user of '{host}' may not change what the robot runs"),
             format!("name the user of the robot's service: 'afp@{name}'"),
+        )
+    } else if said.contains("lets debuggers attach") {
+        (
+            format!("'{host}' has no run that lets debuggers attach"),
+            format!("let its plan drive: 'afpc robot arm {host}'"),
+        )
+    } else if said.contains("Could not resolve hostname") {
+        (
+            format!("the network does not know the name '{name}'"),
+            "check the name, or write the robot's address: 'afp@192.168.4.1'".to_owned(),
         )
     } else if said.contains("not found") {
         (format!("'{host}' has no afpc"), format!("install it: 'afpc robot setup {host}'"))

@@ -4,7 +4,7 @@
 mod relay;
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
@@ -15,6 +15,8 @@ use afp_toolboxes::project::OwnToolboxes;
 use serde_json::{Value, json};
 
 use super::super::dap::{Arrived, Simulator, converse, wait};
+#[cfg(unix)]
+use super::super::dap::{Elsewhere, Tell};
 use crate::no_plan::NoPlan;
 use crate::{Linked, runner};
 use relay::{Conversation, relay};
@@ -32,7 +34,7 @@ pub(super) struct DebugService<'a> {
 }
 
 /// The state that another program needs to continue the conversation.
-struct Elsewhere {
+struct Another {
     program: PathBuf,
     /// The earlier messages.
     said: Conversation,
@@ -45,13 +47,15 @@ impl DebugService<'_> {
         // The run waits for its client. A client that does not read loses the connection.
         let tell = |message: String| told.blocking_send(message).is_ok();
         let mut before = Conversation::default();
-        let mut elsewhere = None;
+        let mut another = None;
+        #[cfg(unix)]
+        let mut attached = Elsewhere::without_commands();
         let next = |due: Option<Duration>| {
-            let message = match wait(&said, due) {
-                Ok(message) => message,
-                Err(RecvTimeoutError::Timeout) => return Ok(Arrived::Nothing),
-                Err(RecvTimeoutError::Disconnected) => return Ok(Arrived::End),
-            };
+            let arrived = arrival(&said, due);
+            #[cfg(unix)]
+            let arrived = attached.look(arrived);
+            let Arrived::Messages(mut messages) = arrived else { return Ok(arrived) };
+            let message = messages.pop().unwrap_or_default();
             let request: Value = serde_json::from_str(&message).unwrap_or_default();
             if !begins(&request) {
                 before.note(&request, &message);
@@ -62,7 +66,7 @@ impl DebugService<'_> {
                 Ok(Some(program)) => {
                     let mut said = std::mem::take(&mut before);
                     said.then(message);
-                    elsewhere = Some(Elsewhere { program, said });
+                    another = Some(Another { program, said });
                     Arrived::End
                 }
                 Err(why) => {
@@ -75,8 +79,15 @@ impl DebugService<'_> {
         let simulator = Simulator::inside(self.linked, self.folder);
         // An invalid message is impossible: frames are complete.
         let _ = converse(Adapter::new(Box::new(simulator)), next, send);
-        if let Some(Elsewhere { program, said: missed }) = elsewhere {
-            relay(&program, self.folder, missed, &said, &tell);
+        if let Some(Another { program, said: missed }) = another {
+            return relay(&program, self.folder, missed, &said, &tell);
+        }
+        #[cfg(unix)]
+        {
+            let told = told.clone();
+            let tell: Tell =
+                std::sync::Arc::new(move |text| told.blocking_send(text.to_owned()).is_ok());
+            let _ = attached.go_on(|due| Ok(arrival(&said, due)), &tell);
         }
     }
 
@@ -123,6 +134,15 @@ impl DebugService<'_> {
                 Err(format!("{names} cannot be built: {why} (more in the terminal of the studio)"))
             }
         }
+    }
+}
+
+/// Waits for a message of the client.
+fn arrival(said: &Receiver<String>, due: Option<Duration>) -> Arrived {
+    match wait(said, due) {
+        Ok(message) => Arrived::Messages(vec![message]),
+        Err(RecvTimeoutError::Timeout) => Arrived::Nothing,
+        Err(RecvTimeoutError::Disconnected) => Arrived::End,
     }
 }
 

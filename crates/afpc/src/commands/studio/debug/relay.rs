@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use afp_output::frames::{Frames, frame};
 use serde_json::{Value, json};
 
-use super::super::super::dap::read;
 use super::output;
+use crate::commands::stream::read;
 
 /// The time in which a program must end after its client has gone: it stops the robot first.
 const GRACE_PERIOD: Duration = Duration::from_secs(2);
