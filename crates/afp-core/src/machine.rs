@@ -211,12 +211,12 @@ impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
                 return self.end(Ending::Error(fault));
             }
         }
-        let first =
-            Edge { target: Some(Target::Element(self.t.table().start)), ending: Ending::Ok };
+        let start = self.level.plan.begins_at().unwrap_or(self.t.table().start);
+        let first = Edge { target: Some(Target::Element(start)), ending: Ending::Ok };
         if let Some(held) = self.held_before(first) {
             return held;
         }
-        match self.enter(self.t.table().start).transpose() {
+        match self.enter(start).transpose() {
             None => Flow::Running(self.wake()),
             Some(edge) => self.follow(edge),
         }

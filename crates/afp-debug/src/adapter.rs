@@ -4,6 +4,7 @@ mod again;
 mod clients;
 mod ended;
 mod force;
+mod fork;
 mod goto;
 mod hover;
 mod launch;
@@ -25,7 +26,7 @@ use std::time::Duration as Wall;
 
 use afp_core::Instant;
 use afp_dsl::files::path_of;
-use afp_session::{Drawing, Droppable};
+use afp_session::{Drawing, Droppable, Pose2};
 use afp_token::Token;
 use dapts::event;
 use serde::Serialize;
@@ -33,6 +34,8 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 use crate::breakpoints::Breakpoints;
+use crate::program::Program;
+use crate::state::State;
 use crate::target::Target;
 
 pub use clients::{ClientId, Outgoing};
@@ -57,8 +60,29 @@ pub trait Host<'h> {
         Err(format!("'{}' has no known world", launch.program))
     }
 
+    /// Makes a simulated run that continues a recorded run, before its first step, and sentences
+    /// about it.
+    ///
+    /// # Errors
+    /// The reason and an action.
+    fn fork(&mut self, fork: &Fork<'_>) -> Result<(Box<dyn Target + 'h>, Vec<String>), String> {
+        let _ = fork;
+        Err("a log cannot change: run its plan first".to_owned())
+    }
+
     /// Normalizes a path for [`Program::files`](crate::Program::files).
     fn path(&self, path: &str) -> String;
+}
+
+/// A moment of a recorded run.
+pub struct Fork<'a> {
+    /// The log, and the plan's file if its text counts.
+    pub launch: &'a Launch,
+    pub at: Instant,
+    pub program: &'a Program,
+    pub state: &'a State,
+    /// The recorded pose of the robot.
+    pub pose: Option<Pose2>,
 }
 
 /// The world of a run.
@@ -263,7 +287,7 @@ impl<'h> Adapter<'h> {
             "afp/drop" => said(self.drop_into(parse(arguments)?)),
             "afp/picture" => said(self.picture()),
             "afp/force" => said(self.force(parse(arguments)?)),
-            "afp/fork" => said(self.fork(now)),
+            "afp/fork" => said(self.fork(parse(arguments)?, now)),
             "afp/release" => said(self.release(parse(arguments)?)),
             "afp/role" => said(self.role(parse(arguments)?, now)),
             "afp/why" => said(self.why(parse(arguments)?)),

@@ -120,7 +120,7 @@ impl Program {
 }
 
 /// A value for formulas; `None` if it is unset or an object.
-fn constant(value: &Datum, ty: &Type) -> Option<Constant> {
+pub(crate) fn constant(value: &Datum, ty: &Type) -> Option<Constant> {
     let place = |name: String| {
         let (name, Type::Enum(choices)) = (name.rsplit('.').next()?, ty) else { return None };
         u16::try_from(choices.variants.iter().position(|variant| variant == name)?).ok()

@@ -41,6 +41,19 @@ pub struct Graph {
     pub rows: Vec<Arc<Rows>>,
     /// The plan files, with their numbers in spans.
     pub sources: Vec<(u16, Arc<Source>)>,
+    /// The moment of another run at which the next run begins; generated code ignores it.
+    pub moment: Option<Moment>,
+}
+
+/// A moment of a plan: the values of its entries, and its active element.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Values that replace the initial values.
+    pub entries: Vec<(EntryId, Constant)>,
+    /// The element that starts first, if it is not the plan's first.
+    pub element: Option<ElementId>,
+    /// The moment inside this element, if it is a sub-plan.
+    pub inner: Option<Box<Moment>>,
 }
 
 #[derive(Clone, Debug)]

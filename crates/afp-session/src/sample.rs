@@ -46,6 +46,15 @@ impl Pose2 {
         }
     }
 
+    /// Converts a pose in the frame of this pose to a pose relative to this pose, the inverse of
+    /// [`Pose2::beyond`].
+    pub fn to(self, pose: Pose2) -> Pose2 {
+        let (sin, cos) = libm::sincos(self.heading);
+        let (x, y) = (pose.x - self.x, pose.y - self.y);
+        let heading = pose.heading - self.heading;
+        Pose2 { x: x * cos + y * sin, y: y * cos - x * sin, heading }
+    }
+
     /// The pose at an instant, interpolated between one before and one after it; beyond both, the
     /// nearer one.
     pub fn between(before: (Instant, Pose2), after: (Instant, Pose2), at: Instant) -> Pose2 {

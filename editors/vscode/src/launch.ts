@@ -33,7 +33,7 @@ export function completed(config: Launch, open: Open | null): Launch | string {
   if (isEmpty && !plan) return "Open a plan first.";
   const full: Launch = isEmpty ? { name: "Debug the plan", program: plan! } : { ...config };
   if (!full.program && !full.log) return "The configuration needs a 'program', the plan's file, or a 'log'.";
-  if (full.program && full.log) return "The configuration must have a 'program' or a 'log', not both.";
+  if (full.program && full.log && full.at === undefined) return "The configuration must have a 'program' or a 'log', not both.";
   Object.assign(full, { type: "afp", request: "launch" });
   if (full.speed === undefined) full.speed = REAL_TIME;
   // Without a speed, the run is as fast as possible.

@@ -12,8 +12,8 @@ use crate::target::Target;
 /// Returns the command. It is `None` if some input has no option: a value written or forced during
 /// the run, a move in the world, or a button held for an unknown time.
 pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<String> {
-    if target.is_live() {
-        // The run's log repeats it.
+    if target.is_live() || launch.is_fork {
+        // The log of a robot's run repeats it. No option continues a log.
         return None;
     }
     if let Some(log) = &launch.log {

@@ -13,7 +13,7 @@ use super::clients::Counting;
 use super::mode::{By, Mode, Pace, STATES};
 use super::stop::stopped_event;
 use super::{Adapter, Answer, Guard, Refusal, Run, parse};
-use crate::target::Target;
+use crate::target::{Position, Target};
 
 /// The arguments of `launch`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -39,8 +39,14 @@ pub struct Launch {
     pub stop_on_entry: bool,
     /// Whether breakpoints are disabled.
     pub no_debug: bool,
+    /// The second of the log at which a simulation continues, with the text of `program` or of the
+    /// log.
+    pub at: Option<f64>,
     /// The token of a guarded adapter.
     pub token: Option<String>,
+    /// Whether the run has continued from a log.
+    #[serde(skip)]
+    pub is_fork: bool,
 }
 
 /// The arguments of `attach`.
@@ -151,9 +157,18 @@ impl<'h> Adapter<'h> {
             );
         }
         check(&launch)?;
+        let (at, program) = (launch.at, launch.program.clone());
         self.begin(launch, now)?;
         self.take_part();
         self.operator = Some(self.asker);
+        if let Some(at) = at {
+            self.run()?.target.seek(Position::At(Instant::ZERO + Duration::from_secs_f64(at)))?;
+            if let Err(why) = self.fork_log(program, now) {
+                // There is no run.
+                (self.run, self.operator) = (None, None);
+                return Err(why);
+            }
+        }
         if self.run()?.target.is_recorded() {
             let capabilities = capabilities(true, Of::Log);
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
@@ -236,10 +251,10 @@ impl<'h> Adapter<'h> {
         let program = self.run()?.target.program();
         let plan = program.units.first();
         let file = plan.and_then(|plan| program.files.get(plan.at.file));
-        Ok(json!({"plan": plan.map(|plan| &plan.name), "file": file}))
+        Ok(json!({"plan": plan.map(|plan| &plan.name), "file": file, "files": program.files}))
     }
 
-    fn begin(&mut self, launch: Launch, now: Wall) -> Answer<()> {
+    pub(super) fn begin(&mut self, launch: Launch, now: Wall) -> Answer<()> {
         let target = self.host.launch(&launch)?;
         self.begin_with(target, launch, now);
         Ok(())
@@ -306,6 +321,7 @@ impl<'h> Adapter<'h> {
         let run = self.run()?;
         let traced = run.traced.is_some();
         let launch = again(arguments)?.unwrap_or_else(|| run.launch.clone());
+        let launch = Launch { is_fork: false, ..launch };
         check(&launch)?;
         self.begin(launch, now)?;
         let run = self.run()?;
@@ -313,33 +329,6 @@ impl<'h> Adapter<'h> {
         let program = run.target.program().clone();
         self.find_breakpoints(&program);
         self.start(now)
-    }
-
-    /// Starts the run again with the current text, repeats its requests, and goes to the same
-    /// instant. If the text has an equal meaning, the run is in the same state.
-    pub(super) fn fork(&mut self, now: Wall) -> Answer<()> {
-        let run = self.run()?;
-        if run.target.is_recorded() {
-            return Err("a log cannot change: run its plan first".into());
-        }
-        let (at, speed) = (run.target.now(), run.pace.factor);
-        let (launch, traced) = (run.launch.clone(), run.traced.is_some());
-        // The host makes the requests before the start again.
-        let requests = run.target.requests().into_iter().skip(launch.set.len());
-        let requests: Vec<_> = requests.take_while(|(asked, _)| *asked <= at).collect();
-        let goes_on = !matches!(run.mode, Mode::Held | Mode::Over);
-        self.begin(Launch { stop_on_entry: true, ..launch.clone() }, now)?;
-        let run = self.run()?;
-        (run.launch, run.traced) = (launch, traced.then(Vec::new));
-        run.pace = Pace::new(speed, run.target.now(), now);
-        for (asked, what) in requests {
-            run.target.repeat(asked, &what)?;
-        }
-        let program = run.target.program().clone();
-        run.has_begun = true;
-        run.mode = Mode::Seek { to: at, goes_on };
-        self.find_breakpoints(&program);
-        Ok(())
     }
 
     /// Ends the plan, stops the robot and sends the result to all clients.
@@ -411,6 +400,9 @@ fn check(launch: &Launch) -> Answer<()> {
     }
     if launch.until.is_some_and(|until| !(until > 0.0 && until < 1e9)) {
         return Err("'until' is a number of seconds above 0; leave it out for no end".into());
+    }
+    if launch.at.is_some_and(|at| launch.log.is_none() || !(at >= 0.0 && at < 1e9)) {
+        return Err("'at' is a second of a 'log'".into());
     }
     let fresh = launch.world.is_some()
         || launch.start.is_some()

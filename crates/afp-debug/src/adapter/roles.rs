@@ -110,7 +110,7 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    fn send_capabilities(&mut self, id: ClientId) {
+    pub(super) fn send_capabilities(&mut self, id: ClientId) {
         let Some(run) = &self.run else { return };
         let capabilities = capabilities(self.operator == Some(id), Of::target(&*run.target));
         self.event_to::<event::Capabilities>(id, &dapts::CapabilitiesEvent { capabilities });

@@ -35,8 +35,14 @@ pub(super) fn graph(
     tell_apart(&mut drawn, main);
     let toolboxes = program.linked.clone();
     let sources = program.files.iter().map(|file| (file.source.0, Arc::clone(file.source.1)));
-    let mut graph =
-        Graph { plans: drawn, main, toolboxes, rows: Vec::new(), sources: sources.collect() };
+    let mut graph = Graph {
+        plans: drawn,
+        main,
+        toolboxes,
+        rows: Vec::new(),
+        sources: sources.collect(),
+        moment: None,
+    };
     graph.rows = rows::lower(&graph)?;
     Some(graph)
 }

@@ -66,7 +66,7 @@ pub(super) fn partial(
     tell_apart(&mut drawn, main);
     let sources = program.files.iter().map(|file| (file.source.0, Arc::clone(file.source.1)));
     let (toolboxes, sources) = (reader.toolboxes, sources.collect());
-    let graph = Graph { plans: drawn, main, toolboxes, rows: Vec::new(), sources };
+    let graph = Graph { plans: drawn, main, toolboxes, rows: Vec::new(), sources, moment: None };
     Some(Partial { graph, wrong: reader.wrong })
 }
 

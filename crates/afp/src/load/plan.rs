@@ -39,8 +39,10 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
     entries: Arc<[EntryInfo]>,
     /// Entries with an initial value, in the order of initialisation.
     initial: Arc<[(u16, Formula)]>,
-    /// Values taken over from a replaced plan.
+    /// Values taken over from a replaced plan, or from a moment of another run.
     carried: Vec<Carried>,
+    /// The element at which the next start begins, if it is not the first.
+    begins_at: Option<ElementId>,
     elements: Vec<ElementSlot<E>>,
     supervisors: Vec<WatchSlot<E>>,
     /// The names of the outermost plan.
@@ -80,7 +82,10 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// The registry lacks a template or object type.
     pub fn new(graph: &Graph, registry: &Registry<E>) -> Result<Self, LoadError> {
         let names = PlanNames::new(graph);
-        Loader { graph, registry, names }.plan(graph.main)
+        let mut plan = Loader { graph, registry, names }.plan(graph.main, graph.moment.as_ref())?;
+        // Inputs must be set before the start.
+        plan.put_carried(|kind| kind == EntryKind::In);
+        Ok(plan)
     }
 
     /// The index of an entry.
@@ -195,6 +200,7 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
             entries: self.entries.clone(),
             initial: self.initial.clone(),
             carried: self.carried.clone(),
+            begins_at: self.begins_at,
             elements: self.elements.iter().map(ElementSlot::try_clone).collect::<Option<_>>()?,
             supervisors: self
                 .supervisors
@@ -240,6 +246,10 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
         }
         self.put_carried(|_| true);
         Ok(())
+    }
+
+    fn begins_at(&mut self) -> Option<ElementId> {
+        self.begins_at.take()
     }
 
     fn entry(&self, entry: u16) -> ValueRef<'_> {

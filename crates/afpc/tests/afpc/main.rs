@@ -19,6 +19,8 @@ mod deploy;
 mod every_output;
 mod files;
 mod fmt;
+#[cfg(all(feature = "dap", feature = "pi", target_os = "linux"))]
+mod fork;
 mod graph;
 mod log;
 #[cfg(feature = "lsp")]

@@ -1,10 +1,11 @@
-//! Values taken over by a plan that replaces another.
+//! Values taken over by a plan that replaces another, or that begins at a moment of another run.
 
 use afp_core::{Environment, Value};
-use afp_dsl::graph::EntryKind;
+use afp_dsl::graph::{EntryKind, Moment};
 use afp_dsl::types::Type;
 
 use super::LoadedPlan;
+use super::entry::fit;
 use crate::load::config::ObjectCell;
 use crate::load::numbered;
 use crate::load::outputs::limit;
@@ -52,6 +53,18 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 }
 
 impl<E: ?Sized + 'static> LoadedPlan<E> {
+    /// Begins the next start at a moment. Values outside their ranges are skipped.
+    pub(super) fn begin_at(&mut self, moment: &Moment) {
+        self.begins_at = moment.element;
+        for (entry, value) in &moment.entries {
+            let value = fit(self.config.values.ty(entry.0), value);
+            let info = self.entries.get(usize::from(entry.0));
+            if info.is_some_and(|info| limit(info.range, value.clone()).is_ok()) {
+                self.carried.push(Carried { entry: entry.0, value, object: None });
+            }
+        }
+    }
+
     /// Puts the carried values into the entries of some kinds.
     pub(super) fn put_carried(&mut self, of: impl Fn(EntryKind) -> bool) {
         let LoadedPlan { carried, entries, config, .. } = self;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use afp_core::Environment;
 use afp_core::rt::{Child, Machine, Tables};
-use afp_dsl::graph::{self, Component, Graph, PlanId};
+use afp_dsl::graph::{self, Component, Graph, Moment, PlanId};
 use afp_dsl::types::Type;
 use afp_syntax::source::Span;
 
@@ -31,14 +31,22 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
     ///
     /// # Errors
     /// The registry lacks a template or object type.
-    pub(super) fn plan(&self, id: PlanId) -> Result<LoadedPlan<E>, LoadError> {
+    pub(super) fn plan(
+        &self,
+        id: PlanId,
+        moment: Option<&Moment>,
+    ) -> Result<LoadedPlan<E>, LoadError> {
         let plan = self.graph.plan(id);
         let tables = LoadedTables::new(self.graph.rows(id));
         self.check_objects(plan)?;
         let rows = tables.table();
-        let elements = plan.elements.iter().zip(rows.elements);
+        let inner = |at: usize| {
+            let here = moment.filter(|it| it.element.is_some_and(|element| element.index() == at));
+            here.and_then(|moment| moment.inner.as_deref())
+        };
+        let elements = plan.elements.iter().zip(rows.elements).enumerate();
         let supervisors = plan.supervisors.iter();
-        Ok(LoadedPlan {
+        let mut loaded = LoadedPlan {
             config: Config::new(&plan.entries, |ty| match ty {
                 Type::Object(object) => self.registry.object_cell(&object.toolbox, &object.name),
                 _ => None,
@@ -47,14 +55,21 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             names: self.names.clone(),
             initial: initial(plan),
             carried: Vec::new(),
+            begins_at: None,
             elements: elements
-                .map(|(element, row)| self.element(element, &plan.entries, row.child))
+                .map(|(at, (element, row))| {
+                    self.element(element, &plan.entries, (row.child, inner(at)))
+                })
                 .collect::<Result<_, _>>()?,
             supervisors: supervisors
                 .map(|supervisor| self.supervisor(supervisor, &plan.entries))
                 .collect::<Result<_, _>>()?,
             tables,
-        })
+        };
+        if let Some(moment) = moment {
+            loaded.begin_at(moment);
+        }
+        Ok(loaded)
     }
 
     fn check_objects(&self, plan: &graph::Plan) -> Result<(), LoadError> {
@@ -72,7 +87,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
         &self,
         element: &graph::Element,
         entries: &[graph::Entry],
-        child: Child,
+        (child, moment): (Child, Option<&Moment>),
     ) -> Result<ElementSlot<E>, LoadError> {
         let component = match element.component {
             Component::Actor(id) => {
@@ -87,7 +102,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
                 })
             }
             Component::SubPlan(id) => {
-                Running::SubPlan { child, machine: Box::new(Machine::new(self.plan(id)?)) }
+                Running::SubPlan { child, machine: Box::new(Machine::new(self.plan(id, moment)?)) }
             }
         };
         Ok(ElementSlot::new(element, entries, component))

@@ -5,11 +5,14 @@ use std::sync::Arc;
 use std::{fs, io};
 
 use afp_core::devices::{DeviceRow, SignalType, signals};
-use afp_debug::{Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target};
+use afp_debug::{
+    Fork, FoundMoment, Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target, moment,
+};
 use afp_dsl::files::path_of;
 use afp_dsl::graph::Graph;
+use afp_log::LogData;
 use afp_run::{RunError, world};
-use afp_session::{Pose2, Recipe};
+use afp_session::{AnyRobot, AnyWorld, Pose2, Recipe};
 
 use crate::plan_file::{self, PlanFile, PlanText};
 use crate::{Linked, runner};
@@ -79,6 +82,16 @@ impl<'a> Simulator<'a> {
         })
     }
 
+    /// Checks that this program has the parts of a plan.
+    fn check_linked(&self, file: &PlanFile, graph: &Graph, program: &str) -> Result<(), String> {
+        match runner::is_linked(&file.own, graph, &self.linked).map_err(|why| why.to_string())? {
+            true => Ok(()),
+            false => Err(format!(
+                "'{program}' needs a robot or toolboxes of its project: run 'afpc dap {program}', which builds them"
+            )),
+        }
+    }
+
     /// The given path. With a restricting folder, the canonical path, so that the checked file is
     /// also the file that is read.
     fn inside_of_folder(&self, path: &Path) -> Result<PathBuf, String> {
@@ -133,13 +146,7 @@ impl<'a> Host<'a> for Simulator<'a> {
         let file = files.plan().map_err(|why| why.to_string())?;
         let shown = file.compiled.render(false);
         let graph = file.compiled.graph.clone().ok_or(shown)?;
-        let linked = runner::is_linked(&file.own, &graph, &self.linked);
-        if !linked.map_err(|why| why.to_string())? {
-            let program = &launch.program;
-            return Err(format!(
-                "'{program}' needs a robot or toolboxes of its project: run 'afpc dap {program}', which builds them"
-            ));
-        }
+        self.check_linked(&file, &graph, &launch.program)?;
         let robot = self.linked.robot;
         let found = world::find(files.world.as_deref(), &file.path, robot.kind());
         let mut found = found.map_err(|why| why.to_string())?;
@@ -161,6 +168,41 @@ impl<'a> Host<'a> for Simulator<'a> {
         };
         let target = SessionTarget::new(Arc::new(program), Box::new(make))?;
         Ok(Box::new(target.with_warnings(warning.map(str::to_owned).into_iter().collect())))
+    }
+
+    fn fork(&mut self, fork: &Fork<'_>) -> Result<(Box<dyn Target + 'a>, Vec<String>), String> {
+        let files = self.files(fork.launch)?;
+        let path = files.log.as_deref().ok_or("only a log continues in the simulator")?;
+        let log = afp_log::read(path).map_err(|why| why.to_string())?;
+        let file = match files.program.as_os_str().is_empty() {
+            true => PlanFile::of_log(&log, path),
+            false => files.plan(),
+        };
+        let file = file.map_err(|why| why.to_string())?;
+        let shown = file.compiled.render(false);
+        let mut graph = file.compiled.graph.clone().ok_or(shown)?;
+        self.check_linked(&file, &graph, &file.path.display().to_string())?;
+        let FoundMoment { moment, active, lost } = moment(fork.program, fork.state, &graph)?;
+        graph.moment = Some(moment);
+        let (world, place) = forked_world(&log, &file, fork.pose, self.linked.robot.kind())?;
+        let at = fork.at.as_secs_f64();
+        let mut notes = vec![
+            format!("from {at:.3} s the simulator continues the log: '{active}' starts again"),
+            place,
+        ];
+        if !lost.is_empty() {
+            notes.push(format!("values that the log cannot give back: {}", lost.join(", ")));
+        }
+        let program = program(&graph, &file, &absolute);
+        let (robot, seed, at) = (self.linked.robot, log.recipe().seed, fork.at);
+        let make = move || {
+            let session = robot.session(&graph, &*world, seed, &[]);
+            let mut session = session.map_err(|why| format!("{why}: {}", why.help()))?;
+            // Its time continues that of the log.
+            session.wait(at);
+            Ok(session)
+        };
+        Ok((Box::new(SessionTarget::new(Arc::new(program), Box::new(make))?), notes))
     }
 
     fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
@@ -203,6 +245,45 @@ impl<'a> Host<'a> for Simulator<'a> {
     }
 }
 
+/// The world in which a log continues, with the robot at its place, and a sentence about the place.
+/// The world of a real robot is unknown: the simulator takes the plan's.
+fn forked_world(
+    log: &LogData,
+    file: &PlanFile,
+    pose: Option<Pose2>,
+    kind: &dyn AnyRobot,
+) -> Result<(Arc<dyn AnyWorld>, String), String> {
+    let Recipe { world, .. } = log.recipe();
+    let is_simulated = !world.text.is_empty();
+    let found = match is_simulated {
+        true => kind.world(&world.text).map_err(|why| why.to_string())?,
+        false => world::find(None, &file.path, kind).map_err(|why| why.to_string())?.world,
+    };
+    let start = found.drawing().start;
+    let Some(pose) = pose else {
+        return Ok((
+            found,
+            "the robot's place is unknown: it is at the start of the world".to_owned(),
+        ));
+    };
+    // The odometry of a real robot counts from its start.
+    let first = log.believed.first().map_or(Pose2::default(), |(_, first)| *first);
+    let pose = if is_simulated { pose } else { start.beyond(first.to(pose)) };
+    let Pose2 { x, y, heading } = pose;
+    match found.started_at(pose) {
+        Ok(there) => {
+            let by =
+                if is_simulated { "" } else { ", by its odometry from the start of the world" };
+            let degrees = heading.to_degrees();
+            Ok((there, format!("the robot is at {x:.2} m, {y:.2} m, {degrees:.0} deg{by}")))
+        }
+        Err(why) => {
+            let why = why.message;
+            Ok((found, format!("the robot is at the start of the world, not at its place: {why}")))
+        }
+    }
+}
+
 /// A finished run.
 fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, String> {
     let mut log = afp_log::read(path).map_err(|why| why.to_string())?;
@@ -219,7 +300,9 @@ fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, Str
     let program = program(&graph, &file, &named);
     let events = std::mem::take(&mut log.events);
     let target = LogTarget::new(Arc::new(program), events)?;
-    let target = target.with_poses(std::mem::take(&mut log.poses));
+    let poses = std::mem::take(&mut log.poses);
+    // A real robot has only its odometry.
+    let target = target.with_poses(if poses.is_empty() { log.believed.clone() } else { poses });
     let senses = Senses::take(&mut log, devices);
     let target = target.with_senses(move |at, robot| senses.at(at, robot));
     Ok(target.with_pictures(move |at| log.picture(at)))
