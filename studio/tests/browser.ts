@@ -6,6 +6,7 @@ import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, test } from "node:test";
+import { PATIENCE, settled } from "./settled";
 import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 
 export const AFPC = process.env.AFPC ?? "";
@@ -13,8 +14,7 @@ const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 /** The reason why the browser tests are skipped; false if they run. */
 export const SKIP = !AFPC ? "AFPC does not say where afpc is" : !existsSync(CHROMIUM) ? `there is no ${CHROMIUM}` : false;
 
-/** Longest wait for the page, milliseconds. */
-const PATIENCE = 10_000;
+export { settled };
 
 export interface Studio {
   page: Page;
@@ -34,16 +34,6 @@ export interface Studio {
   restart(enter?: boolean): Promise<string>;
   /** Waits until the page shows "saved". */
   isSaved(): Promise<void>;
-}
-
-/** Reads until the value is as wanted, or the wait is over. */
-export async function settled(read: () => Promise<string>, isWanted: (now: string) => boolean): Promise<string> {
-  const end = Date.now() + PATIENCE;
-  for (;;) {
-    const now = await read();
-    if (isWanted(now) || Date.now() > end) return now;
-    await new Promise((done) => setTimeout(done, 30));
-  }
 }
 
 /** Waits until a part of the page matches a pattern. */

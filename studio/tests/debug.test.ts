@@ -47,6 +47,11 @@ test("records become rows: active elements, supervisors, writes", () => {
   assert.deepEqual(found[3]!.marks, [{ at: 1.5, label: "1" }]);
 });
 
+test("a simulation that continues a log starts all rows again", () => {
+  const found = rows([record(-3, 0, "started", "go"), record(-2, 0, "started", "go.touch", { supervisor: true }), record(-1, 2, "forked", ""), record(1, 2, "started", "go")]);
+  assert.deepEqual(found.map(({ bars }) => bars.map(({ from, to }) => [from, to])), [[[0, 2], [2, null]], [[0, 2]]]);
+});
+
 test("events after a step back replace the earlier events", () => {
   const before = [record(1, 0, "started", "a"), record(2, 1, "finished", "a"), record(3, 1, "started", "b")];
   assert.equal(extended(before, []), before);

@@ -41,6 +41,26 @@ inBrowser("a log is shown like a run and cannot be changed", { "plan.afp": PLAN 
   assert.equal(await page.getByRole("button", { name: /^Force/ }).count(), 0);
 });
 
+inBrowser("a log continues in the simulator from a moment, with a changed plan", { "plan.afp": PLAN }, async ({ page, folder, write }) => {
+  await promisify(execFile)(process.env.AFPC!, ["run", "plan.afp", "--log", "one.mcap"], { cwd: folder });
+  await write("plan.afp", PLAN.replace("90 deg", "45 deg"));
+  await page.getByRole("button", { name: "Files" }).click();
+  await page.getByRole("menuitem", { name: "one.mcap" }).click();
+  // The second element of the log.
+  await page.locator(".lane.flow rect").nth(1).click();
+  await page.locator('.run-active[data-item="P.turn"], .run-active').first().waitFor({ state: "attached" });
+  const begun = await page.locator(".clock").innerText();
+  await page.getByRole("button", { name: "Continue in the simulator" }).click();
+  await page.locator(".timeline line.forked").waitFor({ state: "attached" });
+  await page.getByRole("button", { name: "Continue (F5)" }).or(page.locator("button.run")).first().waitFor();
+  assert.equal(await page.locator(".clock").innerText(), begun);
+  // The recorded element, and the one that started again.
+  await page.waitForFunction(() => document.querySelectorAll(".lane.flow rect").length === 3);
+  await page.keyboard.press("F5");
+  await shows(page.locator(".end-card"), /finished normally/);
+  assert.equal(await page.locator(".end-card code").count(), 0);
+});
+
 inBrowser("a new project is created in its own folder, and its plan is shown", {}, async ({ page, read }) => {
   await page.getByRole("button", { name: "Files" }).click();
   await page.getByRole("menuitem", { name: "New project" }).click();

@@ -7,6 +7,7 @@ use std::{env, fs};
 
 use crate::npm;
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
+use crate::studio;
 
 /// The parser generator, as cargo names it. Its npm package only downloads it.
 const TOOL: &str = "tree-sitter-cli@0.27.1";
@@ -42,6 +43,7 @@ pub fn extension() -> Result<(), Failure> {
     run_command(npm::npm().args(["run", "--silent", "check"]).current_dir(&extension))?;
     let features = ["build", "--quiet", "--package", "afpc", "--features", "full"];
     run_command(cargo().args(features))?;
+    studio::controller()?;
     let afpc = target().join("debug").join(format!("afpc{}", env::consts::EXE_SUFFIX));
     let mut tests = npm::npm();
     tests.args(["run", "--silent", "test"]).current_dir(&extension).env("AFPC", root().join(afpc));

@@ -58,8 +58,18 @@ fn tested(settings: &[(&str, &str)]) -> Result<(), Failure> {
     run_command(npm().args(["run", "--silent", "check"]))?;
     let features = ["build", "--quiet", "--package", "afpc", "--features", "full,studio"];
     run_command(cargo().args(features))?;
+    controller()?;
     let afpc = program_in("debug");
     run_command(npm().args(["test"]).env("AFPC", afpc).envs(settings.iter().copied()))
+}
+
+/// Builds the controller of the robot that tests attach to.
+///
+/// # Errors
+/// A failing build.
+pub fn controller() -> Result<(), Failure> {
+    let example = ["build", "--quiet", "--package", "afp-pi", "--example", "controller"];
+    run_command(cargo().args(example))
 }
 
 /// `afpc` as built by a profile.

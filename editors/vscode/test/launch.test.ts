@@ -6,6 +6,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { DebugClient } from "@vscode/debugadapter-testsupport";
 import { adapterOf, argumentsOf, completed, isElsewhere, launchOf, programOf, type Launch } from "../src/launch";
+import { DRIVE, Robot } from "../../../studio/tests/driven";
 import { AFPC, serving } from "./server";
 
 const manifest = JSON.parse(readFileSync("package.json", "utf8"));
@@ -78,3 +79,39 @@ for (const [nth, config] of [...debuggers.initialConfigurations, ...debuggers.co
       adapter.kill();
     }));
 }
+
+test("a breakpoint of the editor holds a robot that drives, and the editor continues it", async () => {
+  const robot = new Robot();
+  const client = new DebugClient(AFPC, "dap", "afp");
+  try {
+    await robot.begin();
+    await robot.wheels("turn");
+    const attach = completed({ type: "afp", request: "attach", name: "Robot", socket: robot.socket, role: "operator" }, null) as Launch;
+    assert.ok(isElsewhere(attach));
+    await client.start();
+    await client.initializeRequest();
+    const ready = client.waitForEvent("initialized");
+    await client.attachRequest(attach as never);
+    await ready;
+    const line = 1 + DRIVE.split("\n").findIndex((each) => each.includes("actor rest"));
+    // The editor's file is on another machine than the robot's.
+    const set = await client.setBreakpointsRequest({ source: { path: "/home/me/plans/drive.afp" }, breakpoints: [{ line }] });
+    assert.deepEqual(set.body.breakpoints.map((each) => [each.verified, each.line]), [[true, line]]);
+    const stopped = client.waitForEvent("stopped", 60_000);
+    await client.configurationDoneRequest();
+    assert.equal((await stopped).body?.reason, "breakpoint");
+    await robot.wheels("stop");
+    const stack = await client.stackTraceRequest({ threadId: 1 });
+    assert.deepEqual([stack.body.stackFrames[0]?.name, stack.body.stackFrames[0]?.source?.path], ["rest: Wait", "/home/me/plans/drive.afp"]);
+    await client.setBreakpointsRequest({ source: { path: "/home/me/plans/drive.afp" }, breakpoints: [] });
+    await client.continueRequest({ threadId: 1 });
+    await robot.wheels("turn");
+    const ended = client.waitForEvent("terminated", 60_000);
+    await client.customRequest("terminate");
+    await ended;
+    assert.equal(await robot.ends(), 0);
+  } finally {
+    await client.stop();
+    await robot.end();
+  }
+});

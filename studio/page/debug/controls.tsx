@@ -9,9 +9,11 @@ import { Sign } from "../screen/icons";
 import { number } from "../plan/problems";
 import { select } from "../plan/selection";
 import { words } from "../words";
+import { robot } from "./attached";
 import { toggleSelected } from "./breakpoints";
+import { step } from "./robot";
 import { askWhy } from "./why";
-import { active, again, back, dismiss, ended, frames, goOn, into, next, older, out, pause, phase, said, setSpeed, speed, state, stop } from "./run";
+import { active, again, back, dismiss, ended, fork, frames, goOn, into, log, next, older, out, pause, phase, said, setSpeed, speed, state, stop, turns } from "./run";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 20, null] as const;
 
@@ -27,29 +29,30 @@ export function Controls() {
   const at = state.value?.at;
   return (
     <div class="controls" role="group" aria-label={words.runPane}>
-      {older.value && active.value && (
+      {older.value && active.value && !robot.value && (
         <button class="older" onClick={() => void again()} title={`${words.older} ${words.runAgain}`} aria-label={`${words.older} ${words.runAgain}`}>
           <Sign name="again" />
           <span>{words.olderText}</span>
         </button>
       )}
       {active.value && <Clock at={at} />}
-      {held && <Tool icon="back" label={`${words.stepBack} (Shift+F10)`} run={back} />}
-      {held && <Tool icon="next" label={`${words.step} (F10)`} run={next} />}
-      {held && <Tool icon="into" label={`${words.stepInto} (F11)`} run={into} />}
-      {held && <Tool icon="out" label={`${words.stepOut} (Shift+F11)`} run={out} />}
+      {held && log.value && <Tool icon="run" label={words.forkLog} run={() => void fork()} />}
+      {held && turns.value && <Tool icon="back" label={`${words.stepBack} (Shift+F10)`} run={back} />}
+      {held && !robot.value && <Tool icon="next" label={`${words.step} (F10)`} run={next} />}
+      {held && !robot.value && <Tool icon="into" label={`${words.stepInto} (F11)`} run={into} />}
+      {held && !robot.value && <Tool icon="out" label={`${words.stepOut} (Shift+F11)`} run={out} />}
       {(active.value || now === "over") && <Tool icon="why" label={`${words.why} (W)`} run={askWhy} />}
-      {now === "running" && <Tool icon="pause" label={`${words.pause} (F8)`} run={pause} />}
-      {active.value && <Tool icon="stop" label={`${words.stop} (Shift+F5)`} run={stop} />}
-      {now !== "running" && now !== "starting" && (
+      {now === "running" && !robot.value && <Tool icon="pause" label={`${words.pause} (F8)`} run={pause} />}
+      {active.value && !robot.value && <Tool icon="stop" label={`${words.stop} (Shift+F5)`} run={stop} />}
+      {now !== "running" && now !== "starting" && !(robot.value && held) && (
         <button class={`run ${number("error") || hasNoPlan() ? "" : "main"}`} onClick={() => void goOn()} title={`${held ? words.goOn : words.run} (F5)`}>
           <Sign name="run" />
           <span>{held ? words.goOn : words.run}</span>
         </button>
       )}
-      <select aria-label={words.speed} title={words.speed} value={String(speed.value)} onChange={(event) => setSpeed(event.currentTarget.value === "null" ? null : Number(event.currentTarget.value))}>
+      {!robot.value && <select aria-label={words.speed} title={words.speed} value={String(speed.value)} onChange={(event) => setSpeed(event.currentTarget.value === "null" ? null : Number(event.currentTarget.value))}>
         {SPEEDS.map((factor) => <option value={String(factor)} key={factor}>{words.speedOf(factor)}</option>)}
-      </select>
+      </select>}
     </div>
   );
 }
@@ -65,7 +68,7 @@ export function EndCard() {
       <div class="choices">
         {end.by?.edge && <button onClick={() => showEnd(end.by!.edge!)}>{words.endedAt}</button>}
         <button onClick={dismiss}>{words.ok}</button>
-        <button class="main" onClick={() => void again()}>{words.runAgain}</button>
+        {!robot.value && <button class="main" onClick={() => void again()}>{words.runAgain}</button>}
       </div>
     </section>
   );
@@ -97,12 +100,13 @@ export function commands(): void {
   command({ id: "run", label: words.run, key: "F5", run: goOn, enabled: () => !active.value });
   command({ id: "go", label: words.goOn, key: "F5", run: goOn, enabled: () => phase.value === "held" });
   command({ id: "pause", label: words.pause, key: "F8", run: pause, enabled: () => phase.value === "running" });
-  command({ id: "step", label: words.step, key: "F10", run: next, enabled: () => phase.value !== "running" });
-  command({ id: "into", label: words.stepInto, key: "F11", run: into, enabled: () => phase.value !== "running" });
-  command({ id: "out", label: words.stepOut, key: "Shift+F11", run: out, enabled: () => phase.value === "held" });
-  command({ id: "back", label: words.stepBack, key: "Shift+F10", run: back, enabled: () => phase.value === "held" });
+  command({ id: "step", label: words.step, key: "F10", run: () => (robot.peek() ? step() : next()), enabled: () => phase.value !== "running" });
+  command({ id: "into", label: words.stepInto, key: "F11", run: into, enabled: () => phase.value !== "running" && !robot.value });
+  command({ id: "out", label: words.stepOut, key: "Shift+F11", run: out, enabled: () => phase.value === "held" && !robot.value });
+  command({ id: "back", label: words.stepBack, key: "Shift+F10", run: back, enabled: () => phase.value === "held" && turns.value });
   command({ id: "stop", label: words.stop, key: "Shift+F5", run: stop, enabled: () => active.value });
   command({ id: "breakpoint", label: words.breakpoint, key: "F9", run: () => void toggleSelected() });
   command({ id: "why", label: words.why, key: "W", where: "drawing", run: askWhy, enabled: () => phase.value !== "idle" });
-  command({ id: "again", label: words.runAgain, key: "Ctrl+Shift+F5", run: again, enabled: () => phase.value !== "idle" });
+  command({ id: "fork", label: words.forkLog, run: fork, enabled: () => phase.value === "held" && log.value !== "" });
+  command({ id: "again", label: words.runAgain, key: "Ctrl+Shift+F5", run: again, enabled: () => phase.value !== "idle" && !robot.value });
 }

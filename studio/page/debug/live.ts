@@ -5,7 +5,8 @@ import { below, beneath } from "../drawing/actions";
 import { moved } from "../drawing/entries";
 import { drawing } from "../drawing/model";
 import { nameOf, planOf, type Part, type Point } from "../drawing/shapes";
-import { active, frames, log, order, state } from "./run";
+import { active, changes, frames, log, order, state } from "./run";
+import { robot } from "./attached";
 import { isWritten } from "./written";
 
 /** An entry of the outermost plan in the drawing, with the place of its popup. */
@@ -13,7 +14,7 @@ export const opened = signal<{ item: string; at: Point | null } | null>(null);
 
 /** Whether the run has a value for an entry that the page shows. */
 export const isLive = (item: string): boolean =>
-  active.value && !log.value && planOf(item) === frames.value[0]?.plan && drawing.value?.uri === frames.value[0]?.uri && state.value?.entries[nameOf(item)] !== undefined;
+  changes.value && planOf(item) === frames.value[0]?.plan && drawing.value?.uri === frames.value[0]?.uri && state.value?.entries[nameOf(item)] !== undefined;
 
 /** Opens the control of an entry during a run; false if the run has none. */
 export function open(part: Part): boolean {
@@ -49,6 +50,6 @@ export const keep = (item: string, value: string): Promise<string[] | null> => a
 export async function liven(part: Part, text: string): Promise<boolean> {
   const made = await moved(part, text);
   if (!made) return false;
-  if (active.peek() && !log.peek() && (await isWritten())) await order("afp/fork", {});
+  if (active.peek() && !log.peek() && !robot.peek() && (await isWritten())) await order("afp/fork", {});
   return true;
 }

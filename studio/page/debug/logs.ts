@@ -27,11 +27,16 @@ const begun = (): Promise<void> =>
 /** Opens a log and its plan. */
 export async function showLog(uri: string): Promise<void> {
   await openLog(pathOf(uri));
-  const begun = launched.peek();
-  if (!begun) return;
+  if (launched.peek()) await shown();
+}
+
+/** Shows the plan of the last log or robot; false if the folder does not have it. */
+export async function shown(): Promise<boolean> {
+  const begun = launched.peek()!;
   showPane("timeline");
-  const file = files.peek().find((each) => pathOf(each.uri) === begun.file);
-  if (!file) return;
-  await show(file.uri);
+  const isHere = files.peek().some(({ uri }) => uri === begun.uri);
+  if (!isHere) return false;
+  await show(begun.uri);
   if (drawing.peek()?.plan !== begun.plan) [trail.value, wanted.value] = [[], begun.plan];
+  return true;
 }

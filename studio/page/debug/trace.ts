@@ -89,6 +89,8 @@ export function rows(records: readonly Record[]): Row[] {
     const { kind, path, at, text } = record;
     if (kind === "committed" && record.entry !== undefined) row("entry", record.entry).marks.push({ at, label: record.value ?? "" });
     else if (kind === "missed") row("misses", "").marks.push({ at, label: text });
+    // Another run continues: everything starts again.
+    else if (kind === "forked") for (const [, each] of all) close(each, at);
     else if (path) follow(record, record.supervisor ? row("supervisor", path) : row("flow", planOf(path)));
     if (ENDS.includes(kind)) for (const [, inner] of all) if (inner.name.startsWith(`${path}.`) || (inner.name === path && inner.kind === "flow")) close(inner, at);
   }

@@ -5,6 +5,7 @@ import { create, current, isOpen, nameOf, open } from "../documents/documents";
 import { download, duplicate, putBack, remove, rename } from "../documents/files";
 import { askLine } from "../screen/dialogs";
 import { showLog } from "../debug/logs";
+import { askRobot } from "../debug/robot";
 import { guide } from "../plan/guide";
 import { Sign } from "../screen/icons";
 import { run } from "../jobs/jobs";
@@ -159,6 +160,10 @@ export function Files({ done }: { done: () => void }) {
       <button role="menuitem" onClick={pick(makeProject)}>
         <Sign name="plus" />
         {words.newProject}
+      </button>
+      <button role="menuitem" onClick={pick(askRobot)}>
+        <Sign name="run" />
+        {words.attach}
       </button>
       {logs().length > 0 && <p class="group" role="presentation">{words.logs}</p>}
       {logs().map(({ uri, name }) => (

@@ -1,7 +1,7 @@
 // The run as text: values of entries and messages; a click shows the source.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Tool } from "../screen/bar";
-import { active, log, phase, revealSaid, said, state, why } from "../debug/run";
+import { changes, phase, revealSaid, said, state, why } from "../debug/run";
 import { words } from "../words";
 import { Force } from "./forced";
 import { Live } from "./live";
@@ -35,8 +35,8 @@ export function RunPane() {
               ) : (
                 <dd>
                   {String(value)}
-                  {active.value && !log.value && !name.includes(".") && <Live name={name} value={String(value)} />}
-                  {active.value && !log.value && !name.includes(".") && <Tool icon="lock" label={words.forceEntry(name)} run={() => setForcing(name)} />}
+                  {changes.value && !name.includes(".") && <Live name={name} value={String(value)} />}
+                  {changes.value && !name.includes(".") && <Tool icon="lock" label={words.forceEntry(name)} run={() => setForcing(name)} />}
                 </dd>
               )}
             </div>

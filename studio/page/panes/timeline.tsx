@@ -2,7 +2,7 @@
 // and ruler share a window for zoom and pan.
 import { computed, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { phase, records, seek, state } from "../debug/run";
+import { forked, phase, records, seek, state, turns } from "../debug/run";
 import { beside, moments, rows, scale, within, zoomed, type Row, type Window } from "../debug/trace";
 import { Tool } from "../screen/bar";
 import { words } from "../words";
@@ -51,8 +51,8 @@ export function Timeline() {
   return (
     <div class="timeline">
       <div class="corner">
-        <Tool icon="before" label={words.eventBefore} disabled={beside(times.value, now.value, -1) === null} run={() => jump(-1)} />
-        <Tool icon="after" label={words.eventAfter} disabled={beside(times.value, now.value, 1) === null} run={() => jump(1)} />
+        <Tool icon="before" label={words.eventBefore} disabled={!turns.value || beside(times.value, now.value, -1) === null} run={() => jump(-1)} />
+        <Tool icon="after" label={words.eventAfter} disabled={!turns.value || beside(times.value, now.value, 1) === null} run={() => jump(1)} />
         <Tool icon="minus" label={words.zoomOut} run={() => zoom(2)} />
         <Tool icon="plus" label={words.zoomIn} run={() => zoom(0.5)} />
         <Tool icon="fit" label={words.wholeRun} run={() => (chosen.value = { from: 0, to: end.value })} />
@@ -65,6 +65,9 @@ export function Timeline() {
         <div class="lanes" ref={host}>
           <svg width={width} height={all.value.length * TALL} role="img" aria-label={words.rowsOf(all.value.length)}>
             {all.value.map((row, at) => <Lane row={row} at={at} x={x} of={of} width={width} key={key(row)} />)}
+            {forked.value !== null && (
+              <line class="forked" x1={x(forked.value)} x2={x(forked.value)} y1="0" y2={all.value.length * TALL}><title>{words.forkedAt(forked.value)}</title></line>
+            )}
             <line class="now" x1={x(now.value)} x2={x(now.value)} y1="0" y2={all.value.length * TALL} />
           </svg>
         </div>
@@ -132,6 +135,7 @@ function Ruler({ x, of, width }: Drawn) {
             <text x="3" y="15">{`${at} s`}</text>
           </g>
         ))}
+        {forked.value !== null && <text class="forked" x={x(forked.value) + 3} y="23">{words.simulated}</text>}
         <path class={`cursor ${phase.value}`} d={`M${x(now.value)} 24l-6 -9h12z`} />
       </svg>
     </div>

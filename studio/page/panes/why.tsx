@@ -1,6 +1,6 @@
 // The card that explains why an element runs or not, and can inject an outcome.
 import { Tool } from "../screen/bar";
-import { log, order } from "../debug/run";
+import { changes, order } from "../debug/run";
 import { close, why, type Edge } from "../debug/why";
 import { words } from "../words";
 
@@ -29,7 +29,7 @@ function Way({ edge: { from, outcome, last, looks, values } }: { edge: Edge }) {
       <strong>{path}</strong>
       <span>{[looks ? words.looksNow : words.looksNot, last === null ? words.neverTaken : words.takenAt(last)].join(", ")}</span>
       <Values of={values} />
-      {!log.value && <button onClick={() => void order("afp/force", { path })}>{words.letHappen}</button>}
+      {changes.value && <button onClick={() => void order("afp/force", { path })}>{words.letHappen}</button>}
     </li>
   );
 }

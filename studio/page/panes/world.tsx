@@ -1,7 +1,8 @@
 // The world of a run: its selection, the floor, and interaction.
 import { useEffect, useRef } from "preact/hooks";
 import { Tool } from "../screen/bar";
-import { active, given, log, seed, world as chosen } from "../debug/run";
+import { robot } from "../debug/attached";
+import { active, given, log, seed, state, world as chosen } from "../debug/run";
 import { putBack } from "../debug/arranged";
 import { arranged } from "../world/hand";
 import { refuse } from "../drawing/say";
@@ -17,6 +18,7 @@ import { Sensors } from "./sensors";
 
 export function WorldPane() {
   const world = surroundings.value;
+  if (robot.value && active.value) return <RealWorld />;
   return (
     <div class="world">
       {world && <Where world={world} />}
@@ -26,6 +28,17 @@ export function WorldPane() {
       <Sensors />
       <Stimuli />
       <Faults />
+    </div>
+  );
+}
+
+/** Only the sensors of a real robot are known. */
+function RealWorld() {
+  const pose = state.value?.pose;
+  return (
+    <div class="world">
+      <p class="empty">{words.realWorld}{pose && ` ${words.realPose(pose)}`}</p>
+      <Sensors />
     </div>
   );
 }

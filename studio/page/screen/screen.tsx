@@ -22,6 +22,7 @@ import { NewEntry } from "../panes/newentry";
 import { Outline } from "../panes/outline";
 import { Palette } from "../panes/palette";
 import { Problems } from "../panes/problems";
+import { RobotBar } from "../panes/robot";
 import { RunPane } from "../panes/run";
 import { Scenarios } from "../panes/scenarios";
 import { TextPane } from "../panes/text";
@@ -36,6 +37,7 @@ export function Screen() {
   return (
     <div class="studio" data-narrow={narrow.value}>
       <Bar />
+      <RobotBar />
       <ForcedBar />
       <Banners />
       <main class="middle">
