@@ -77,13 +77,13 @@ inBrowser("a breakpoint in the drawing holds a robot, the page explains it, and 
     await shows(bar, /is held \(.*ahead/);
     await page.keyboard.up("F10");
     await robot.wheels("stop");
-    await page.getByRole("button", { name: "Continue" }).click();
+    await bar.getByRole("button", { name: "Continue" }).click();
     await robot.wheels("turn");
     await page.locator(".robot-bar:not(.held)").waitFor();
-    await page.getByRole("button", { name: "Hold" }).click();
+    await bar.getByRole("button", { name: "Hold" }).click();
     await page.locator(".robot-bar.held").waitFor();
     await robot.wheels("stop");
-    await page.getByRole("button", { name: "Continue" }).click();
+    await bar.getByRole("button", { name: "Continue" }).click();
     await robot.wheels("turn");
     await bar.getByRole("button", { name: "Stop" }).click();
     await shows(page.locator(".end-card"), /was interrupted[^]*by the studio/);

@@ -8,25 +8,27 @@ import { promisify } from "node:util";
 import { settled } from "./settled";
 
 /** A plan that drives, counts and rests. */
-export const DRIVE = `use std
-use carbot
+export const DRIVE = [
+  "use std",
+  "use carbot",
+  "",
+  "plan Drive {",
+  "    var rounds: int = 0",
+  "",
+  "    start ahead",
+  "",
+  "    actor ahead: Forward(distance = 15 cm) { ForwardSuccessful -> count }",
+  "    computation count: Count(value = rounds, limit = 1000, next => rounds) {",
+  "        Again -> rest",
+  "        Done  -> terminate",
+  "    }",
+  "    actor rest: Wait(duration = 300 ms) { Elapsed -> ahead }",
+  "}",
+  "",
+].join("\n");
 
-plan Drive {
-    var rounds: int = 0
-
-    start ahead
-
-    actor ahead: Forward(distance = 15 cm) { ForwardSuccessful -> count }
-    computation count: Count(value = rounds, limit = 1000, next => rounds) {
-        Again -> rest
-        Done  -> terminate
-    }
-    actor rest: Wait(duration = 300 ms) { Elapsed -> ahead }
-}
-`;
-
-/** The stand-in for the controller; 'cargo xtask test' builds it. */
 const AFPC = process.env.AFPC ?? "";
+/** The stand-in for the controller; 'cargo xtask test' builds it. */
 const CONTROLLER = join(dirname(AFPC), "examples/controller");
 
 /** A robot that runs the plan of its own folder. */
@@ -52,7 +54,7 @@ export class Robot {
       this.lines = said.split("\n").slice(0, -1);
     });
     const port = await settled(async () => this.lines[0] ?? "", (line) => line !== "");
-    // A busy machine is no fault of the robot.
+    // A busy machine must not count as a fault.
     const settings = ["--set", `robot.port=${port}`, "--set", "robot.realtime.stall=10s"];
     this.run = spawn(AFPC, ["run", "plans/drive.afp", "--robot", "hardware", "--log", "none", "--svg", "none", ...settings], {
       cwd: join(this.folder, "mycar"),

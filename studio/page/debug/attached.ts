@@ -14,7 +14,7 @@ export interface Roles {
 }
 export const roles = signal<Roles | null>(null);
 
-/** The name of another client that operates the run; empty if there is none. */
+/** The name of another client that operates the run, else empty. */
 export const operator = computed(() => {
   const { operator, you, clients } = roles.value ?? { operator: null, you: 0, clients: [] };
   return operator === null || operator === you ? "" : (clients.find(({ id }) => id === operator)?.name ?? String(operator));

@@ -194,7 +194,7 @@ async function configure(own: Dap): Promise<void> {
   if (phase.value === "starting") phase.value = "running";
 }
 
-/** A page that takes over a robot brings its breakpoints; those of a lost operator are gone. */
+/** A page that takes over a robot sends its breakpoints. They are gone after a lost operator. */
 function becomes(own: Dap, now: Roles): void {
   const before = roles.peek();
   roles.value = now;

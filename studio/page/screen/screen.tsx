@@ -37,9 +37,11 @@ export function Screen() {
   return (
     <div class="studio" data-narrow={narrow.value}>
       <Bar />
-      <RobotBar />
-      <ForcedBar />
-      <Banners />
+      <div>
+        <RobotBar />
+        <ForcedBar />
+        <Banners />
+      </div>
       <main class="middle">
         {palette.value && current.value && <Side />}
         <Centre />
