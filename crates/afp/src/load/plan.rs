@@ -5,6 +5,7 @@ mod element;
 mod entry;
 mod loader;
 mod testing;
+mod watch;
 
 use std::sync::Arc;
 
@@ -20,17 +21,16 @@ use afp_dsl::types::Type;
 use super::config::{Config, ObjectCell};
 use super::error::LoadError;
 use super::formula::Formula;
-use super::inject::Injected;
 use super::names::PlanNames;
 use super::numbered;
-use super::outputs::{Binding, Inputs, Stage, limit};
+use super::outputs::{Stage, limit};
 use super::registry::Registry;
-use super::slots::SupervisorSlot;
 use super::tables::LoadedTables;
 use carry::Carried;
 use element::ElementSlot;
 use entry::{EntryInfo, fit};
 use loader::Loader;
+use watch::WatchSlot;
 
 /// A plan loaded at run time, for platform `E`.
 pub struct LoadedPlan<E: ?Sized + 'static> {
@@ -47,32 +47,6 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
     supervisors: Vec<WatchSlot<E>>,
     /// The names of the outermost plan.
     names: PlanNames,
-}
-
-struct WatchSlot<E: ?Sized + 'static> {
-    inputs: Inputs,
-    outputs: Arc<[Binding]>,
-    slot: Box<dyn SupervisorSlot<E>>,
-    injected: Injected,
-    /// Whether it may continue after a suspension.
-    resumable: bool,
-}
-
-impl<E: ?Sized + 'static> WatchSlot<E> {
-    fn clear(&mut self) {
-        self.slot.clear();
-        self.injected = None;
-    }
-
-    fn try_clone(&self) -> Option<Self> {
-        Some(WatchSlot {
-            inputs: self.inputs.clone(),
-            outputs: self.outputs.clone(),
-            slot: self.slot.try_clone()?,
-            injected: self.injected.clone(),
-            resumable: self.resumable,
-        })
-    }
 }
 
 impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
