@@ -301,7 +301,8 @@ plan P {
     };
     let rest = "actor rest: Wait(duration = 1 s) { Elapsed -> return }";
     // The started handler has its own place; the supervisors share theirs.
-    let parts = ["handler: Handler,", "fn suspend_element", "fn resume_element", "HOLDS", "[Slot; 1]"];
+    let parts =
+        ["handler: Handler,", "fn suspend_element", "fn resume_element", "HOLDS", "[Slot; 1]"];
     let found = |code: &str| parts.map(|part| code.contains(part));
     assert_eq!(found(&code("terminate", "", false)), [false, false, false, false, true]);
     assert_eq!(found(&code("suspend rest", rest, false)), [true, true, true, false, true]);

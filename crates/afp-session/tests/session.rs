@@ -6,9 +6,9 @@ mod broken;
 mod holds;
 #[path = "session/queue.rs"]
 mod queue;
+mod support;
 #[path = "session/suspended.rs"]
 mod suspended;
-mod support;
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;

@@ -91,7 +91,9 @@ impl Board {
                 Some(Heard::Report(Report { stopped: false, .. }, _)) => return Ok(()),
                 Some(Heard::Version(theirs)) => {
                     let ours = vacuum_protocol::VERSION;
-                    return Err(format!("the board has version {theirs} of the protocol, this program version {ours}"));
+                    return Err(format!(
+                        "the board has version {theirs} of the protocol, this program version {ours}"
+                    ));
                 }
                 _ if self.time.now() <= patience => {}
                 Some(Heard::Report(..)) => return Err("the board does not start".to_owned()),

@@ -9,9 +9,9 @@ use afp::core::{Invalid, Platform};
 use afp::quantity::{AngularSpeed, Speed};
 use afp::{Duration, Environment};
 use afp_platform::{Hardware, Settings};
+use afp_wire::{Received, Receiver, Sender};
 use vacuum::{Nozzle, Senses, Wheels};
 use vacuum_board::Board;
-use afp_wire::{Received, Receiver, Sender};
 use vacuum_protocol::{Command, LONGEST, Report, VERSION};
 
 #[path = "../examples/firmware.rs"]
@@ -150,8 +150,12 @@ fn a_board_that_restarts_is_reported_by_name_and_is_not_driven() {
         let (moved, after, firmware) = far.join().unwrap();
         assert!(moved && !firmware.is_moving() && firmware.is_stopped());
         // Commands from before the first report may still arrive; none follows the `Stop`.
-        let stop = after.iter().position(|command| *command == Command::Stop).unwrap_or(after.len());
-        assert!(!after[stop..].iter().any(|command| matches!(command, Command::Drive { .. })), "{after:?}");
+        let stop =
+            after.iter().position(|command| *command == Command::Stop).unwrap_or(after.len());
+        assert!(
+            !after[stop..].iter().any(|command| matches!(command, Command::Drive { .. })),
+            "{after:?}"
+        );
         assert_eq!(board.bumper().value, Err(Invalid::Restarted));
         assert_eq!(board.way().value, Err(Invalid::Restarted));
     }
@@ -269,7 +273,8 @@ fn start_is_repeated_until_the_board_obeys() {
     let (mut port, _end, path) = Firmware::port().unwrap();
     let mut line = port.try_clone().unwrap();
     let far = thread::spawn(move || {
-        let (mut sender, mut receiver) = (Sender::new(1, VERSION), Receiver::<LONGEST>::new(VERSION));
+        let (mut sender, mut receiver) =
+            (Sender::new(1, VERSION), Receiver::<LONGEST>::new(VERSION));
         let (mut starts, mut byte) = (0, [0]);
         while line.read(&mut byte).is_ok_and(|read| read == 1) {
             let heard = receiver.receive::<Command>(byte[0], afp::Instant::ZERO);

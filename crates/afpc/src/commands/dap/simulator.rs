@@ -6,7 +6,8 @@ use std::{fs, io};
 
 use afp_core::devices::{DeviceRow, SignalType, signals};
 use afp_debug::{
-    Fork, FoundMoment, Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target, moment,
+    Fork, FoundMoment, Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target,
+    moment,
 };
 use afp_dsl::files::path_of;
 use afp_dsl::graph::Graph;
