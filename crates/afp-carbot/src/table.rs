@@ -31,7 +31,7 @@ mod tests {
         for (n, fault) in all.iter().enumerate() {
             assert!(!all[..n].contains(fault), "{fault:?} twice");
         }
-        assert_eq!(all.len(), 5 * 9 + 6);
+        assert_eq!(all.len(), 5 * 9 + 8);
         let second = Duration::from_secs(1);
         let late = Fault::Odometry(Defect::Delayed(second));
         assert_eq!(named("odometry", "delayed", Some(1.0)), Some(late));

@@ -58,7 +58,7 @@ impl LoopTimes {
             all.extend(named.map(|(id, times)| (format!("{prefix}{}", path(id)), times)));
         }
         let told = all.into_iter().filter(|(_, times)| times.count() > 0);
-        told.map(|(name, times)| (name, times.to_text())).collect()
+        told.map(|(name, times)| (name, times.text())).collect()
     }
 
     /// The times of the facts of a log; `None` if they are not in it.
@@ -117,7 +117,7 @@ impl Histogram {
 
     /// The longest duration, then the end of each bucket with its count, in nanoseconds:
     /// `1234567 1125:20 1250:31`.
-    fn to_text(&self) -> String {
+    fn text(&self) -> String {
         let mut text = self.worst.as_nanos().to_string();
         for (end, count) in self.buckets() {
             // Writing to a `String` cannot fail.
@@ -197,7 +197,7 @@ mod tests {
     fn a_histogram_is_read_back_from_its_text() {
         let mut times = Histogram::default();
         (0..5000).for_each(|n| times.note(Duration::from_nanos(n * n * 37)));
-        assert_eq!(Histogram::of_text(&times.to_text()), times);
+        assert_eq!(Histogram::of_text(&times.text()), times);
         assert_eq!(Histogram::of_text("x 1:y :"), Histogram::default());
     }
 

@@ -105,7 +105,7 @@ pub fn run(case: &Case) -> Outcome {
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
     let (mut seen, mut at, mut steps) = (Seen::default(), case.until, 1);
-    let things: Vec<String> = case.world.obstacles.iter().map(|it| it.name.clone()).collect();
+    let things: Vec<_> = case.world.obstacles.iter().map(|it| it.name.clone()).collect();
     while robot.sim.now() < end {
         let due = match wake {
             Wake::At(due) => due.max(clock.free()),
@@ -115,6 +115,7 @@ pub fn run(case: &Case) -> Outcome {
         robot.sim.advance_to(due.min(look).min(stimulus).min(end));
         let now = robot.sim.now();
         if let Some(fault) = robot.sim.broken().filter(|_| scheduler.ending().is_none()) {
+            watch.borrow_mut().aborted();
             wake = scheduler.abort((&mut robot, &mut sink, &clock), fault);
             (at, end) = (now, now + REST);
         }
@@ -131,8 +132,7 @@ pub fn run(case: &Case) -> Outcome {
             wake = scheduler.step((&mut robot, &mut sink, &clock), now);
             watch.borrow_mut().stepped(now);
             if matches!(wake, Wake::Ended(_)) {
-                // From here on the robot gets no commands, so the plan's own actions must be
-                // enough.
+                // The robot gets no more commands.
                 (at, end) = (now, now + REST);
             }
         }

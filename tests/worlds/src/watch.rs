@@ -39,8 +39,8 @@ const CURRENT: Duration = Duration::from_millis(100);
 ///    controller the time until it stops by itself.
 /// 6. Every body is finite and in the room; commands are finite; valid readings are finite and
 ///    within the measuring range.
-/// 7. One actor is active at a time, and none after the end. Another one starts only after it has
-///    ended or was interrupted or suspended.
+/// 7. One actor is active at a time, and none after the end, unless a controller that restarts ends
+///    the plan at once. Another one starts only after it has ended or was interrupted or suspended.
 /// 8. A commit writes each entry once, and nothing else changes an entry.
 #[derive(Debug)]
 pub struct Watch {
@@ -98,6 +98,11 @@ impl Watch {
     pub(crate) fn step(&mut self, now: Instant) {
         self.steps = [now, self.steps[0]];
         self.failed = false;
+    }
+
+    /// Records that the plan ends at once, without calls of its components.
+    pub(crate) fn aborted(&mut self) {
+        self.order.aborted();
     }
 
     /// Records a reading that a plan received, measured at `time`.

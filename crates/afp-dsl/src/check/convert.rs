@@ -136,6 +136,32 @@ fn spelled(found: &Type, want: &Type, text: &str) -> Option<(Code, String)> {
     }
 }
 
+/// Helps where a quantity stands for a number.
+fn number_wanted(
+    error: Diagnostic,
+    formula: &Formula,
+    (dimension, want): (Dimension, &Type),
+    range: Option<(f64, f64)>,
+    text: &str,
+) -> Diagnostic {
+    let unit = dimension.usual_unit();
+    let whole = bracketed(formula, text);
+    let number = message!("'{} / 1 {}' for the number of '{}'", whole, unit, unit);
+    let bare = without_unit(text);
+    let value = bare.and_then(|bare| bare.parse::<f64>().ok()).zip(range);
+    let outside = value.filter(|(value, range)| !(range.0..=range.1).contains(value));
+    match (bare, outside) {
+        (Some(_), Some((_, (least, greatest)))) => {
+            let [least, greatest] = [least, greatest].map(|end| text::value(end, want));
+            error.help(message!("write a bare number from {} to {}", Words(least), Words(greatest)))
+        }
+        (Some(bare), None) => error.help(message!("write '{}', or {}", bare, number)).replace(bare),
+        (None, _) => {
+            error.help(message!("write {}", number)).replace(format!("{whole} / 1 {unit}"))
+        }
+    }
+}
+
 fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &str) -> Diagnostic {
     let span = formula.span;
     let expected =
@@ -151,29 +177,8 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
             unit_missing(formula, *dimension, Some(range), text)
         }
         (Type::Quantity(dimension), Type::Int | Type::Quantity(Dimension::NONE)) => {
-            let unit = dimension.usual_unit();
-            let whole = bracketed(formula, text);
-            let number = message!("'{} / 1 {}' for the number of '{}'", whole, unit, unit);
             let error = Diagnostic::new(Code::E0204, span, expected);
-            let bare = without_unit(text);
-            let value = bare.and_then(|bare| bare.parse::<f64>().ok()).zip(range);
-            match bare {
-                Some(_)
-                    if let Some((_, (least, greatest))) =
-                        value.filter(|(value, range)| !(range.0..=range.1).contains(value)) =>
-                {
-                    let [least, greatest] = [least, greatest].map(|end| text::value(end, want));
-                    error.help(message!(
-                        "write a bare number from {} to {}",
-                        Words(least),
-                        Words(greatest)
-                    ))
-                }
-                Some(bare) => error.help(message!("write '{}', or {}", bare, number)).replace(bare),
-                None => {
-                    error.help(message!("write {}", number)).replace(format!("{whole} / 1 {unit}"))
-                }
-            }
+            number_wanted(error, formula, (*dimension, want), range, text)
         }
         (Type::Quantity(found), Type::Quantity(dimension)) => {
             let error = Diagnostic::new(Code::E0204, span, expected);

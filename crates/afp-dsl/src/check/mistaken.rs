@@ -1,4 +1,4 @@
-//! Another template than the one that was meant: its ports and states are those of one other.
+//! Elements with the ports and states of another template, which was meant.
 
 use super::Program;
 use super::places::Ranges;
@@ -14,7 +14,7 @@ const OF_TEMPLATE: &[Code] = &[Code::E0202, Code::E0210, Code::E0211, Code::E022
 /// The maximum number of components that are compared with all templates.
 const MOST: usize = 100;
 
-/// Reports the template alone, if several of its ports and states do not exist and another template
+/// Reports only the template, if several of its ports and states do not exist and another template
 /// has all of them.
 pub(super) fn hold_back(program: &Program<'_>, diags: &mut Diagnostics) {
     let places = |code: Code| -> Vec<Span> {
@@ -33,7 +33,7 @@ pub(super) fn hold_back(program: &Program<'_>, diags: &mut Diagnostics) {
     for element in wrong {
         let Some(template) = element.template() else { continue };
         let Some(meant) = meant(program, &element) else { continue };
-        let message = message!("the ports and states are those of '{}'", meant);
+        let message = message!("'{}' has these ports and states", meant);
         let error = Diagnostic::new(Code::E0202, template.span(), message).write(meant);
         found.push((element.span(), error));
     }

@@ -123,7 +123,7 @@ mod tests {
         for line in [
             "\n  ultrasonic, rotator, odometry, touch, buttons, infrared, color, camera, battery: \
              frozen, lost, nan, delayed=TIME, slow=TIME\n",
-            "\n  left_motor, right_motor: stalled\n",
+            "\n  left_motor, right_motor, controller: stalled\n",
             "\n  wheels: slip=SHARE\n",
         ] {
             assert!(long.contains(line), "{long}");

@@ -95,7 +95,7 @@ const SENSORS: &[Sensor] = &[
 ];
 
 impl Sensor {
-    /// The sensor for a reading whose name says nothing.
+    /// The sensor for a reading with an unknown name.
     pub fn touch() -> &'static Sensor {
         &SENSORS[0]
     }

@@ -47,5 +47,5 @@ pub(super) const EDGE_OUTSIDE: &str = "an edge belongs in the braces of the elem
 pub(super) const NO_CALL: &str = "a plan calls nothing: an edge leads to an element";
 pub(super) const CALLED: &str = "{act:help}";
 pub(super) const NO_OBJECT: &str =
-    "a plan makes no objects: templates know the devices of the robot";
+    "a plan makes no objects: templates have the devices of the robot";
 pub(super) const SEQUENCE: &str = "a plan has no '{word}': edges select the next element";

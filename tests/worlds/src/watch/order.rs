@@ -55,6 +55,11 @@ impl Order {
         }
     }
 
+    /// Takes an end without records of the active components.
+    pub(super) fn aborted(&mut self) {
+        self.active = None;
+    }
+
     fn commits(
         &mut self,
         author: Author,
