@@ -132,7 +132,6 @@ pub fn run(case: &Case) -> Outcome {
             wake = scheduler.step((&mut robot, &mut sink, &clock), now);
             watch.borrow_mut().stepped(now);
             if matches!(wake, Wake::Ended(_)) {
-                // The robot gets no more commands.
                 (at, end) = (now, now + REST);
             }
         }
