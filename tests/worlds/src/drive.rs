@@ -8,7 +8,6 @@ use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Ending, Line, Observe, Record, TraceHash, Verdict};
 use afp_core::{Duration, Instant, Scheduler, Wake};
-use afp_session::Robot as _;
 use afp_sim::{Pose, Simulation};
 
 use crate::case::Case;
@@ -114,8 +113,7 @@ pub fn run(case: &Case) -> Outcome {
         let stimulus = case.chance.0.get(next).map_or(Instant::MAX, |(at, _)| *at);
         robot.sim.advance_to(due.min(look).min(stimulus).min(end));
         let now = robot.sim.now();
-        if let Some(fault) = robot.sim.broken().filter(|_| scheduler.ending().is_none()) {
-            watch.borrow_mut().aborted();
+        if let Some(fault) = robot.aborts().filter(|_| scheduler.ending().is_none()) {
             wake = scheduler.abort((&mut robot, &mut sink, &clock), fault);
             (at, end) = (now, now + REST);
         }

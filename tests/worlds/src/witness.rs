@@ -13,6 +13,7 @@ use afp_carbot::devices::{
 use afp_carbot::trail::Trail;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Speed};
 use afp_core::{Environment, Fault, Instant, Poll, Ticket};
+use afp_session::Robot as _;
 use afp_sim::Simulation;
 
 use crate::sensor::Sensor;
@@ -27,6 +28,13 @@ pub(crate) struct Witness {
 }
 
 impl Witness {
+    /// The fault that ends the plan at once, without calls of its components.
+    pub(crate) fn aborts(&self) -> Option<Fault> {
+        let fault = self.sim.broken()?;
+        self.watch.borrow_mut().aborted();
+        Some(fault)
+    }
+
     /// Records a reading for the plan.
     fn told<T>(&self, sensor: Sensor, reading: Reading<T>) -> Reading<T> {
         let valid = reading.value.is_ok();
