@@ -157,8 +157,9 @@ fn frames_of_every_length_arrive_and_longer_frames_are_refused() {
             for byte in sender.hello(&mut buffer).unwrap() {
                 let _ = receiver.receive::<Vec<u8>>(*byte, START);
             }
-            let bytes: Vec<u8> =
-                (0..length).map(|at: usize| u8::from(zero == 0 || at % zero != 0)).collect();
+            let bytes: Vec<u8> = (0..length)
+                .map(|at: usize| u8::from(zero == 0 || !at.is_multiple_of(zero)))
+                .collect();
             let Ok(frame) = sender.send(&bytes, &mut buffer) else {
                 assert!(length > 240, "{length}");
                 continue;

@@ -401,7 +401,7 @@ fn check(launch: &Launch) -> Answer<()> {
     if launch.until.is_some_and(|until| !(until > 0.0 && until < 1e9)) {
         return Err("'until' is a number of seconds above 0; leave it out for no end".into());
     }
-    if launch.at.is_some_and(|at| launch.log.is_none() || !(at >= 0.0 && at < 1e9)) {
+    if launch.at.is_some_and(|at| launch.log.is_none() || !(0.0..1e9).contains(&at)) {
         return Err("'at' is a second of a 'log'".into());
     }
     let fresh = launch.world.is_some()

@@ -213,7 +213,7 @@ impl<L: Line> Calibrated for SerialRobot<L> {
         self.drive_by(goes, patience, |drive| {
             let left = turns * TAU - drive.turned;
             let turn = slowing(left, easy);
-            (left > 0.0).then(|| [turn * radius, turn])
+            (left > 0.0).then_some([turn * radius, turn])
         })
     }
 

@@ -30,7 +30,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let wires = robot.wires();
     match &arguments.output {
         Some(path) => {
-            write_whole("cannot write the drawing", path, &svg(robot.name, &wires))?;
+            write_whole("cannot write the drawing", path, svg(robot.name, &wires))?;
             Ok(afp_run::EXIT_OK)
         }
         None => print(&table(&wires)),
