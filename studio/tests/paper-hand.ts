@@ -1,6 +1,7 @@
 // The paper's plan from an empty file, by touch and by mouse.
 import assert from "node:assert/strict";
 import type { Locator, Page } from "playwright-core";
+import { PATIENCE } from "./settled";
 import { fillEntry } from "./spots";
 
 export const PLAN = "WallFollowing";
@@ -89,14 +90,25 @@ export class Hand {
   private isInSight = (x: number, y: number): Promise<boolean> =>
     this.page.evaluate(([x, y]) => document.elementFromPoint(x, y)?.closest(".board") != null && document.elementFromPoint(x, y)!.closest(".over") === null, [x, y] as const);
 
-  /** Selects an element; if it is out of sight, shows the whole plan first. */
+  /** Selects an element. A drawing that changes under a press counts as no press. */
   async on(name: string): Promise<void> {
+    const [before, end] = [this.gestures, Date.now() + PATIENCE];
+    const head = this.page.locator(".inspector-head strong", { hasText: new RegExp(`^${name}$`) });
+    const isSelected = (): Promise<boolean> => head.waitFor({ timeout: 2000 }).then(() => true, () => false);
+    do {
+      this.gestures = before;
+      await this.pressOn(name);
+    } while (!(await isSelected()) && Date.now() < end);
+    await this.stands(name);
+  }
+
+  /** Presses an element; if it is out of sight, shows the whole plan first. */
+  private async pressOn(name: string): Promise<void> {
     const label = this.page.locator(`.node [data-item="${PLAN}.${name}"] text.name`).first();
     const seen = (await label.count()) ? await label.boundingBox() : null;
     if (!seen || !(await this.isInSight(seen.x + seen.width / 2, seen.y + seen.height / 2))) await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
     const box = (await label.boundingBox())!;
     await this.pointer.pressAt(box.x + box.width / 2, box.y + box.height / 2);
-    await this.stands(name);
   }
 
   /** Fills a field of the inspector. */
