@@ -143,9 +143,8 @@ impl Filter {
 
 /// `to` in the frame of `from`; both are odometry poses.
 pub(crate) fn relative(from: Pose, to: Pose) -> Pose2 {
-    let (sin, cos) = libm::sincos(from.heading);
-    let (x, y) = (to.x - from.x, to.y - from.y);
-    Pose2 { x: x * cos + y * sin, y: y * cos - x * sin, heading: to.heading - from.heading }
+    let [from, to] = [from, to].map(|Pose { x, y, heading }| Pose2 { x, y, heading });
+    from.to(to)
 }
 
 /// The same direction within half a turn of zero.
